@@ -1,0 +1,94 @@
+!> The error value that every fallible procedure hands back, and the exit codes of the program.
+!>
+!> Unallocated is success. The caller writes `if (allocated(error)) return` after every call.
+module ek_error
+   implicit none(type, external)
+   private
+   public :: error_t, fail, message_list_t
+   public :: exit_usage, exit_deck, exit_model, exit_convergence, exit_file
+
+   integer, parameter :: exit_usage = 1        !! wrong command line
+   integer, parameter :: exit_deck = 2         !! mistakes in a deck
+   integer, parameter :: exit_model = 3        !! mechanism or redundant constraint
+   integer, parameter :: exit_convergence = 4  !! a state was not found; what was reached is written
+   integer, parameter :: exit_file = 5         !! a file cannot be read or written
+
+   !> What went wrong, and the status the program ends with.
+   type :: error_t
+      integer :: code = exit_usage
+      character(:), allocatable :: message    !! one or more lines, no trailing newline
+   end type error_t
+
+   type :: line_t
+      character(:), allocatable :: text
+   end type line_t
+
+   !> Messages collected in order, so that one run reports every mistake.
+   type :: message_list_t
+      private
+      type(line_t), allocatable :: lines(:)
+      integer :: used = 0
+   contains
+      procedure :: add => list_add
+      procedure :: count => list_count
+      procedure :: text => list_text
+      procedure :: line => list_line
+   end type message_list_t
+
+contains
+
+   !> Make an error value.
+   pure subroutine fail(error, code, message)
+      type(error_t), allocatable, intent(out) :: error
+      integer, intent(in) :: code               !! one of exit_*
+      character(*), intent(in) :: message
+
+      allocate (error)
+      error%code = code
+      error%message = message
+   end subroutine fail
+
+   !> Append one message.
+   pure subroutine list_add(self, message)
+      class(message_list_t), intent(inout) :: self
+      character(*), intent(in) :: message
+      type(line_t), allocatable :: grown(:)
+
+      if (.not. allocated(self%lines)) allocate (self%lines(8))
+      if (self%used == size(self%lines)) then
+         allocate (grown(2*self%used))
+         grown(:self%used) = self%lines
+         call move_alloc(grown, self%lines)
+      end if
+      self%used = self%used + 1
+      self%lines(self%used)%text = message
+   end subroutine list_add
+
+   !> How many messages there are.
+   pure integer function list_count(self)
+      class(message_list_t), intent(in) :: self
+      list_count = self%used
+   end function list_count
+
+   !> Message number k.
+   pure function list_line(self, k) result(text)
+      class(message_list_t), intent(in) :: self
+      integer, intent(in) :: k
+      character(:), allocatable :: text
+      text = self%lines(k)%text
+   end function list_line
+
+   !> All messages, one a line, in the order they came.
+   pure function list_text(self) result(text)
+      class(message_list_t), intent(in) :: self
+      character(:), allocatable :: text
+      integer :: k
+
+      text = ''
+      do k = 1, self%used
+         if (k > 1) text = text//new_line('a')
+         text = text//self%lines(k)%text
+      end do
+   end function list_text
+
+end module ek_error

@@ -1,0 +1,160 @@
+!> Numbers to words and back, for messages and names. Never used inside an increment.
+module ek_text
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: str, lower, quoted, nearest_name, vector_text, plural
+
+   !> A number as the shortest text that a person would write.
+   interface str
+      module procedure str_integer, str_real
+   end interface str
+
+contains
+
+   pure function str_integer(value) result(text)
+      integer, intent(in) :: value
+      character(:), allocatable :: text
+      character(20) :: buffer
+
+      write (buffer, '(i0)') value
+      text = trim(buffer)
+   end function str_integer
+
+   !> A real with `digits` significant digits (default 6), without trailing zeros: 0.25, 1E-05, infinite.
+   pure function str_real(value, digits) result(text)
+      real(wp), intent(in) :: value
+      integer, intent(in), optional :: digits
+      character(:), allocatable :: text
+      character(40) :: buffer
+      character(12) :: form
+      integer :: n, mark, exponent
+
+      n = 6
+      if (present(digits)) n = digits
+      if (ieee_is_nan(value)) then              ! before any comparison, which would trap in a debug build
+         text = 'not a number'
+         return
+      end if
+      if (abs(value) <= 0.0_wp) then
+         text = '0'
+         return
+      end if
+      if (.not. ieee_is_finite(value)) then
+         text = merge('-infinite', 'infinite ', value < 0.0_wp)
+         text = trim(text)
+         return
+      end if
+      exponent = floor(log10(abs(value)))
+      if (exponent >= -4 .and. exponent < n) then
+         write (form, '(a,i0,a)') '(f40.', max(n - 1 - exponent, 0), ')'
+         write (buffer, form) value
+         text = trim(adjustl(buffer))
+         if (index(text, '.') > 0) text = text(:verify(text, '0', back=.true.))
+      else
+         write (form, '(a,i0,a)') '(es40.', n - 1, merge('e3)', ')  ', abs(exponent) > 98)   ! else the E is lost
+         write (buffer, form) value
+         text = trim(adjustl(buffer))
+         mark = index(text, 'E')
+         if (mark > 0) text = text(:verify(text(:mark - 1), '0', back=.true.))//text(mark:)
+         mark = index(text, '.E')
+         if (mark > 0) text = text(:mark - 1)//text(mark + 1:)
+      end if
+      if (text(len(text):) == '.') text = text(:len(text) - 1)
+      if (text(1:1) == '.') text = '0'//text
+      if (len(text) > 1) then
+         if (text(1:2) == '-.') text = '-0'//text(2:)
+      end if
+   end function str_real
+
+   !> '(1, 2.5, -3)' for a vector.
+   pure function vector_text(vector, digits) result(text)
+      real(wp), intent(in) :: vector(:)
+      integer, intent(in), optional :: digits
+      character(:), allocatable :: text
+      integer :: k
+
+      text = '('
+      do k = 1, size(vector)
+         if (k > 1) text = text//', '
+         text = text//str_real(vector(k), digits)
+      end do
+      text = text//')'
+   end function vector_text
+
+   !> ASCII lower case.
+   pure function lower(text) result(folded)
+      character(*), intent(in) :: text
+      character(len(text)) :: folded
+      integer :: k, code
+
+      do k = 1, len(text)
+         code = iachar(text(k:k))
+         if (code >= iachar('A') .and. code <= iachar('Z')) code = code + 32
+         folded(k:k) = achar(code)
+      end do
+   end function lower
+
+   !> A name between single quotes.
+   pure function quoted(name) result(text)
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+      text = "'"//trim(name)//"'"
+   end function quoted
+
+   !> '1 body', '3 bodies'.
+   pure function plural(count, singular, many) result(text)
+      integer, intent(in) :: count
+      character(*), intent(in) :: singular, many
+      character(:), allocatable :: text
+
+      if (count == 1) then
+         text = str_integer(count)//' '//singular
+      else
+         text = str_integer(count)//' '//many
+      end if
+   end function plural
+
+   !> The candidate that a typing slip most likely meant, or '' when none is near
+   !> (edit distance at most a third of the length, at least 1).
+   pure function nearest_name(name, candidates) result(best)
+      character(*), intent(in) :: name
+      character(*), intent(in) :: candidates(:)
+      character(:), allocatable :: best
+      integer :: k, distance, least
+
+      best = ''
+      if (name == '') return
+      least = max(1, len_trim(name)/3) + 1
+      do k = 1, size(candidates)
+         if (candidates(k) == '') cycle
+         distance = edit_distance(lower(trim(name)), lower(trim(candidates(k))))
+         ! of two that are equally near, the one with the same first letter: the first is seldom wrong
+         if (distance < least .or. (distance == least .and. best /= '' .and. name(:1) == candidates(k)(:1) &
+            .and. index(best, name(:1)) /= 1)) then
+            least = distance
+            best = trim(candidates(k))
+         end if
+      end do
+   end function nearest_name
+
+   !> Levenshtein distance.
+   pure integer function edit_distance(a, b) result(distance)
+      character(*), intent(in) :: a, b
+      integer :: row(0:len(b)), diagonal, above, i, j
+
+      row = [(j, j=0, len(b))]
+      do i = 1, len(a)
+         diagonal = row(0)
+         row(0) = i
+         do j = 1, len(b)
+            above = row(j)
+            row(j) = min(above + 1, row(j - 1) + 1, diagonal + merge(0, 1, a(i:i) == b(j:j)))
+            diagonal = above
+         end do
+      end do
+      distance = row(len(b))
+   end function edit_distance
+
+end module ek_text

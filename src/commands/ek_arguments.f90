@@ -1,0 +1,139 @@
+!> The command line: one command, one file, options. Every mistake is told with what was expected.
+module ek_arguments
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: nearest_name, quoted
+   implicit none(type, external)
+   private
+   public :: arguments_t, read_arguments, setting_t
+
+   character(*), parameter :: commands(4) = [character(5) :: 'run', 'check', 'study', 'bench']
+   character(*), parameter :: options(9) = [character(12) :: &
+      '--out', '--method', '--increments', '--case', '--set', '--plot', '--quiet', '--help', '--version']
+
+   !> A text of its own length.
+   type :: setting_t
+      character(:), allocatable :: text
+   end type setting_t
+
+   !> What was asked for; texts that were not given are empty.
+   type :: arguments_t
+      character(:), allocatable :: command      !! 'run', 'check', 'study', 'bench', or '' for help or version
+      character(:), allocatable :: file         !! deck or study; '-' is standard input
+      character(:), allocatable :: out, method, case
+      type(setting_t), allocatable :: settings(:)   !! path=value
+      integer :: increments = 0                 !! 0: as in the deck
+      logical :: plot = .false., quiet = .false., help = .false., version = .false.
+   end type arguments_t
+
+contains
+
+   !> Reads the command line of this process.
+   subroutine read_arguments(arguments, error)
+      type(arguments_t), intent(out) :: arguments
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: word, value
+      integer :: k, equals, status
+      logical :: has_value
+
+      arguments%command = ''
+      arguments%file = ''
+      arguments%out = ''
+      arguments%method = ''
+      arguments%case = ''
+      allocate (arguments%settings(0))
+      if (command_argument_count() == 0) arguments%help = .true.
+      value = ''
+      k = 0
+      do while (k < command_argument_count())
+         k = k + 1
+         word = argument(k)
+         has_value = .false.
+         equals = index(word, '=')
+         if (len(word) > 2 .and. equals > 3) then
+            if (word(1:2) == '--') then         ! --out=DIR
+               value = word(equals + 1:)
+               word = word(:equals - 1)
+               has_value = .true.
+            end if
+         end if
+         select case (word)
+         case ('--plot')
+            arguments%plot = .true.
+         case ('--quiet', '-q')
+            arguments%quiet = .true.
+         case ('--help', '-h')
+            arguments%help = .true.
+         case ('--version')
+            arguments%version = .true.
+         case ('--out', '--method', '--case', '--increments', '--set')
+            if (.not. has_value) then
+               if (k == command_argument_count()) then
+                  call fail(error, exit_usage, word//' needs a value after it')
+                  return
+               end if
+               k = k + 1
+               value = argument(k)
+            end if
+            select case (word)
+            case ('--out')
+               arguments%out = value
+            case ('--method')
+               arguments%method = value
+            case ('--case')
+               arguments%case = value
+            case ('--set')
+               arguments%settings = [arguments%settings, setting_t(value)]
+            case ('--increments')
+               read (value, *, iostat=status) arguments%increments
+               if (status /= 0 .or. verify(value, '0123456789') /= 0 .or. arguments%increments < 1) then
+                  call fail(error, exit_usage, '--increments: expected a whole number of at least 1, found '//quoted(value))
+                  return
+               end if
+            end select
+         case default
+            if (len(word) > 1 .and. word(1:1) == '-') then
+               call fail(error, exit_usage, 'unknown option '//quoted(word)//suggestion(word, options))
+               return
+            else if (len(arguments%command) == 0) then
+               if (.not. any(commands == word)) then
+                  call fail(error, exit_usage, 'unknown command '//quoted(word)//suggestion(word, commands)// &
+                     '; expected run, check, study or bench')
+                  return
+               end if
+               arguments%command = word
+            else if (len(arguments%file) == 0) then
+               arguments%file = word
+            else
+               call fail(error, exit_usage, 'one file at a time: found '//quoted(arguments%file)//' and '//quoted(word))
+               return
+            end if
+         end select
+      end do
+      if (arguments%help .or. arguments%version) return
+      if (len(arguments%command) == 0) then
+         call fail(error, exit_usage, 'no command: expected run, check, study or bench')
+      else if (len(arguments%file) == 0) then
+         call fail(error, exit_usage, arguments%command//' needs a file: elastokin '//arguments%command//' FILE')
+      end if
+   end subroutine read_arguments
+
+   !> '; did you mean …?' or nothing.
+   function suggestion(word, names) result(text)
+      character(*), intent(in) :: word, names(:)
+      character(:), allocatable :: text
+      text = nearest_name(word, names)
+      if (len(text) > 0) text = '; did you mean '//quoted(text)//'?'
+   end function suggestion
+
+   !> Argument number k, whole.
+   function argument(k) result(text)
+      integer, intent(in) :: k
+      character(:), allocatable :: text
+      integer :: length
+
+      call get_command_argument(k, length=length)
+      allocate (character(length) :: text)
+      if (length > 0) call get_command_argument(k, value=text)
+   end function argument
+
+end module ek_arguments

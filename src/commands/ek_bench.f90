@@ -1,0 +1,204 @@
+!> elastokin bench: what an increment costs, in units of LAPACK's factor and solve alone.
+!>
+!> The unit is dsysv on the very matrices of the sweep (scaled KKT matrices of its equilibrium states),
+!> one right-hand side, measured in turn with the methods in the same run: the ratio holds when the
+!> machine is slow or busy. The least time of several rounds is told, for all alike.
+module ek_bench
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_convergence
+   use ek_text, only: str, quoted
+   use ek_clock, only: seconds
+   use ek_lapack, only: dsysv
+   use ek_suspension, only: suspension_t, add_travel_driver, load_number, driver_row
+   use ek_case, only: case_t, method_names
+   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent
+   use ek_balance, only: balance
+   use ek_path, only: path_t, new_path, walk, sweep
+   use ek_sweep_table, only: sweep_table
+   use ek_table, only: table_t
+   use ek_csv, only: csv_text
+   use ek_arguments, only: arguments_t
+   use ek_load_deck, only: load_deck, chosen_cases
+   implicit none(type, external)
+   private
+   public :: bench
+
+   integer, parameter :: rounds = 15          !! each method is timed so often; the least counts
+   integer, parameter :: most_matrices = 200  !! kept for the unit: they must not fall out of the cache
+
+contains
+
+   !> Prints the table of ratios to standard output.
+   subroutine bench(arguments, error)
+      type(arguments_t), intent(in) :: arguments
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: suspension
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(case_t) :: case
+      type(kkt_t) :: kkt
+      type(path_t) :: path, exact
+      real(wp), allocatable :: matrices(:, :, :)
+      real(wp) :: unit, best(3), start
+      character(:), allocatable :: checksum
+      integer :: k, m
+
+      call load_deck(arguments, suspension, cases, checksum, error)
+      if (allocated(error)) return
+      call chosen_cases(arguments, cases, chosen, error)
+      if (allocated(error)) return
+      case = chosen(1)
+      call balance(suspension, case%tolerance, error)
+      if (allocated(error)) return
+      if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+      kkt = new_kkt(suspension)
+      case%method = 'equilibrium'
+      call sweep(suspension, case, path, kkt)
+      if (any(path%failure%state > 0)) then
+         call fail(error, exit_convergence, 'case '//quoted(case%name)//' does not run to its end: nothing to measure')
+         return
+      end if
+      call collect_matrices(suspension, case, path, kkt, matrices)
+
+      unit = huge(unit)
+      best = huge(unit)
+      do k = 1, rounds
+         unit = min(unit, time_of_lapack(kkt%n, matrices))
+         do m = 1, 3
+            case%method = method_names(m)
+            call new_path(suspension, case, path)
+            start = seconds()
+            call walk(suspension, case, path, kkt)
+            best(m) = min(best(m), (seconds() - start)/(path%states - 1))
+         end do
+      end do
+
+      write (output_unit, '(a)') 'model '//suspension%name//', case '//case%name//', '//str(case%increments)// &
+         ' increments, matrix '//str(kkt%n)//' x '//str(kkt%n)
+      call tell('LAPACK dsysv alone', unit, unit)
+      do m = 1, 3
+         call tell(trim(method_names(m))//' increment', best(m), unit)
+      end do
+      case%method = 'equilibrium'
+      call sweep(suspension, case, path, kkt)
+      write (output_unit, '(a,f5.3,a,i0)') 'equilibrium: factorisations a state ', &
+         real(sum(path%iterations), wp)/path%states, ', at most ', maxval(path%iterations)
+      case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default
+      call sweep(suspension, case, exact, kkt)
+      write (output_unit, '(a,es8.1,a)') 'equilibrium: largest distance to the solution at tolerance 1e-10 mm: ', &
+         largest_distance(path, exact, kkt%nq/6)*1000.0_wp, ' mm'
+      if (arguments%quiet) return
+      call whole_way(arguments, error)
+   end subroutine bench
+
+   !> One line: name, microseconds, ratio.
+   subroutine tell(name, time, unit)
+      character(*), intent(in) :: name
+      real(wp), intent(in) :: time, unit
+      write (output_unit, '(a,t28,f9.3,a,f7.2,a)') name, time*1.0e6_wp, ' us', time/unit, ' units'
+   end subroutine tell
+
+   !> The scaled matrices of some states of a sweep.
+   subroutine collect_matrices(suspension, case, path, kkt, matrices)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), allocatable, intent(out) :: matrices(:, :, :)
+      type(state_t) :: state
+      type(demand_t) :: demand
+      integer :: count, k, state_number, j
+
+      count = min(most_matrices, path%states)
+      allocate (matrices(kkt%n, kkt%n, count), source=0.0_wp)
+      state = design_state(suspension)
+      demand%load = load_number(suspension, case%load)
+      demand%row = driver_row(suspension, case%drive)
+      do k = 1, count
+         state_number = 1 + ((k - 1)*(path%states - 1))/max(count - 1, 1)
+         demand%value = path%value(state_number)
+         call unpack_state(path%packed(:, state_number), state)
+         call assemble(suspension, state, demand, whole_tangent, kkt)
+         do j = 1, kkt%n
+            matrices(j:, j, k) = kkt%matrix(j:, j)*kkt%scale(j)*kkt%scale(j:)
+         end do
+      end do
+   end subroutine collect_matrices
+
+   !> Seconds of one dsysv, the copying of its matrix not counted.
+   function time_of_lapack(n, matrices) result(time)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: matrices(:, :, :)
+      real(wp) :: time
+      real(wp) :: copy(n, n), rhs(n), work(64*n), start, copying
+      integer :: pivots(n), k, info
+
+      start = seconds()
+      do k = 1, size(matrices, 3)
+         copy = matrices(:, :, k)
+         rhs = real(k, wp)
+         call keep(copy, rhs)
+      end do
+      copying = seconds() - start
+      start = seconds()
+      do k = 1, size(matrices, 3)
+         copy = matrices(:, :, k)
+         rhs = real(k, wp)
+         call dsysv('L', n, 1, copy, n, pivots, rhs, n, work, size(work), info)
+      end do
+      time = max(seconds() - start - copying, 0.0_wp)/size(matrices, 3)
+   end function time_of_lapack
+
+   !> Nothing, but out of the optimiser's sight: the copy is not taken away as dead.
+   subroutine keep(copy, rhs)
+      real(wp), intent(inout) :: copy(:, :), rhs(:)
+      if (rhs(1) < 0.0_wp) copy(1, 1) = rhs(1)
+   end subroutine keep
+
+   !> The largest distance between bodies of two sweeps [m].
+   pure real(wp) function largest_distance(a, b, bodies) result(largest)
+      type(path_t), intent(in) :: a, b
+      integer, intent(in) :: bodies
+      integer :: k, body
+
+      largest = 0.0_wp
+      do k = 1, a%states
+         do body = 1, bodies
+            largest = max(largest, norm2(a%packed(7*body - 6:7*body - 4, k) - b%packed(7*body - 6:7*body - 4, k)))
+         end do
+      end do
+   end function largest_distance
+
+   !> Deck to CSV text against its solver's share, within this process.
+   subroutine whole_way(arguments, error)
+      type(arguments_t), intent(in) :: arguments
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: suspension
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(kkt_t) :: kkt
+      type(path_t) :: path
+      type(table_t) :: table
+      character(:), allocatable :: checksum, text
+      real(wp) :: marks(5)
+
+      marks(1) = seconds()
+      call load_deck(arguments, suspension, cases, checksum, error)
+      if (allocated(error)) return
+      call chosen_cases(arguments, cases, chosen, error)
+      if (allocated(error)) return
+      if (chosen(1)%drive == 'wheel_travel') call add_travel_driver(suspension, chosen(1)%wheel)
+      kkt = new_kkt(suspension)
+      marks(2) = seconds()
+      call sweep(suspension, chosen(1), path, kkt)
+      marks(3) = seconds()
+      call sweep_table(suspension, chosen(1), path, kkt, table)
+      marks(4) = seconds()
+      text = csv_text(table)
+      marks(5) = seconds()
+      write (output_unit, '(4(a,f7.2),a,i0,a)') 'deck to CSV [ms]: deck and model ', 1000*(marks(2) - marks(1)), &
+         ', sweep ', 1000*(marks(3) - marks(2)), ', table ', 1000*(marks(4) - marks(3)), &
+         ', CSV text ', 1000*(marks(5) - marks(4)), ' (', len(text), ' bytes)'
+   end subroutine whole_way
+
+end module ek_bench

@@ -1,0 +1,125 @@
+!> elastokin check: what a deck holds, and whether its model can be solved.
+module ek_check
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use ek_error, only: error_t, fail, exit_model
+   use ek_text, only: str, quoted, plural
+   use ek_suspension, only: suspension_t, add_travel_driver
+   use ek_case, only: case_t
+   use ek_state, only: design_state
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_balance, only: balance
+   use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_arguments, only: arguments_t
+   use ek_load_deck, only: load_deck, chosen_cases
+   implicit none(type, external)
+   private
+   public :: check
+
+contains
+
+   !> Prints the findings to standard output; exit_model where a case cannot be solved.
+   subroutine check(arguments, error)
+      type(arguments_t), intent(in) :: arguments
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: base, suspension
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(diagnosis_t) :: diagnosis
+      type(error_t), allocatable :: trouble
+      type(kkt_t) :: kkt
+      character(:), allocatable :: checksum, found
+      integer :: k
+
+      call load_deck(arguments, base, cases, checksum, error)
+      if (allocated(error)) return
+      allocate (chosen(0))
+      if (size(cases) > 0) then
+         call chosen_cases(arguments, cases, chosen, error)
+         if (allocated(error)) return
+      end if
+
+      kkt = new_kkt(base)
+      call diagnose(base, design_state(base), kkt, diagnosis)
+      call tell_model(base, diagnosis, checksum)
+      found = ''
+      do k = 1, size(chosen)
+         suspension = base
+         if (chosen(k)%drive == 'wheel_travel') then
+            call add_travel_driver(suspension, chosen(k)%wheel)
+            kkt = new_kkt(suspension)
+            call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+         else
+            kkt = new_kkt(base)
+            call diagnose(base, design_state(base), kkt, diagnosis)
+         end if
+         call tell_case(chosen(k), diagnosis)
+         if (.not. diagnosis%is_solvable() .and. index(new_line('a')//found, new_line('a')//diagnosis%words()) == 0) &
+            found = found//diagnosis%words()//new_line('a')
+      end do
+      if (size(chosen) == 0) then
+         if (.not. diagnosis%is_solvable()) found = diagnosis%words()//new_line('a')
+         call tell('warnings', diagnosis%warnings%text())
+      else
+         call tell('warnings', diagnosis%warnings%text())
+      end if
+      if (len(found) > 0) then
+         call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found(:len(found) - 1))
+         return
+      end if
+      if (base%balance /= 'none' .and. size(chosen) > 0) then
+         call balance(base, chosen(1)%tolerance, trouble)
+         if (allocated(trouble)) call move_alloc(trouble, error)
+      end if
+   end subroutine check
+
+   !> Bodies, unknowns, constraints, freedoms, condition, unused points.
+   subroutine tell_model(suspension, diagnosis, checksum)
+      type(suspension_t), intent(in) :: suspension
+      type(diagnosis_t), intent(in) :: diagnosis
+      character(*), intent(in) :: checksum
+      character(:), allocatable :: unused
+      integer :: k
+
+      call tell('model', suspension%name//' (checksum '//checksum//')')
+      call tell('bodies', str(size(suspension%bodies)))
+      call tell('unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
+      call tell('constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
+         ', rank '//str(diagnosis%rank))
+      call tell('degrees of freedom', str(diagnosis%freedoms)//', held by '// &
+         plural(size(suspension%bushings), 'bushing', 'bushings')//' and '// &
+         plural(size(suspension%springs), 'spring', 'springs'))
+      unused = ''
+      do k = 1, size(suspension%points)
+         if (suspension%points(k)%is_used) cycle
+         if (len(unused) > 0) unused = unused//', '
+         unused = unused//suspension%points(k)%name//' ('//suspension%points(k)%where//')'
+      end do
+      if (len(unused) > 0) call tell('unused points', unused)
+   end subroutine tell_model
+
+   !> One case: what drives it, and whether it can be solved.
+   subroutine tell_case(case, diagnosis)
+      type(case_t), intent(in) :: case
+      type(diagnosis_t), intent(in) :: diagnosis
+      character(:), allocatable :: text
+
+      if (len(case%load) > 0) then
+         text = 'load '//quoted(case%load)
+      else
+         text = 'drive '//quoted(case%drive)
+      end if
+      text = text//', '//plural(case%increments, 'increment', 'increments')//', '//case%method
+      if (diagnosis%is_solvable()) then
+         text = text//': can be solved, 1/condition '//str(diagnosis%rcond, 2)
+      else
+         text = text//': CANNOT be solved'
+      end if
+      call tell('case '//case%name, text)
+   end subroutine tell_case
+
+   !> 'name: text' on standard output; nothing for no text.
+   subroutine tell(name, text)
+      character(*), intent(in) :: name, text
+      if (len(text) > 0) write (output_unit, '(a,": ",a)') name, text
+   end subroutine tell
+
+end module ek_check

@@ -1,0 +1,83 @@
+!> From a path and settings to a model: what every command begins with.
+module ek_load_deck
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: quoted, nearest_name
+   use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
+   use ek_setting, only: split_setting
+   use ek_reader, only: build_model
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, method_names
+   use ek_arguments, only: arguments_t
+   implicit none(type, external)
+   private
+   public :: load_deck, chosen_cases
+
+contains
+
+   !> Reads a deck, applies --set, and builds the model.
+   subroutine load_deck(arguments, suspension, cases, checksum, error)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), allocatable, intent(out) :: cases(:)
+      character(:), allocatable, intent(out) :: checksum     !! of the deck as it was used
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      character(:), allocatable :: path, value
+      integer :: k
+
+      call read_deck(arguments%file, deck, error)
+      if (allocated(error)) return
+      do k = 1, size(arguments%settings)
+         call split_setting(arguments%settings(k)%text, path, value, error)
+         if (allocated(error)) return
+         call set_value(deck, path, value, error)
+         if (allocated(error)) return
+      end do
+      call build_model(deck, suspension, cases, error)
+      if (allocated(error)) return
+      checksum = deck_checksum(deck)
+   end subroutine load_deck
+
+   !> The cases to run, with --case, --method and --increments applied.
+   subroutine chosen_cases(arguments, cases, chosen, error)
+      type(arguments_t), intent(in) :: arguments
+      type(case_t), intent(in) :: cases(:)
+      type(case_t), allocatable, intent(out) :: chosen(:)
+      type(error_t), allocatable, intent(out) :: error
+      character(64), allocatable :: names(:)
+      character(:), allocatable :: hint
+      integer :: k
+
+      allocate (names(size(cases)))
+      do k = 1, size(cases)
+         names(k) = cases(k)%name
+      end do
+      if (size(cases) == 0) then
+         call fail(error, exit_usage, arguments%file//': no &case group, so there is nothing to run (check works without one)')
+         return
+      end if
+      allocate (chosen(0))
+      do k = 1, size(cases)
+         if (len(arguments%case) == 0 .or. arguments%case == cases(k)%name) chosen = [chosen, cases(k)]
+      end do
+      if (size(chosen) == 0) then
+         hint = nearest_name(arguments%case, names)
+         if (len(hint) > 0) hint = '; did you mean '//quoted(hint)//'?'
+         do k = 1, size(names)
+            if (k == 1) hint = hint//' The deck has'
+            hint = hint//' '//quoted(names(k))
+         end do
+         call fail(error, exit_usage, '--case: no case '//quoted(arguments%case)//' in '//arguments%file//hint)
+         return
+      end if
+      if (len(arguments%method) > 0 .and. .not. any(method_names == arguments%method)) then
+         call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(arguments%method))
+         return
+      end if
+      do k = 1, size(chosen)
+         if (len(arguments%method) > 0) chosen(k)%method = arguments%method
+         if (arguments%increments > 0) chosen(k)%increments = arguments%increments
+      end do
+   end subroutine chosen_cases
+
+end module ek_load_deck

@@ -1,0 +1,216 @@
+!> The groups of a deck and their keys: the one place that says what is legal.
+!>
+!> To add a key: its row here, and its variable in the namelist of the reader that takes the group.
+module ek_group
+   use ek_text, only: quoted, nearest_name
+   implicit none(type, external)
+   private
+   public :: group_names, group_number, key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
+   public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
+   public :: wheel_group, load_group, case_group
+   public :: word_length, note_length, most_measures, largest_exponent
+   public :: word, prose, number, whole, switch
+
+   ! groups, numbered as in group_names
+   integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
+      bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10
+   character(*), parameter :: group_names(10) = [character(7) :: 'model', 'point', 'body', 'measure', 'joint', &
+      'bushing', 'spring', 'wheel', 'load', 'case']
+
+   ! types of value
+   integer, parameter :: word = 1      !! quoted, at most word_length characters: names and choices
+   integer, parameter :: prose = 2     !! quoted, at most note_length characters
+   integer, parameter :: number = 3
+   integer, parameter :: whole = 4     !! whole number
+   integer, parameter :: switch = 5    !! .true. or .false.
+
+   integer, parameter :: word_length = 63      !! the longest name
+   integer, parameter :: note_length = 2000    !! the longest title or note
+   integer, parameter :: most_measures = 8     !! of one coupler
+   integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
+
+   type :: key_t
+      integer :: group
+      character(14) :: name
+      integer :: type
+      integer :: least, most     !! how many values
+      logical :: is_required
+   end type key_t
+
+   type(key_t), parameter :: keys(*) = [ &
+      key_t(model_group, 'name', word, 1, 1, .true.), &
+      key_t(model_group, 'note', prose, 1, 1, .false.), &
+      key_t(model_group, 'title', prose, 1, 1, .false.), &
+      key_t(model_group, 'length', word, 1, 1, .false.), &
+      key_t(model_group, 'force', word, 1, 1, .false.), &
+      key_t(model_group, 'angle', word, 1, 1, .false.), &
+      key_t(model_group, 'axes', word, 1, 1, .false.), &
+      key_t(model_group, 'balance', word, 1, 1, .false.), &
+      key_t(point_group, 'name', word, 1, 1, .true.), &
+      key_t(point_group, 'note', prose, 1, 1, .false.), &
+      key_t(point_group, 'at', number, 3, 3, .true.), &
+      key_t(body_group, 'name', word, 1, 1, .true.), &
+      key_t(body_group, 'note', prose, 1, 1, .false.), &
+      key_t(body_group, 'origin', word, 1, 1, .false.), &
+      key_t(measure_group, 'name', word, 1, 1, .true.), &
+      key_t(measure_group, 'note', prose, 1, 1, .false.), &
+      key_t(measure_group, 'type', word, 1, 1, .true.), &
+      key_t(measure_group, 'bodies', word, 2, 2, .true.), &
+      key_t(measure_group, 'at', word, 1, 2, .false.), &
+      key_t(measure_group, 'axis', word, 2, 2, .false.), &
+      key_t(measure_group, 'axis_vector', number, 3, 3, .false.), &
+      key_t(measure_group, 'axis_2', word, 2, 2, .false.), &
+      key_t(measure_group, 'axis_2_vector', number, 3, 3, .false.), &
+      key_t(joint_group, 'name', word, 1, 1, .true.), &
+      key_t(joint_group, 'note', prose, 1, 1, .false.), &
+      key_t(joint_group, 'type', word, 1, 1, .true.), &
+      key_t(joint_group, 'bodies', word, 2, 2, .false.), &
+      key_t(joint_group, 'at', word, 1, 2, .false.), &
+      key_t(joint_group, 'axis', word, 2, 2, .false.), &
+      key_t(joint_group, 'axis_vector', number, 3, 3, .false.), &
+      key_t(joint_group, 'axis_2', word, 2, 2, .false.), &
+      key_t(joint_group, 'axis_2_vector', number, 3, 3, .false.), &
+      key_t(joint_group, 'measure', word, 1, 1, .false.), &
+      key_t(joint_group, 'measures', word, 1, most_measures, .false.), &
+      key_t(joint_group, 'ratios', number, 1, most_measures, .false.), &
+      key_t(bushing_group, 'name', word, 1, 1, .true.), &
+      key_t(bushing_group, 'note', prose, 1, 1, .false.), &
+      key_t(bushing_group, 'bodies', word, 2, 2, .true.), &
+      key_t(bushing_group, 'at', word, 1, 2, .true.), &
+      key_t(bushing_group, 'z_axis', word, 2, 2, .false.), &
+      key_t(bushing_group, 'z_vector', number, 3, 3, .false.), &
+      key_t(bushing_group, 'x_axis', word, 2, 2, .false.), &
+      key_t(bushing_group, 'x_vector', number, 3, 3, .false.), &
+      key_t(bushing_group, 'kt', number, 3, 3, .false.), &
+      key_t(bushing_group, 'kr', number, 3, 3, .false.), &
+      key_t(bushing_group, 'preload_force', number, 3, 3, .false.), &
+      key_t(bushing_group, 'preload_moment', number, 3, 3, .false.), &
+      key_t(spring_group, 'name', word, 1, 1, .true.), &
+      key_t(spring_group, 'note', prose, 1, 1, .false.), &
+      key_t(spring_group, 'bodies', word, 2, 2, .true.), &
+      key_t(spring_group, 'at', word, 2, 2, .true.), &
+      key_t(spring_group, 'rate', number, 1, 1, .true.), &
+      key_t(spring_group, 'preload', number, 1, 1, .false.), &
+      key_t(spring_group, 'free_length', number, 1, 1, .false.), &
+      key_t(wheel_group, 'name', word, 1, 1, .true.), &
+      key_t(wheel_group, 'note', prose, 1, 1, .false.), &
+      key_t(wheel_group, 'body', word, 1, 1, .true.), &
+      key_t(wheel_group, 'side', word, 1, 1, .true.), &
+      key_t(wheel_group, 'centre', word, 1, 1, .true.), &
+      key_t(wheel_group, 'contact', word, 1, 1, .true.), &
+      key_t(wheel_group, 'spin_vector', number, 3, 3, .false.), &
+      key_t(wheel_group, 'toe', number, 1, 1, .false.), &
+      key_t(wheel_group, 'camber', number, 1, 1, .false.), &
+      key_t(wheel_group, 'radius', number, 1, 1, .false.), &
+      key_t(wheel_group, 'steer_axis', word, 2, 2, .false.), &
+      key_t(load_group, 'name', word, 1, 1, .true.), &
+      key_t(load_group, 'note', prose, 1, 1, .false.), &
+      key_t(load_group, 'body', word, 1, 1, .true.), &
+      key_t(load_group, 'at', word, 1, 1, .true.), &
+      key_t(load_group, 'force', number, 3, 3, .false.), &
+      key_t(load_group, 'moment', number, 3, 3, .false.), &
+      key_t(load_group, 'follows', switch, 1, 1, .false.), &
+      key_t(load_group, 'factor', word, 1, 1, .false.), &
+      key_t(case_group, 'name', word, 1, 1, .true.), &
+      key_t(case_group, 'note', prose, 1, 1, .false.), &
+      key_t(case_group, 'load', word, 1, 1, .false.), &
+      key_t(case_group, 'drive', word, 1, 1, .false.), &
+      key_t(case_group, 'wheel', word, 1, 1, .false.), &
+      key_t(case_group, 'from', number, 1, 1, .true.), &
+      key_t(case_group, 'to', number, 1, 1, .true.), &
+      key_t(case_group, 'increments', whole, 1, 1, .false.), &
+      key_t(case_group, 'method', word, 1, 1, .false.), &
+      key_t(case_group, 'tolerance', number, 1, 1, .false.)]
+
+contains
+
+   !> Its number, 0 if there is no such group.
+   pure integer function group_number(name)
+      character(*), intent(in) :: name
+      integer :: k
+
+      group_number = 0
+      do k = 1, size(group_names)
+         if (group_names(k) == name) group_number = k
+      end do
+   end function group_number
+
+   !> The row of a key; is_known is false when the group has no such key.
+   pure subroutine find_key(group, name, key, is_known)
+      integer, intent(in) :: group
+      character(*), intent(in) :: name
+      type(key_t), intent(out) :: key
+      logical, intent(out) :: is_known
+      integer :: k
+
+      is_known = .false.
+      do k = 1, size(keys)
+         if (keys(k)%group /= group) cycle
+         if (keys(k)%name /= name) cycle
+         key = keys(k)
+         is_known = .true.
+         return
+      end do
+   end subroutine find_key
+
+   !> All keys of a group, for suggestions and the manual.
+   pure function key_names(group) result(names)
+      integer, intent(in) :: group
+      character(14), allocatable :: names(:)
+      integer :: k, used
+
+      allocate (names(count(keys%group == group)))
+      used = 0
+      do k = 1, size(keys)
+         if (keys(k)%group /= group) cycle
+         used = used + 1
+         names(used) = keys(k)%name
+      end do
+   end function key_names
+
+   !> "bushing 'top_mount': "
+   pure function record_head(group, name) result(head)
+      integer, intent(in) :: group
+      character(*), intent(in) :: name     !! '' when it has none
+      character(:), allocatable :: head
+
+      if (name == '') then
+         head = trim(group_names(group))//': '
+      else
+         head = trim(group_names(group))//' '//quoted(name)//': '
+      end if
+   end function record_head
+
+   !> "there is no key 'rte' in &spring (did you mean 'rate'?)"
+   pure function unknown_key(group, name) result(words)
+      integer, intent(in) :: group
+      character(*), intent(in) :: name
+      character(:), allocatable :: words
+
+      words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))//did_you_mean(name, key_names(group))
+   end function unknown_key
+
+   !> " (did you mean 'kt'?)" when one candidate is near, else all of them.
+   pure function did_you_mean(name, candidates) result(words)
+      character(*), intent(in) :: name
+      character(*), intent(in) :: candidates(:)    !! blank ones do not count
+      character(:), allocatable :: words
+      integer, parameter :: most_listed = 20
+      integer :: k
+
+      words = nearest_name(name, candidates)
+      if (words /= '') then
+         words = ' (did you mean '//quoted(words)//'?)'
+      else if (count(candidates /= '') == 0) then
+         words = ' (there is none)'
+      else if (count(candidates /= '') <= most_listed) then
+         do k = 1, size(candidates)
+            if (candidates(k) == '') cycle
+            if (words /= '') words = words//', '
+            words = words//trim(candidates(k))
+         end do
+         words = ' (known: '//words//')'
+      end if
+   end function did_you_mean
+
+end module ek_group

@@ -1,0 +1,290 @@
+!> One record against the table of groups, and then as a clean namelist text.
+!>
+!> The compiler's namelist read does the conversion, but it passes too few values, a key given twice,
+!> `nan` and `1e999` in silence, and an unsound record can blind the next read. So every value is
+!> judged here first (type, count, subscript, size), and only sound entries are written out again.
+module ek_namelist
+   use ek_text, only: str, lower, quoted, plural
+   use ek_record, only: record_t, value_t, complaints_t, is_given, place_of
+   use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
+      word_length, note_length, largest_exponent
+   implicit none(type, external)
+   private
+   public :: check_record, value_fault
+
+contains
+
+   !> Checks one record, and writes its sound entries as one namelist record.
+   subroutine check_record(record, group, head, file, complaints, text, is_good)
+      type(record_t), intent(in) :: record
+      integer, intent(in) :: group
+      character(*), intent(in) :: head                        !! "bushing 'top_mount': " for messages
+      character(*), intent(in) :: file
+      type(complaints_t), intent(inout) :: complaints
+      character(:), allocatable, intent(out) :: text          !! '&bushing name=… /'
+      logical, intent(out) :: is_good
+      character(4096) :: buffer
+      type(key_t) :: key
+      logical :: is_known
+      integer :: k, first, filled
+
+      is_good = .true.
+      text = ''
+      filled = 0
+      call put('&'//trim(group_names(group)))
+      do k = 1, record%used
+         associate (entry => record%entries(k))
+            call find_key(group, entry%key, key, is_known)
+            if (.not. is_known) then
+               call complain(k, unknown_key(group, entry%key))
+            else if (check_entry()) then
+               if (entry%key /= 'note') call put_entry()
+            end if
+         end associate
+      end do
+      do k = 1, size(keys)
+         if (keys(k)%group /= group .or. .not. keys(k)%is_required) cycle
+         if (.not. is_given(record, keys(k)%name)) call complain(0, quoted(keys(k)%name)//' is missing')
+      end do
+      call put(' /')
+      text = text//buffer(:filled)
+
+   contains
+
+      !> Whether type and count of entry k fit its key.
+      logical function check_entry()
+         character(:), allocatable :: fault
+         integer :: given, j, l
+
+         check_entry = .false.
+         associate (entry => record%entries(k))
+            given = 0
+            first = huge(first)
+            do l = 1, record%used        ! kt(1)=… kt(2)=… count together, judged at the first of them
+               if (record%entries(l)%key /= entry%key) cycle
+               given = given + record%entries(l)%used
+               first = min(first, l)
+            end do
+            if (entry%used == 0) then    ! the scanner said so
+               is_good = .false.
+               return
+            end if
+            if (entry%first + entry%used - 1 > key%most) then
+               if (entry%first > 1) then
+                  call complain(k, trim(key%name)//' has '//plural(key%most, 'element', 'elements')//', found element '// &
+                     str(entry%first + entry%used - 1))
+               else
+                  call complain(k, trim(key%name)//' '//needs()//', found '//str(given))
+               end if
+               return
+            end if
+            if (given < key%least .and. first == k) then
+               call complain(k, trim(key%name)//' '//needs()//', found '//str(given))
+               return
+            end if
+            do j = 1, entry%used
+               fault = value_fault(entry%values(j), key%type)
+               if (fault == '') cycle
+               call complain(k, trim(key%name)//element_text(entry%first + j - 1)//' must be '//fault)
+               return
+            end do
+         end associate
+         check_entry = .true.
+      end function check_entry
+
+      pure function needs() result(words)
+         character(:), allocatable :: words
+         if (key%least == key%most) then
+            words = 'needs '//plural(key%least, 'value', 'values')
+         else
+            words = 'needs '//str(key%least)//' to '//str(key%most)//' values'
+         end if
+      end function needs
+
+      pure function element_text(at) result(words)
+         integer, intent(in) :: at
+         character(:), allocatable :: words
+         words = ''
+         if (key%most > 1) words = '('//str(at)//')'
+      end function element_text
+
+      subroutine complain(entry, what)
+         integer, intent(in) :: entry
+         character(*), intent(in) :: what
+         character(:), allocatable :: place
+         integer :: line
+
+         call place_of(record, entry, file, place, line)
+         call complaints%add(line, place//': '//head//what)
+         is_good = .false.
+      end subroutine complain
+
+      subroutine put_entry()
+         integer :: j
+
+         associate (entry => record%entries(k))
+            call put(' '//entry%key)
+            if (entry%first > 1 .or. entry%used < key%least) call put('('//str(entry%first)//')')
+            call put('=')
+            do j = 1, entry%used
+               if (j > 1) call put(',')
+               if (entry%values(j)%is_string) then
+                  call put(requoted(entry%values(j)%text))
+               else
+                  call put(entry%values(j)%text)
+               end if
+            end do
+         end associate
+      end subroutine put_entry
+
+      subroutine put(piece)
+         character(*), intent(in) :: piece
+
+         if (filled + len(piece) > len(buffer)) then
+            text = text//buffer(:filled)
+            filled = 0
+         end if
+         if (len(piece) > len(buffer)) then
+            text = text//piece
+         else
+            buffer(filled + 1:filled + len(piece)) = piece
+            filled = filled + len(piece)
+         end if
+      end subroutine put
+
+   end subroutine check_record
+
+   !> 'a number, found …' when a value does not fit its type; '' when it does.
+   pure function value_fault(value, type) result(fault)
+      type(value_t), intent(in) :: value
+      integer, intent(in) :: type
+      character(:), allocatable :: fault
+      character(:), allocatable :: expected
+
+      select case (type)
+      case (word, prose)
+         expected = 'a word in quotes'
+      case (number)
+         expected = 'a number'
+      case (whole)
+         expected = 'a whole number'
+      case default
+         expected = '.true. or .false.'
+      end select
+
+      fault = ''
+      if (value%is_empty) then
+         fault = expected//', found nothing between the commas'
+         return
+      end if
+      select case (type)
+      case (word, prose)
+         if (.not. value%is_string) then
+            fault = expected//', found '//value%text//' without quotes'
+         else if (type == word .and. len(value%text) > word_length) then
+            fault = 'at most '//str(word_length)//' characters long, found '//str(len(value%text))
+         else if (len(value%text) > note_length) then
+            fault = 'at most '//str(note_length)//' characters long, found '//str(len(value%text))
+         else if (value%text == '') then
+            fault = expected//', found an empty one'
+         end if
+      case default
+         if (value%is_string) then
+            fault = expected//', found the string '//quoted(value%text)
+         else if (type == switch) then
+            if (.not. is_switch(value%text)) fault = expected//', found '//value%text
+         else if (type == whole) then
+            if (.not. is_whole(value%text)) fault = expected//', found '//value%text
+         else if (.not. is_number(value%text)) then
+            fault = expected//', found '//value%text
+         else if (size_exponent(value%text) > largest_exponent) then
+            fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
+         end if
+      end select
+   end function value_fault
+
+   pure logical function is_switch(text)
+      character(*), intent(in) :: text
+      is_switch = any(lower(text) == [character(7) :: '.true.', '.false.', 'true', 'false', '.t.', '.f.', 't', 'f'])
+   end function is_switch
+
+   !> Digits with an optional sign, at most nine of them.
+   pure logical function is_whole(text)
+      character(*), intent(in) :: text
+      integer :: first
+
+      first = 1
+      if (text(1:1) == '-' .or. text(1:1) == '+') first = 2
+      is_whole = len(text) >= first .and. len(text) < first + 9 .and. verify(text(first:), '0123456789') == 0
+   end function is_whole
+
+   !> [sign] digits [. digits] [e|d [sign] digits], at least one digit before the exponent.
+   pure logical function is_number(text)
+      character(*), intent(in) :: text
+      integer :: mark, first, last
+
+      is_number = .false.
+      last = scan(text, 'eEdD') - 1
+      if (last >= 0) then
+         mark = last + 2
+         if (mark > len(text)) return
+         if (index('+-', text(mark:mark)) > 0) mark = mark + 1
+         if (mark > len(text)) return
+         if (verify(text(mark:), '0123456789') > 0) return
+      else
+         last = len(text)
+      end if
+      if (last < 1) return
+      first = 1
+      if (index('+-', text(1:1)) > 0) first = 2
+      if (scan(text(first:last), '0123456789') == 0) return
+      if (verify(text(first:last), '0123456789.') > 0) return
+      is_number = index(text(first:last), '.') == index(text(first:last), '.', back=.true.)
+   end function is_number
+
+   !> The power of ten of a well-formed number's first digit.
+   pure integer function size_exponent(text)
+      character(*), intent(in) :: text
+      integer :: mark, last, dot, lead, status
+
+      mark = scan(text, 'eEdD')
+      size_exponent = 0
+      last = len(text)
+      if (mark > 0) then
+         last = mark - 1
+         status = 1
+         if (len(text) - mark < 8) read (text(mark + 1:), *, iostat=status) size_exponent
+         if (status /= 0) size_exponent = merge(-9999999, 9999999, text(mark + 1:mark + 1) == '-')
+      end if
+      lead = scan(text(:last), '123456789')
+      if (lead == 0) then
+         size_exponent = 0
+         return
+      end if
+      dot = index(text(:last), '.')
+      if (dot == 0) dot = last + 1
+      size_exponent = size_exponent + dot - lead
+      if (lead < dot) size_exponent = size_exponent - 1
+   end function size_exponent
+
+   !> A string between single quotes, those inside doubled.
+   pure function requoted(content) result(text)
+      character(*), intent(in) :: content
+      character(:), allocatable :: text
+      integer :: k, first
+
+      if (index(content, "'") == 0) then
+         text = "'"//content//"'"
+         return
+      end if
+      text = "'"
+      first = 1
+      do k = 1, len(content)
+         if (content(k:k) /= "'") cycle
+         text = text//content(first:k)//"'"
+         first = k + 1
+      end do
+      text = text//content(first:)//"'"
+   end function requoted
+
+end module ek_namelist

@@ -1,0 +1,234 @@
+!> Builds the suspension and its load cases from a deck.
+!>
+!> Here numbers leave the deck's units and axes: everything behind this door is SI, x rearward.
+!> Every mistake of the deck is collected; the suspension is only complete when there is none.
+module ek_reader
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower, quoted
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_units, only: new_units
+   use ek_record, only: element, place_of
+   use ek_group, only: group_names, group_number, model_group, point_group, body_group, measure_group, joint_group, &
+      bushing_group, spring_group, word_length, note_length, record_head, did_you_mean
+   use ek_namelist, only: check_record
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, where_of, find_point, to_internal, choice
+   use ek_reader_joints, only: read_measures, read_joints
+   use ek_reader_elements, only: read_bushings, read_springs, read_loads
+   use ek_reader_wheels, only: read_wheels, read_cases
+   use ek_suspension, only: suspension_t, add_point, add_body, complete
+   use ek_case, only: case_t
+   implicit none(type, external)
+   private
+   public :: build_model
+
+   character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
+   character(*), parameter :: reserved_names(3) = [character(12) :: 'chassis', 'ground', 'wheel_travel']
+   ! heads of columns that are there anyway
+   character(*), parameter :: reserved_results(14) = [character(20) :: 'state', 'factor', 'converged', 'iterations', &
+      'constraint_error', 'toe', 'camber', 'steer', 'caster', 'kingpin_inclination', 'scrub_radius', 'caster_trail', &
+      'track_change', 'wheelbase_change']
+
+contains
+
+   !> The model and the cases of a deck, or all that is wrong with it, in the order of its lines.
+   subroutine build_model(deck, suspension, cases, error)
+      type(deck_t), intent(in) :: deck
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      type(error_t), allocatable, intent(out) :: error
+      type(draft_t) :: draft
+      integer :: k
+
+      draft%complaints = deck%complaints
+      allocate (draft%cards(deck%used))
+      do k = 1, deck%used
+         call check_names(deck, k, draft)
+      end do
+      call read_model(deck, draft, suspension)
+      call read_points(deck, draft)
+      call read_bodies(deck, draft, suspension)
+      call read_measures(deck, draft, suspension)
+      call read_joints(deck, draft, suspension)
+      call read_bushings(deck, draft, suspension)
+      call read_springs(deck, draft, suspension)
+      call read_wheels(deck, draft, suspension)
+      call read_loads(deck, draft, suspension)
+      call read_cases(deck, draft, cases)
+      call check_bodies(deck, draft)
+      if (draft%complaints%count() > 0) then
+         call fail(error, exit_deck, draft%complaints%text())
+         return
+      end if
+      do k = 1, deck%used
+         associate (card => draft%cards(k))
+            if (card%group == point_group) call add_point(suspension, trim(card%name), where_of(deck, k), card%at, card%is_used)
+         end associate
+      end do
+      call complete(suspension)
+   end subroutine build_model
+
+   !> Group, keys, counts and types of record k, and that its name is legal and new.
+   subroutine check_names(deck, k, draft)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      type(draft_t), intent(inout) :: draft
+      character(:), allocatable :: name, place
+      integer :: j, line
+
+      associate (card => draft%cards(k), record => deck%records(k))
+         card%group = group_number(record%group)
+         name = element(record, 'name', 1)
+         if (len(name) <= word_length) card%name = name
+         if (card%group == 0) then
+            call place_of(record, 0, deck%file, place, line)
+            if (record%group /= '') call draft%complaints%add(line, place//': there is no group &'//record%group// &
+               did_you_mean(record%group, group_names))
+            return
+         end if
+         call check_record(record, card%group, record_head(card%group, trim(card%name)), deck%file, draft%complaints, &
+            card%text, card%is_good)
+         if (card%name == '') return
+
+         if (verify(lower(name), letters//'0123456789_') > 0 .or. verify(lower(name(1:1)), letters) > 0) then
+            call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
+         else if (any(reserved_names == lower(name))) then
+            call complain(draft, deck, k, 'name', 'the name is reserved')
+         else if (has_results(card%group) .and. any(reserved_results == lower(name))) then
+            call complain(draft, deck, k, 'name', 'the name is reserved for a column of the results')
+         end if
+         if (card%group == model_group) return
+         do j = 1, k - 1
+            if (lower(draft%cards(j)%name) /= lower(card%name)) cycle
+            if (draft%cards(j)%group == card%group) then
+               call complain(draft, deck, k, 'name', 'the name is given twice, first in line '//str(deck%records(j)%line))
+               exit
+            else if (has_results(card%group) .and. has_results(draft%cards(j)%group)) then
+               call complain(draft, deck, k, 'name', 'the name is already that of the '// &
+                  trim(group_names(draft%cards(j)%group))//' in line '//str(deck%records(j)%line)// &
+                  ' (joints, bushings, springs and measures share their columns)')
+               exit
+            end if
+         end do
+      end associate
+   end subroutine check_names
+
+   !> Whether things of a group have columns in the results.
+   pure logical function has_results(group)
+      integer, intent(in) :: group
+      has_results = any(group == [joint_group, bushing_group, spring_group, measure_group])
+   end function has_results
+
+   !> &model: names, units, axes.
+   subroutine read_model(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, length, force, angle, axes, balance
+      character(note_length) :: title
+      namelist /model/ name, title, length, force, angle, axes, balance
+      character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
+         angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
+         balances(3) = [character(6) :: 'none', 'spring', 'all']
+      integer :: k, first, c, status
+
+      first = 0
+      suspension%name = ''
+      suspension%title = ''
+      suspension%balance = 'none'
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= model_group) cycle
+         if (first > 0) then
+            call complain(draft, deck, k, '', 'a second &model; the first is in line '//str(deck%records(first)%line))
+            cycle
+         end if
+         first = k
+         name = ''
+         title = ''
+         length = 'mm'
+         force = 'N'
+         angle = 'deg'
+         axes = 'x-rear'
+         balance = 'none'
+         read (draft%cards(k)%text, nml=model, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+         call choice(draft, deck, k, 'length', trim(length), lengths, c)
+         call choice(draft, deck, k, 'force', trim(force), forces, c)
+         call choice(draft, deck, k, 'angle', trim(angle), angles, c)
+         draft%units = new_units(lower(trim(length)), lower(trim(force)), lower(trim(angle)))
+         call choice(draft, deck, k, 'axes', trim(axes), frames, c)
+         draft%is_iso = c == 2
+         call choice(draft, deck, k, 'balance', trim(balance), balances, c)
+         suspension%name = trim(name)
+         suspension%title = trim(title)
+         suspension%balance = lower(trim(balance))
+         suspension%is_iso = draft%is_iso
+      end do
+      if (first == 0 .and. all(draft%cards%group > 0)) call draft%complaints%add(0, &
+         deck%file//': there is no &model (it gives name, units and axes)')
+   end subroutine read_model
+
+   !> &point: design positions, kept on the cards.
+   subroutine read_points(deck, draft)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      character(word_length) :: name
+      real(wp) :: at(3)
+      namelist /point/ name, at
+      integer :: k, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= point_group) cycle
+         name = ''
+         at = 0.0_wp
+         read (draft%cards(k)%text, nml=point, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+         draft%cards(k)%at = to_internal(draft, at)*draft%units%length
+      end do
+   end subroutine read_points
+
+   !> &body.
+   subroutine read_bodies(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, origin
+      namelist /body/ name, origin
+      real(wp) :: at(3)
+      logical :: is_found
+      integer :: k, bodies, status
+
+      bodies = 0
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= body_group) cycle
+         name = ''
+         origin = ''
+         read (draft%cards(k)%text, nml=body, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+         bodies = bodies + 1
+         draft%cards(k)%index = bodies
+         call find_point(draft, deck, k, 'origin', trim(origin), at, is_found)
+         if (is_found) then
+            call add_body(suspension, trim(name), where_of(deck, k), at)
+         else
+            call add_body(suspension, trim(name), where_of(deck, k))
+         end if
+      end do
+      if (bodies == 0 .and. all(draft%cards%group > 0)) call draft%complaints%add(0, &
+         deck%file//': there is no &body, so nothing can move')
+   end subroutine read_bodies
+
+   !> A body that nothing holds would float away: certainly a slip. Unless what holds it was refused.
+   subroutine check_bodies(deck, draft)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      integer :: k
+
+      if (any(draft%cards%group == 0)) return
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= body_group .or. draft%cards(k)%is_used .or. draft%cards(k)%name == '') cycle
+         call complain(draft, deck, k, '', 'no joint, bushing or spring is attached to it')
+      end do
+   end subroutine check_bodies
+
+end module ek_reader

@@ -1,0 +1,218 @@
+!> &bushing, &spring and &load: what carries and brings force.
+module ek_reader_elements
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower, quoted
+   use ek_rotation, only: cross, perpendicular, unit_vector
+   use ek_elastic, only: bushing_t
+   use ek_suspension, only: suspension_t, load_t, add_bushing, add_spring, add_load
+   use ek_group, only: bushing_group, spring_group, load_group, word_length
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_body, find_bodies, &
+      find_direction, to_internal, angle_between
+   implicit none(type, external)
+   private
+   public :: read_bushings, read_springs, read_loads
+
+   real(wp), parameter :: least_angle = 0.01_wp   !! deg between x and z, below which x has no direction of its own
+
+contains
+
+   !> &bushing. Rates: force/length and moment/angle, the moment being force × length.
+   subroutine read_bushings(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, bodies(2), at(2), z_axis(2), x_axis(2)
+      real(wp) :: z_vector(3), x_vector(3), kt(3), kr(3), preload_force(3), preload_moment(3)
+      namelist /bushing/ name, bodies, at, z_axis, z_vector, x_axis, x_vector, kt, kr, preload_force, preload_moment
+      type(bushing_t) :: element
+      real(wp) :: ends(3, 2)
+      logical :: has_bodies, is_found
+      integer :: k, j, number(2), status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= bushing_group) cycle
+         name = ''
+         bodies = ''
+         at = ''
+         z_axis = ''
+         x_axis = ''
+         z_vector = 0.0_wp
+         x_vector = 0.0_wp
+         kt = 0.0_wp
+         kr = 0.0_wp
+         preload_force = 0.0_wp
+         preload_moment = 0.0_wp
+         read (draft%cards(k)%text, nml=bushing, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call find_bodies(draft, deck, k, bodies, number, has_bodies)
+         call find_point(draft, deck, k, 'at', trim(at(1)), ends(:, 1), is_found)
+         ends(:, 2) = ends(:, 1)
+         if (at(2) /= '') call find_point(draft, deck, k, 'at', trim(at(2)), ends(:, 2), is_found)
+         if (.not. (has_key(deck, k, 'kt') .or. has_key(deck, k, 'kr'))) &
+            call complain(draft, deck, k, '', "'kt' is missing (and 'kr' as well)")
+         do j = 1, 3
+            call check_rate(draft, deck, k, 'kt', '('//str(j)//')', kt(j))
+            call check_rate(draft, deck, k, 'kr', '('//str(j)//')', kr(j))
+         end do
+         call find_axes(draft, deck, k, z_axis, z_vector, x_axis, x_vector, element%axes)
+         if (.not. draft%cards(k)%is_good) cycle
+
+         associate (units => draft%units)
+            element%name = trim(name)
+            element%where = where_of(deck, k)
+            element%body_i = number(1)
+            element%body_j = number(2)
+            element%arm_i = ends(:, 1)
+            element%arm_j = ends(:, 2)
+            element%kt = kt*(units%force/units%length)
+            element%kr = kr*(units%force*units%length/units%angle)
+            element%preload_force = preload_force*units%force
+            element%preload_moment = preload_moment*(units%force*units%length)
+         end associate
+         call add_bushing(suspension, element)
+      end do
+   end subroutine read_bushings
+
+   !> The marker axes: z leads, x is made perpendicular to it, y = z × x. One given alone, the other is
+   !> chosen by `perpendicular`; none given, they are the deck's global axes.
+   subroutine find_axes(draft, deck, k, z_axis, z_vector, x_axis, x_vector, axes)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: z_axis(2), x_axis(2)
+      real(wp), intent(in) :: z_vector(3), x_vector(3)
+      real(wp), intent(out) :: axes(3, 3)      !! columns x, y, z; x rearward
+      real(wp) :: x(3), z(3), angle
+      logical :: has_x, has_z, is_x, is_z
+
+      call find_direction(draft, deck, k, 'z_axis', z_axis, 'z_vector', z_vector, z, has_z, is_z)
+      call find_direction(draft, deck, k, 'x_axis', x_axis, 'x_vector', x_vector, x, has_x, is_x)
+      axes(:, 1) = to_internal(draft, [1.0_wp, 0.0_wp, 0.0_wp])
+      axes(:, 2) = to_internal(draft, [0.0_wp, 1.0_wp, 0.0_wp])
+      axes(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp]
+      if (.not. (has_x .or. has_z)) return
+      if ((has_x .and. .not. is_x) .or. (has_z .and. .not. is_z)) return
+      ! chosen in deck axes, so that the choice reads the same in the deck's own frame
+      if (.not. has_x) x = to_internal(draft, perpendicular(to_internal(draft, z)))
+      if (.not. has_z) z = to_internal(draft, perpendicular(to_internal(draft, x)))
+      angle = angle_between(x, z)
+      if (min(angle, 180.0_wp - angle) < least_angle) then
+         call complain(draft, deck, k, merge('x_axis  ', 'x_vector', has_key(deck, k, 'x_axis')), &
+            'the x axis must not be parallel to the z axis, found '// &
+            str(real(nint(angle*1e4_wp), wp)/1e4_wp)//' deg between them')
+         return
+      end if
+      axes(:, 1) = unit_vector(x - dot_product(x, z)*z)
+      axes(:, 2) = cross(z, axes(:, 1))
+      axes(:, 3) = z
+   end subroutine find_axes
+
+   !> &spring.
+   subroutine read_springs(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, bodies(2), at(2)
+      real(wp) :: rate, preload, free_length
+      namelist /spring/ name, bodies, at, rate, preload, free_length
+      real(wp) :: ends(3, 2)
+      logical :: has_bodies, is_there(2)
+      integer :: k, j, number(2), status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= spring_group) cycle
+         name = ''
+         bodies = ''
+         at = ''
+         rate = 0.0_wp
+         preload = 0.0_wp
+         free_length = 1.0_wp
+         read (draft%cards(k)%text, nml=spring, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call find_bodies(draft, deck, k, bodies, number, has_bodies)
+         do j = 1, 2
+            call find_point(draft, deck, k, 'at', trim(at(j)), ends(:, j), is_there(j))
+         end do
+         if (all(is_there)) then
+            if (.not. norm2(ends(:, 2) - ends(:, 1)) > 0.0_wp) &
+               call complain(draft, deck, k, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+         end if
+         call check_rate(draft, deck, k, 'rate', '', rate)
+         if (.not. free_length > 0.0_wp) &
+            call complain(draft, deck, k, 'free_length', 'free_length must be above 0, found '//str(free_length))
+         if (has_key(deck, k, 'preload') .and. has_key(deck, k, 'free_length')) &
+            call complain(draft, deck, k, 'free_length', 'give either preload or free_length, not both')
+         if (.not. draft%cards(k)%is_good) cycle
+
+         associate (units => draft%units)
+            if (has_key(deck, k, 'free_length')) then
+               call add_spring(suspension, trim(name), where_of(deck, k), number(1), number(2), ends(:, 1), ends(:, 2), &
+                  rate*(units%force/units%length), free_length=free_length*units%length)
+            else
+               call add_spring(suspension, trim(name), where_of(deck, k), number(1), number(2), ends(:, 1), ends(:, 2), &
+                  rate*(units%force/units%length), preload=preload*units%force)
+            end if
+         end associate
+      end do
+   end subroutine read_springs
+
+   !> &load: force and moment in global axes.
+   subroutine read_loads(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, body, at, factor
+      real(wp) :: force(3), moment(3)
+      logical :: follows
+      namelist /load/ name, body, at, force, moment, follows, factor
+      type(load_t) :: element
+      logical :: has_body, is_found
+      integer :: k, c, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= load_group) cycle
+         name = ''
+         body = ''
+         at = ''
+         factor = 'constant'
+         force = 0.0_wp
+         moment = 0.0_wp
+         follows = .false.
+         read (draft%cards(k)%text, nml=load, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call find_body(draft, deck, k, 'body', trim(body), element%body, has_body)
+         if (has_body .and. element%body == 0) &
+            call complain(draft, deck, k, 'body', 'body must be one that moves, found '//quoted(body))
+         call find_point(draft, deck, k, 'at', trim(at), element%arm, is_found)
+         call choice(draft, deck, k, 'factor', trim(factor), [character(8) :: 'constant', 'case'], c)
+         if (.not. (has_key(deck, k, 'force') .or. has_key(deck, k, 'moment'))) &
+            call complain(draft, deck, k, '', "'force' is missing (and 'moment' as well)")
+         element%is_case = c /= 1
+         ! kept also for a refused load: a case may ask whether it is scaled
+         draft%cards(k)%is_used = element%is_case
+         if (.not. draft%cards(k)%is_good) cycle
+
+         element%name = trim(name)
+         element%where = where_of(deck, k)
+         element%force = to_internal(draft, force)*draft%units%force
+         element%moment = to_internal(draft, moment)*(draft%units%force*draft%units%length)
+         element%follows = follows
+         call add_load(suspension, element)
+      end do
+   end subroutine read_loads
+
+   !> A rate is never negative.
+   subroutine check_rate(draft, deck, k, key, element, rate)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: key, element
+      real(wp), intent(in) :: rate
+      if (rate < 0.0_wp) call complain(draft, deck, k, key, key//element//' must be 0 or more, found '//str(rate))
+   end subroutine check_rate
+
+end module ek_reader_elements

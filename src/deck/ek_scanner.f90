@@ -1,0 +1,423 @@
+!> From the text of a deck to its records.
+!>
+!> The compiler's own namelist read passes misspelt groups, text between groups, keys given twice
+!> and records without an end in silence. So this scanner owns groups, keys, subscripts, repeat
+!> counts and line numbers; it goes on after every mistake and reports all of them.
+!>
+!>     &group key = value, value  key(2) = 3*0.0 /     ! a comment
+!>
+!> Values are separated by commas, blanks or line ends; strings stand in ' or ", doubled inside.
+module ek_scanner
+   use ek_text, only: str, lower, quoted
+   use ek_record, only: entry_t, record_t, complaints_t, add_value, add_entry, add_record, entry_index
+   implicit none(type, external)
+   private
+   public :: scan_text, scan_values
+
+   integer, parameter :: most_repeats = 1000   !! n in n*value; no key takes that many values
+   character, parameter :: tab = achar(9), newline = achar(10), return = achar(13)
+   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
+
+   !> Where the scanner stands.
+   type :: cursor_t
+      integer :: at = 1, line = 1
+   end type cursor_t
+
+contains
+
+   !> All records of a text. Mistakes go to `complaints`, as `file:line: what`.
+   subroutine scan_text(text, file, records, used, complaints)
+      character(*), intent(in) :: text
+      character(*), intent(in) :: file                        !! name for messages
+      type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
+      integer, intent(out) :: used
+      type(complaints_t), intent(inout) :: complaints
+      type(record_t) :: record
+      type(cursor_t) :: cursor
+      character(:), allocatable :: word
+      integer :: last_stray
+
+      allocate (records(32))
+      used = 0
+      last_stray = 0
+      if (len(text) >= 3) then
+         if (text(1:3) == byte_order_mark) cursor%at = 4
+      end if
+      do
+         call skip_blanks(text, cursor)
+         if (cursor%at > len(text)) exit
+         if (text(cursor%at:cursor%at) == '&') then
+            record%line = cursor%line
+            cursor%at = cursor%at + 1
+            call take_word(text, cursor, word)
+            word = lower(word)
+            if (word == 'end') then
+               call complain(complaints, file, record%line, "'&end' without a group before it")
+               cycle
+            else if (word == '') then
+               call complain(complaints, file, record%line, "'&' without the name of a group")
+            end if
+            record%group = word
+            call scan_record(text, file, cursor, record, complaints)
+            call add_record(records, used, record)
+         else
+            call take_line(text, cursor, word)
+            ! one message a line is enough
+            if (cursor%line /= last_stray) call complain(complaints, file, cursor%line, &
+               'text outside any group: '//quoted(word)//" (a group begins with &, ends with /, a comment begins with !)")
+            last_stray = cursor%line
+         end if
+      end do
+   end subroutine scan_text
+
+   !> The values of one key, as they stand after the = sign (for --set).
+   subroutine scan_values(text, entry, message)
+      character(*), intent(in) :: text
+      type(entry_t), intent(inout) :: entry               !! values are appended
+      character(:), allocatable, intent(out) :: message   !! '' if all is well
+      type(complaints_t) :: complaints
+      type(cursor_t) :: cursor
+      logical :: after_comma
+
+      message = ''
+      after_comma = .true.
+      do
+         call skip_blanks(text, cursor)
+         if (cursor%at > len(text)) exit
+         if (index('/&=()', text(cursor%at:cursor%at)) > 0) then
+            message = 'unexpected '//quoted(text(cursor%at:cursor%at))
+            return
+         end if
+         call scan_value(text, '', cursor, entry, after_comma, complaints)
+      end do
+      if (complaints%count() > 0) message = 'the string has no closing quote, or the repeat count is wrong'
+      if (entry%used == 0) message = 'no value'
+   end subroutine scan_values
+
+   !> One group, from behind its name to its end.
+   subroutine scan_record(text, file, cursor, record, complaints)
+      character(*), intent(in) :: text, file
+      type(cursor_t), intent(inout) :: cursor
+      type(record_t), intent(inout) :: record
+      type(complaints_t), intent(inout) :: complaints
+      type(entry_t) :: entry, lost
+      type(cursor_t) :: start
+      character(:), allocatable :: word
+      logical :: after_comma, is_open
+      character :: c
+
+      is_open = .false.      ! whether `entry` is being filled
+      after_comma = .false.
+      do
+         call skip_blanks(text, cursor)
+         if (cursor%at > len(text)) then
+            call complain(complaints, file, record%line, '&'//record%group//" is not ended by '/'")
+            exit
+         end if
+         c = text(cursor%at:cursor%at)
+         if (c == '/') then
+            cursor%at = cursor%at + 1
+            exit
+         else if (c == '&') then
+            start = cursor
+            cursor%at = cursor%at + 1
+            call take_word(text, cursor, word)
+            if (lower(word) == 'end') exit
+            cursor = start
+            call complain(complaints, file, record%line, '&'//record%group// &
+               " is not ended by '/' before the next group in line "//str(cursor%line))
+            exit
+         end if
+
+         start = cursor
+         if (is_word_begin(c)) then
+            if (key_follows(text, cursor)) then
+               if (is_open) call close_entry()
+               cursor = start
+               call open_entry()
+               cycle
+            end if
+            cursor = start
+         end if
+
+         if (.not. is_open) then
+            lost%used = 0
+            after_comma = .true.
+            start = cursor
+            call scan_value(text, file, cursor, lost, after_comma, complaints)
+            call complain(complaints, file, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
+               " where a key and '=' should be")
+         else if (c == '(') then
+            call take_subscript(text, cursor, word)
+            call add_value(entry, '('//word//')', .false., .false.)
+         else if (c == '=' .or. c == ')') then
+            call complain(complaints, file, cursor%line, '&'//record%group//': unexpected '//quoted(c)// &
+               ' after '//quoted(entry%key))
+            cursor%at = cursor%at + 1
+         else
+            call scan_value(text, file, cursor, entry, after_comma, complaints)
+         end if
+      end do
+      if (is_open) call close_entry()
+
+   contains
+
+      subroutine open_entry()
+         character(:), allocatable :: subscript
+         integer :: status
+
+         entry%line = cursor%line
+         call take_word(text, cursor, word)
+         entry%key = lower(word)
+         entry%first = 1
+         call skip_blanks(text, cursor)
+         if (text(cursor%at:cursor%at) == '(') then
+            call take_subscript(text, cursor, subscript)
+            status = 1
+            if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
+               read (subscript, *, iostat=status) entry%first
+            if (status /= 0 .or. entry%first < 1) then
+               call complain(complaints, file, entry%line, '&'//record%group//': the subscript of '// &
+                  quoted(entry%key)//' must be one positive whole number, found ('//subscript//')')
+               entry%first = 1
+            end if
+            call skip_blanks(text, cursor)
+         end if
+         cursor%at = cursor%at + 1      ! the = sign
+         is_open = .true.
+         after_comma = .true.           ! a comma right here leaves the first value empty
+      end subroutine open_entry
+
+      subroutine close_entry()
+         integer :: k, before
+
+         is_open = .false.
+         if (entry%used == 0) then
+            call complain(complaints, file, entry%line, '&'//record%group//': '//quoted(entry%key)//' has no value')
+         end if
+         before = 0
+         do k = 1, max(entry%used, 1)
+            if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
+         end do
+         if (before > 0) then
+            call complain(complaints, file, entry%line, '&'//record%group//': '//quoted(entry%key)// &
+               ' is given twice, first in line '//str(record%entries(before)%line))
+            entry%used = 0
+            if (allocated(entry%values)) deallocate (entry%values)
+         else
+            call add_entry(record, entry)
+         end if
+      end subroutine close_entry
+
+   end subroutine scan_record
+
+   !> One value or comma. Two commas in a row, or n* alone, leave values empty.
+   subroutine scan_value(text, file, cursor, entry, after_comma, complaints)
+      character(*), intent(in) :: text, file
+      type(cursor_t), intent(inout) :: cursor
+      type(entry_t), intent(inout) :: entry
+      logical, intent(inout) :: after_comma    !! a comma here would end an empty value
+      type(complaints_t), intent(inout) :: complaints
+      character(:), allocatable :: word
+      logical :: is_string
+      integer :: repeats, star, k
+
+      if (text(cursor%at:cursor%at) == ',') then
+         if (after_comma) call add_value(entry, '', .false., .true.)
+         after_comma = .true.
+         cursor%at = cursor%at + 1
+         return
+      end if
+      after_comma = .false.
+      repeats = 1
+      is_string = is_quote(text(cursor%at:cursor%at))
+      if (is_string) then
+         call take_string(word)
+      else
+         call take_anything(text, cursor, word)
+         star = index(word, '*')
+         if (star > 1) then
+            if (verify(word(:star - 1), '0123456789') == 0) then
+               repeats = 0
+               if (star < 9) read (word(:star - 1), *) repeats
+               if (repeats < 1 .or. repeats > most_repeats) then
+                  call complain(complaints, file, cursor%line, 'the repeat count of '//quoted(word)// &
+                     ' must be 1 to '//str(most_repeats))
+                  repeats = 1
+               end if
+               word = word(star + 1:)
+               if (word == '' .and. cursor%at <= len(text)) then
+                  is_string = is_quote(text(cursor%at:cursor%at))
+                  if (is_string) call take_string(word)
+               end if
+            end if
+         end if
+      end if
+      do k = 1, repeats
+         call add_value(entry, word, is_string, .not. is_string .and. word == '')
+      end do
+
+   contains
+
+      !> A string from its quote to the next; it must end on its line.
+      subroutine take_string(content)
+         character(:), allocatable, intent(out) :: content
+         character :: quote
+         integer :: k, first
+
+         quote = text(cursor%at:cursor%at)
+         content = ''
+         first = cursor%at + 1
+         k = first
+         do
+            if (k > len(text)) exit
+            if (text(k:k) == newline .or. text(k:k) == return) exit
+            if (text(k:k) == quote) then
+               content = content//text(first:k - 1)
+               cursor%at = k + 1
+               if (k == len(text)) return
+               if (text(k + 1:k + 1) /= quote) return
+               k = k + 1         ! a doubled quote stands for one
+               first = k
+            end if
+            k = k + 1
+         end do
+         call complain(complaints, file, cursor%line, 'the string '//quote//content//text(first:k - 1)// &
+            ' has no closing quote on its line')
+         ! go on behind its first word: most strings are names, and the rest of the line is then read as meant
+         first = cursor%at + 1
+         cursor%at = first - 1 + scan(text(first:k - 1)//' ', ' ,/!'//tab)
+         content = text(first:cursor%at - 1)
+      end subroutine take_string
+
+   end subroutine scan_value
+
+   !> Skips blanks, line ends and comments, counting lines.
+   subroutine skip_blanks(text, cursor)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+
+      do while (cursor%at <= len(text))
+         select case (text(cursor%at:cursor%at))
+         case (newline)
+            cursor%line = cursor%line + 1
+         case (' ', tab, return)
+            continue
+         case ('!')
+            do while (cursor%at < len(text))
+               if (text(cursor%at + 1:cursor%at + 1) == newline) exit
+               cursor%at = cursor%at + 1
+            end do
+         case default
+            return
+         end select
+         cursor%at = cursor%at + 1
+      end do
+   end subroutine skip_blanks
+
+   !> Whether a key stands here: a word, perhaps a subscript, and an = sign.
+   logical function key_follows(text, cursor)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(in) :: cursor
+      type(cursor_t) :: ahead
+      character(:), allocatable :: skipped
+
+      key_follows = .false.
+      ahead = cursor
+      call take_word(text, ahead, skipped)
+      call skip_blanks(text, ahead)
+      if (ahead%at > len(text)) return
+      if (text(ahead%at:ahead%at) == '(') then
+         call take_subscript(text, ahead, skipped)
+         call skip_blanks(text, ahead)
+         if (ahead%at > len(text)) return
+      end if
+      key_follows = text(ahead%at:ahead%at) == '='
+   end function key_follows
+
+   !> What stands between ( and ), blanks removed; the cursor ends behind the ).
+   subroutine take_subscript(text, cursor, content)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      character(:), allocatable, intent(out) :: content
+      character :: c
+
+      content = ''
+      do
+         cursor%at = cursor%at + 1
+         if (cursor%at > len(text)) return
+         c = text(cursor%at:cursor%at)
+         if (c == ')') exit
+         if (c == newline .or. c == '=' .or. c == '/') return
+         if (c /= ' ' .and. c /= tab) content = content//c
+      end do
+      cursor%at = cursor%at + 1
+   end subroutine take_subscript
+
+   !> Letters, digits, _ and % from here on.
+   subroutine take_word(text, cursor, word)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      character(:), allocatable, intent(out) :: word
+      integer :: first
+
+      first = cursor%at
+      do while (cursor%at <= len(text))
+         if (.not. (is_word_begin(text(cursor%at:cursor%at)) .or. &
+            index('0123456789%', text(cursor%at:cursor%at)) > 0)) exit
+         cursor%at = cursor%at + 1
+      end do
+      word = text(first:cursor%at - 1)
+   end subroutine take_word
+
+   !> Anything up to a separator, at least one character.
+   subroutine take_anything(text, cursor, word)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      character(:), allocatable, intent(out) :: word
+      integer :: first
+
+      first = cursor%at
+      cursor%at = cursor%at + 1
+      do while (cursor%at <= len(text))
+         if (index(' ,/=!()&''"'//tab//newline//return, text(cursor%at:cursor%at)) > 0) exit
+         cursor%at = cursor%at + 1
+      end do
+      word = text(first:cursor%at - 1)
+   end subroutine take_anything
+
+   !> The rest of a line that belongs to no group, up to the next & or comment.
+   subroutine take_line(text, cursor, content)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      character(:), allocatable, intent(out) :: content
+      integer, parameter :: most = 40   ! enough to recognise it
+      integer :: first
+
+      first = cursor%at
+      do while (cursor%at <= len(text))
+         if (index('&!'//newline//return, text(cursor%at:cursor%at)) > 0) exit
+         cursor%at = cursor%at + 1
+      end do
+      content = trim(text(first:min(cursor%at - 1, first + most)))
+   end subroutine take_line
+
+   pure logical function is_word_begin(c)
+      character, intent(in) :: c
+      is_word_begin = (c >= 'a' .and. c <= 'z') .or. (c >= 'A' .and. c <= 'Z') .or. c == '_'
+   end function is_word_begin
+
+   pure logical function is_quote(c)
+      character, intent(in) :: c
+      is_quote = c == "'" .or. c == '"'
+   end function is_quote
+
+   subroutine complain(complaints, file, line, what)
+      type(complaints_t), intent(inout) :: complaints
+      character(*), intent(in) :: file, what
+      integer, intent(in) :: line
+
+      call complaints%add(line, file//':'//str(line)//': '//what)
+   end subroutine complain
+
+end module ek_scanner

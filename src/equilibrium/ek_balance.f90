@@ -1,0 +1,248 @@
+!> Preloads that make the design position the equilibrium under the constant loads.
+!>
+!> `spring`: the spring preloads with which the wheels settle at their design height.
+!> `all`: spring and bushing preloads with which every body stays exactly at design; among all that do,
+!> the bushing preloads of least complementary energy Σ f²/2k.
+module ek_balance
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_model, exit_convergence
+   use ek_text, only: str
+   use ek_measure, only: view_t, look, rotated
+   use ek_elastic, only: set_bushing_axes
+   use ek_rotation, only: cross
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t, design_state
+   use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
+   use ek_path, only: settle, failure_t
+   use ek_lapack, only: dgelsd
+   implicit none(type, external)
+   private
+   public :: balance
+
+contains
+
+   !> Sets the preloads as suspension%balance says ('none': nothing is done).
+   subroutine balance(suspension, tolerance, error)
+      type(suspension_t), intent(inout) :: suspension
+      real(wp), intent(in) :: tolerance                    !! m
+      type(error_t), allocatable, intent(out) :: error     !! exit_model: it cannot be done
+
+      select case (suspension%balance)
+      case ('spring')
+         call balance_springs(suspension, tolerance, error)
+      case ('all')
+         call balance_all(suspension, error)
+      end select
+   end subroutine balance
+
+   !> Newton's method on the wheels' settled heights; the change of least norm where springs are many.
+   subroutine balance_springs(suspension, tolerance, error)
+      type(suspension_t), intent(inout) :: suspension
+      real(wp), intent(in) :: tolerance
+      type(error_t), allocatable, intent(out) :: error
+      type(kkt_t) :: kkt
+      type(state_t) :: state
+      type(failure_t) :: failure
+      type(view_t) :: view
+      real(wp) :: height(size(suspension%wheels)), slope(size(suspension%wheels), size(suspension%springs))
+      real(wp) :: change(size(suspension%springs))
+      integer :: s, w, iteration, at
+
+      if (size(suspension%springs) == 0 .or. size(suspension%wheels) == 0) then
+         call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
+         return
+      end if
+      kkt = new_kkt(suspension)
+      do iteration = 1, 30
+         state = design_state(suspension)
+         failure = failure_t()
+         call settle(suspension, tolerance, state, kkt, failure)
+         if (failure%state > 0) then
+            call fail(error, exit_convergence, "balance = 'spring': the suspension does not settle")
+            return
+         end if
+         do w = 1, size(height)
+            associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
+               height(w) = pose%r(3) + dot_product(pose%a(3, :), wheel%centre) &
+                  - suspension%bodies(wheel%body)%origin(3) - wheel%centre(3)
+            end associate
+         end do
+         if (maxval(abs(height)) <= 10.0_wp*tolerance) return
+         call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+         call factorise(kkt)
+         do s = 1, size(change)
+            associate (m => suspension%springs(s)%measure)
+               call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+               kkt%rhs = 0.0_wp     ! a unit of preload pushes the ends apart
+               at = 6*(m%body_i - 1)
+               if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(1:6)
+               at = 6*(m%body_j - 1)
+               if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(7:12)
+            end associate
+            call solve(kkt)
+            do w = 1, size(height)
+               associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
+                  at = 6*(wheel%body - 1)
+                  slope(w, s) = kkt%rhs(at + 3) + dot_product([0.0_wp, 0.0_wp, 1.0_wp], &
+                     cross(kkt%rhs(at + 4:at + 6), rotated(pose%a, wheel%centre)))
+               end associate
+            end do
+         end do
+         call least_norm(slope, -height, change)
+         do s = 1, size(change)
+            suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
+         end do
+      end do
+      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; off by "// &
+         str(maxval(abs(height))*1000.0_wp, 4)//' mm')
+   end subroutine balance_springs
+
+   !> One linear problem: min Σ f²/2k subject to Σ preloads + Φqᵀλ in balance with the loads at design.
+   subroutine balance_all(suspension, error)
+      type(suspension_t), intent(inout) :: suspension
+      type(error_t), allocatable, intent(out) :: error
+      type(kkt_t) :: kkt
+      type(state_t) :: state
+      type(view_t) :: view
+      real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), projector(:, :)
+      real(wp), allocatable :: root(:), column(:)
+      integer :: b, k, s, at, t, nx, ny
+
+      do s = 1, size(suspension%springs)
+         suspension%springs(s)%preload = 0.0_wp
+      end do
+      do b = 1, size(suspension%bushings)
+         suspension%bushings(b)%preload_force = 0.0_wp
+         suspension%bushings(b)%preload_moment = 0.0_wp
+         call set_bushing_axes(suspension%bushings(b))
+      end do
+      kkt = new_kkt(suspension)
+      state = design_state(suspension)
+      call assemble(suspension, state, demand_t(), residual_only, kkt)
+      allocate (load(kkt%nq), remainder(kkt%nq))
+      load = kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
+      nx = 6*size(suspension%bushings)
+      ny = size(suspension%springs) + kkt%nc
+      allocate (weighted(kkt%nq, nx), free(kkt%nq, ny), root(nx), column(kkt%nq), source=0.0_wp)
+      do b = 1, size(suspension%bushings)
+         do k = 1, 6
+            call bushing_column(suspension, b, k, column)
+            root(6*(b - 1) + k) = sqrt(merge(suspension%bushings(b)%kt(min(k, 3)), &
+               suspension%bushings(b)%kr(max(k - 3, 1)), k <= 3))
+            weighted(:, 6*(b - 1) + k) = column*root(6*(b - 1) + k)*kkt%scale(:kkt%nq)
+         end do
+      end do
+      do s = 1, size(suspension%springs)
+         associate (m => suspension%springs(s)%measure)
+            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            at = 6*(m%body_i - 1)
+            if (at >= 0) free(at + 1:at + 6, s) = view%gradient(1:6)
+            at = 6*(m%body_j - 1)
+            if (at >= 0) free(at + 1:at + 6, s) = view%gradient(7:12)
+         end associate
+      end do
+      do k = 1, kkt%nc
+         do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
+            associate (m => suspension%terms(t)%measure, c => size(suspension%springs) + k)
+               at = 6*(m%body_i - 1)
+               if (at >= 0) free(at + 1:at + 6, c) = free(at + 1:at + 6, c) - kkt%gradients(1:6, t)
+               at = 6*(m%body_j - 1)
+               if (at >= 0) free(at + 1:at + 6, c) = free(at + 1:at + 6, c) - kkt%gradients(7:12, t)
+            end associate
+         end do
+      end do
+      do k = 1, ny
+         free(:, k) = free(:, k)*kkt%scale(:kkt%nq)
+      end do
+
+      ! what springs and joints can take for nothing is projected out; the rest is the bushings'
+      allocate (x(nx), y(ny), projector(kkt%nq, kkt%nq))
+      call complement(free, projector)
+      call least_norm(matmul(projector, weighted), -matmul(projector, load), x)
+      remainder = -load - matmul(weighted, x)
+      call least_norm(free, remainder, y)
+      remainder = remainder - matmul(free, y)
+      if (norm2(remainder) > 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
+         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
+         return
+      end if
+      do s = 1, size(suspension%springs)
+         suspension%springs(s)%preload = y(s)
+      end do
+      do b = 1, size(suspension%bushings)
+         suspension%bushings(b)%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
+         suspension%bushings(b)%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
+         call set_bushing_axes(suspension%bushings(b))
+      end do
+   end subroutine balance_all
+
+   !> What a unit of preload component k of bushing b does to the bodies at design.
+   subroutine bushing_column(suspension, b, k, column)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: b, k
+      real(wp), intent(out) :: column(:)
+      real(wp) :: axis(3)
+      integer :: at
+
+      column = 0.0_wp
+      associate (bushing => suspension%bushings(b))
+         axis = bushing%axes(:, merge(k, k - 3, k <= 3))
+         at = 6*(bushing%body_j - 1)
+         if (at >= 0) call put(at, bushing%arm_j, 1.0_wp)
+         at = 6*(bushing%body_i - 1)
+         if (at >= 0) call put(at, bushing%arm_i + bushing%gap0, -1.0_wp)
+      end associate
+
+   contains
+
+      subroutine put(at, arm, sign_of)
+         integer, intent(in) :: at
+         real(wp), intent(in) :: arm(3), sign_of
+         if (k <= 3) then
+            column(at + 1:at + 3) = sign_of*axis
+            column(at + 4:at + 6) = sign_of*cross(arm, axis)
+         else
+            column(at + 4:at + 6) = sign_of*axis
+         end if
+      end subroutine put
+
+   end subroutine bushing_column
+
+   !> The projector on the complement of the columns of a matrix: I − A A⁺, column by column.
+   subroutine complement(a, projector)
+      real(wp), intent(in) :: a(:, :)
+      real(wp), intent(out) :: projector(:, :)
+      real(wp) :: unit(size(a, 1)), x(size(a, 2))
+      integer :: k
+
+      do k = 1, size(a, 1)
+         unit = 0.0_wp
+         unit(k) = 1.0_wp
+         call least_norm(a, unit, x)
+         projector(:, k) = unit - matmul(a, x)
+      end do
+   end subroutine complement
+
+   !> Least squares of least norm (LAPACK dgelsd), singular values below 1e-11 dropped.
+   subroutine least_norm(a, b, x)
+      real(wp), intent(in) :: a(:, :), b(:)
+      real(wp), intent(out) :: x(:)
+      real(wp) :: copy(size(a, 1), size(a, 2)), rhs(max(size(a, 1), size(a, 2)))
+      real(wp) :: singular(max(1, min(size(a, 1), size(a, 2)))), query(1)
+      real(wp), allocatable :: work(:)
+      integer :: rank, info
+      integer :: iwork(max(1, 20*min(size(a, 1), size(a, 2))*12))
+
+      x = 0.0_wp
+      if (size(a) == 0) return
+      copy = a
+      rhs = 0.0_wp
+      rhs(:size(b)) = b
+      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, 1.0e-11_wp, rank, query, -1, iwork, info)
+      allocate (work(int(query(1))))
+      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, 1.0e-11_wp, rank, work, size(work), &
+         iwork, info)
+      x = rhs(:size(x))
+   end subroutine least_norm
+
+end module ek_balance

@@ -1,0 +1,379 @@
+!> The one dense system of an increment: assembly and its factorisation by LAPACK.
+!>
+!>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
+!>     [ Φq  0  ] [Δλ] = [ c − Φ(q)            ]           FORMULATION.md 5, method 2
+!>
+!> T is the Hessian of the energy along screw motions (see `move_as_screw` in ek_state): the increment of a
+!> body is then the same motion whatever point was made its reference.
+!> Unknowns: 6 a body [Δr Δπ], then the rows of Φ. Only the lower triangle is kept. The matrix is
+!> scaled symmetrically, D S D, with powers of two (exact): lengths by a characteristic length,
+!> forces by a characteristic stiffness, so that all its blocks are of the order of one.
+module ek_kkt
+   use ek_kinds, only: wp
+   use ek_measure, only: pose_t, view_t, look, add_measure_hessian, add_diagonal_block, add_block, &
+      add_link_stiffness, s_matrix, rotated, axis_axis, rotation
+   use ek_elastic, only: bushing_view_t, spring_tension, add_spring_tangent, look_bushing, bushing_pull, &
+      add_bushing_tangent, add_bushing_material
+   use ek_rotation, only: cross, skew
+   use ek_suspension, only: suspension_t, load_t
+   use ek_state, only: state_t, demand_t
+   use ek_lapack, only: dsytrf, dsytrs, dsycon
+   implicit none(type, external)
+   private
+   public :: kkt_t, new_kkt, assemble, factorise, solve, condition, wrench
+   public :: whole_tangent, material_only, residual_only
+
+   integer, parameter :: whole_tangent = 1   !! T with geometric stiffness: corrected, equilibrium
+   integer, parameter :: material_only = 2   !! K = −(19) of the paper: recursive
+   integer, parameter :: residual_only = 3   !! right-hand side alone
+
+   !> The system and its work space, allocated once for a model.
+   type :: kkt_t
+      integer :: nq = 0, nc = 0, n = 0       !! unknowns, rows, both
+      real(wp), allocatable :: matrix(:, :)  !! lower triangle; after `factorise` its factors
+      real(wp), allocatable :: rhs(:)        !! [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
+      real(wp), allocatable :: gradients(:, :)   !! (12, term): coefficient × gradient of each term
+      real(wp), allocatable :: values(:)     !! Φ(q) − c of each row, without the driver's sign flip
+      real(wp), allocatable :: scale(:)      !! D
+      real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for relief
+      integer, allocatable :: pivots(:), iwork(:)
+      real(wp), allocatable :: work(:)
+      real(wp) :: length = 1.0_wp            !! characteristic length [m]
+      real(wp) :: stiffness = 1.0_wp         !! characteristic stiffness [N/m]
+      real(wp) :: norm = 0.0_wp              !! 1-norm of the last matrix that `condition` was asked of
+      integer :: negative = 0                !! negative eigenvalues of the last matrix
+      real(wp) :: pivot_ratio = 1.0_wp       !! least over largest pivot of the last matrix: a cheap condition estimate
+      logical :: is_singular = .false.       !! the last factorisation met a zero pivot
+   end type kkt_t
+
+contains
+
+   !> Work space for a model, with its scales.
+   function new_kkt(suspension) result(kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t) :: kkt
+      integer :: k
+
+      kkt%nq = suspension%unknowns()
+      kkt%nc = suspension%constraints()
+      kkt%n = kkt%nq + kkt%nc
+      allocate (kkt%matrix(kkt%n, kkt%n), kkt%rhs(kkt%n), kkt%scale(kkt%n), kkt%values(kkt%nc), source=0.0_wp)
+      allocate (kkt%gradients(12, size(suspension%terms)), kkt%imbalance(kkt%nq), source=0.0_wp)
+      allocate (kkt%pivots(kkt%n), kkt%iwork(kkt%n), source=0)
+      allocate (kkt%work(64*max(kkt%n, 1)), source=0.0_wp)   ! 64 is LAPACK's block size of dsytrf
+      call characteristic(suspension, kkt%length, kkt%stiffness)
+      do k = 1, kkt%nq
+         kkt%scale(k) = power_of_two(1.0_wp/sqrt(kkt%stiffness))
+         if (mod(k - 1, 6) >= 3) kkt%scale(k) = power_of_two(1.0_wp/(kkt%length*sqrt(kkt%stiffness)))
+      end do
+      do k = 1, kkt%nc
+         kkt%scale(kkt%nq + k) = power_of_two(sqrt(kkt%stiffness))
+         select case (suspension%terms(suspension%rows(k)%first)%measure%kind)
+         case (axis_axis, rotation)
+            kkt%scale(kkt%nq + k) = power_of_two(sqrt(kkt%stiffness)*kkt%length)
+         end select
+      end do
+   end function new_kkt
+
+   !> The size of the mechanism (mean distance of its attachment points from the reference points)
+   !> and the geometric mean of its stiffnesses.
+   subroutine characteristic(suspension, length, stiffness)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(out) :: length, stiffness
+      real(wp) :: sum_log, least
+      integer :: k, count, axis
+
+      least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
+      length = 0.0_wp
+      count = 0
+      do k = 1, size(suspension%terms)
+         associate (m => suspension%terms(k)%measure)
+            if (m%body_i > 0) call include(m%arm_i)
+            if (m%body_j > 0) call include(m%arm_j)
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         associate (b => suspension%bushings(k))
+            if (b%body_i > 0) call include(b%arm_i)
+            if (b%body_j > 0) call include(b%arm_j)
+         end associate
+      end do
+      length = max(length/max(count, 1), least)
+
+      sum_log = 0.0_wp
+      count = 0
+      do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%rate <= 0.0_wp) cycle
+         sum_log = sum_log + log(suspension%springs(k)%rate)
+         count = count + 1
+      end do
+      do k = 1, size(suspension%bushings)
+         do axis = 1, 3
+            if (suspension%bushings(k)%kt(axis) <= 0.0_wp) cycle
+            sum_log = sum_log + log(suspension%bushings(k)%kt(axis))
+            count = count + 1
+         end do
+      end do
+      stiffness = exp(sum_log/max(count, 1))
+
+   contains
+
+      subroutine include(arm)
+         real(wp), intent(in) :: arm(3)
+         length = length + norm2(arm)
+         count = count + 1
+      end subroutine include
+
+   end subroutine characteristic
+
+   !> The power of two at or below a positive number.
+   pure real(wp) function power_of_two(x)
+      real(wp), intent(in) :: x
+      power_of_two = scale(1.0_wp, exponent(x) - 1)
+   end function power_of_two
+
+   !> Force and moment of a load about the body's reference point, global axes; and its arm.
+   pure subroutine wrench(load, pose, force, moment, arm)
+      type(load_t), intent(in) :: load
+      type(pose_t), intent(in) :: pose
+      real(wp), intent(out) :: force(3), moment(3), arm(3)
+
+      arm = rotated(pose%a, load%arm)
+      if (load%follows) then
+         force = rotated(pose%a, load%force)
+         moment = rotated(pose%a, load%moment)
+      else
+         force = load%force
+         moment = load%moment
+      end if
+      moment = moment + cross(arm, force)
+   end subroutine wrench
+
+   !> Matrix (by `mode`) and right-hand side at a state. λ enters T and the residual.
+   !>
+   !> For material_only the residual is complete too; the recursion replaces it by its own.
+   pure subroutine assemble(suspension, state, demand, mode, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand
+      integer, intent(in) :: mode
+      type(kkt_t), intent(inout) :: kkt
+
+      call assemble_into(suspension, state%poses, state%reaction, demand, mode, kkt%nq, kkt%n, kkt%gradients, &
+         kkt%values, kkt%matrix, kkt%rhs)
+      if (demand%relief > 0.0_wp) kkt%rhs(:kkt%nq) = kkt%rhs(:kkt%nq) - demand%relief*kkt%imbalance
+   end subroutine assemble
+
+   !> The same with explicit shapes, which the compiler turns into tight code.
+   pure subroutine assemble_into(suspension, poses, reaction, demand, mode, nq, n, gradients, values, matrix, rhs)
+      type(suspension_t), intent(in) :: suspension
+      type(pose_t), intent(in) :: poses(0:*)
+      real(wp), intent(in) :: reaction(*)
+      type(demand_t), intent(in) :: demand
+      integer, intent(in) :: mode, nq, n
+      real(wp), intent(inout) :: gradients(12, *), values(*)
+      real(wp), intent(inout) :: matrix(n, n), rhs(n)
+      type(view_t) :: view
+      type(bushing_view_t) :: bushing_view
+      real(wp) :: tension, slope, pull(12), value, target, force(3), moment(3), arm(3)
+      integer :: k, t, i, j, at_i, at_j
+
+      rhs = 0.0_wp
+      if (mode /= residual_only) then
+         do k = 1, n
+            matrix(k:n, k) = 0.0_wp
+            ! diagonal 3×3 blocks are added whole, two numbers above the diagonal
+            if (k > 2) matrix(k - 2:k - 1, k) = 0.0_wp
+            if (k == 2) matrix(1, 2) = 0.0_wp
+         end do
+      end if
+
+      do k = 1, size(suspension%loads)
+         value = 1.0_wp
+         if (suspension%loads(k)%is_case) value = merge(demand%value, 0.0_wp, k == demand%load)
+         if (abs(value) <= 0.0_wp) cycle
+         j = suspension%loads(k)%body
+         at_j = 6*(j - 1)
+         call wrench(suspension%loads(k), poses(j), force, moment, arm)
+         force = value*force
+         rhs(at_j + 1:at_j + 3) = rhs(at_j + 1:at_j + 3) + force
+         rhs(at_j + 4:at_j + 6) = rhs(at_j + 4:at_j + 6) + value*moment
+         if (mode == whole_tangent) then
+            if (suspension%loads(k)%follows) then
+               ! δf = π×f: T_rπ = f̃, of which the symmetric part is half in r π and half in π r
+               call add_block(0.5_wp*skew(force), at_j, at_j + 3, n, matrix)
+            else
+               call add_diagonal_block(-s_matrix(arm, force), at_j + 3, at_j, n, matrix)
+            end if
+         end if
+      end do
+
+      do k = 1, size(suspension%springs)
+         associate (spring => suspension%springs(k))
+            i = spring%measure%body_i
+            j = spring%measure%body_j
+            at_i = 6*(i - 1)
+            at_j = 6*(j - 1)
+            call look(spring%measure, poses(i), poses(j), view)
+            call spring_tension(spring, view%value, tension, slope)
+            call push(-tension*view%gradient, at_i, at_j, rhs)
+            if (mode == whole_tangent) then
+               call add_spring_tangent(view, tension, slope, at_i, at_j, n, matrix)
+            else if (mode == material_only) then
+               call add_link_stiffness(slope*reshape([view%u(1)*view%u, view%u(2)*view%u, view%u(3)*view%u], [3, 3]), &
+                  view%a, view%b, at_i, at_j, n, matrix)
+            end if
+         end associate
+      end do
+
+      do k = 1, size(suspension%bushings)
+         associate (bushing => suspension%bushings(k))
+            i = bushing%body_i
+            j = bushing%body_j
+            at_i = 6*(i - 1)
+            at_j = 6*(j - 1)
+            call look_bushing(bushing, poses(i), poses(j), bushing_view)
+            pull = bushing_pull(bushing_view)
+            call push(-pull, at_i, at_j, rhs)
+            if (mode == whole_tangent) then
+               call add_bushing_tangent(bushing, bushing_view, at_i, at_j, n, matrix)
+            else if (mode == material_only) then
+               call add_bushing_material(bushing, bushing_view, at_i, at_j, n, matrix)
+            end if
+         end associate
+      end do
+
+      do k = 1, size(suspension%rows)
+         value = 0.0_wp
+         do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
+            associate (term => suspension%terms(t))
+               i = term%measure%body_i
+               j = term%measure%body_j
+               at_i = 6*(i - 1)
+               at_j = 6*(j - 1)
+               call look(term%measure, poses(i), poses(j), view)
+               value = value + term%coefficient*view%value
+               gradients(:, t) = term%coefficient*view%gradient
+               pull = (-reaction(k))*gradients(:, t)
+               call push(pull, at_i, at_j, rhs)
+               if (mode /= residual_only) then
+                  if (i > 0) matrix(nq + k, at_i + 1:at_i + 6) = matrix(nq + k, at_i + 1:at_i + 6) + gradients(1:6, t)
+                  if (j > 0) matrix(nq + k, at_j + 1:at_j + 6) = matrix(nq + k, at_j + 1:at_j + 6) + gradients(7:12, t)
+                  if (mode == whole_tangent) call add_measure_hessian(term%measure%kind, view, &
+                     reaction(k)*term%coefficient, at_i, at_j, n, matrix)
+               end if
+            end associate
+         end do
+         target = suspension%rows(k)%target
+         if (k == demand%row) target = target + demand%value
+         values(k) = value - target
+         rhs(nq + k) = -values(k)
+      end do
+
+      if (mode == whole_tangent) then
+         ! screw increments: r moves by Δr + ½ Δπ×Δr + …, so that the unbalanced force g brings ½ g̃
+         do at_j = 0, nq - 6, 6
+            call add_block(-0.5_wp*skew(rhs(at_j + 1:at_j + 3)), at_j, at_j + 3, n, matrix)
+         end do
+      end if
+   end subroutine assemble_into
+
+   !> Adds a generalised force on both bodies to the right-hand side.
+   pure subroutine push(force, at_i, at_j, rhs)
+      real(wp), intent(in) :: force(12)
+      integer, intent(in) :: at_i, at_j        !! negative: the chassis
+      real(wp), intent(inout) :: rhs(*)
+      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) + force(1:6)
+      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) + force(7:12)
+   end subroutine push
+
+   !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
+   !>
+   !> A zero pivot is told by is_singular; the caller asks the diagnosis for its name.
+   pure subroutine factorise(kkt)
+      type(kkt_t), intent(inout) :: kkt
+      integer :: k, info
+
+      do k = 1, kkt%n
+         kkt%matrix(k:, k) = kkt%matrix(k:, k)*(kkt%scale(k)*kkt%scale(k:))
+      end do
+      call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
+      call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio)
+      kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
+   end subroutine factorise
+
+   !> Negative eigenvalues, and least over largest |eigenvalue| of the block-diagonal factor.
+   !>
+   !> Sylvester: the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
+   !> exactly one for each constraint row.
+   pure subroutine count_inertia(n, matrix, pivots, negative, ratio)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: matrix(n, n)
+      integer, intent(in) :: pivots(n)
+      integer, intent(out) :: negative
+      real(wp), intent(out) :: ratio
+      real(wp) :: least, most, mean, radius, low, high
+      integer :: k
+
+      negative = 0
+      least = huge(least)
+      most = 0.0_wp
+      k = 1
+      do while (k <= n)
+         if (pivots(k) > 0) then
+            low = matrix(k, k)
+            high = low
+            if (low < 0.0_wp) negative = negative + 1
+            k = k + 1
+         else
+            mean = 0.5_wp*(matrix(k, k) + matrix(k + 1, k + 1))
+            radius = sqrt((0.5_wp*(matrix(k, k) - matrix(k + 1, k + 1)))**2 + matrix(k + 1, k)**2)
+            low = mean - radius
+            high = mean + radius
+            if (low < 0.0_wp) negative = negative + 1
+            if (high < 0.0_wp) negative = negative + 1
+            k = k + 2
+         end if
+         least = min(least, abs(low), abs(high))
+         most = max(most, abs(low), abs(high))
+      end do
+      ratio = 0.0_wp
+      if (most > 0.0_wp) ratio = least/most
+   end subroutine count_inertia
+
+   !> Solves with the last factors; kkt%rhs becomes [Δq; Δλ].
+   pure subroutine solve(kkt)
+      type(kkt_t), intent(inout) :: kkt
+      integer :: info
+
+      kkt%rhs = kkt%rhs*kkt%scale
+      call dsytrs('L', kkt%n, 1, kkt%matrix, kkt%n, kkt%pivots, kkt%rhs, kkt%n, info)
+      kkt%rhs = kkt%rhs*kkt%scale
+   end subroutine solve
+
+   !> Reciprocal condition number of the scaled matrix at a state (LAPACK dsycon). Factorises.
+   pure subroutine condition(suspension, state, demand, kkt, rcond)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: rcond
+      real(wp) :: column
+      integer :: i, j, info
+
+      call assemble(suspension, state, demand, whole_tangent, kkt)
+      kkt%norm = 0.0_wp
+      do j = 1, kkt%n
+         column = 0.0_wp
+         do i = 1, kkt%n
+            column = column + abs(kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j))
+         end do
+         kkt%norm = max(kkt%norm, column)
+      end do
+      call factorise(kkt)
+      rcond = 0.0_wp
+      if (.not. kkt%is_singular) call dsycon('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%norm, rcond, &
+         kkt%work, kkt%iwork, info)
+   end subroutine condition
+
+end module ek_kkt

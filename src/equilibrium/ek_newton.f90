@@ -1,0 +1,98 @@
+!> A state of equilibrium by Newton's method, from a guess.
+!>
+!> Each iteration assembles T, factorises once, and takes one full step. When the step was already
+!> small, the same factors serve a second, cheaper step with a fresh residual: its length is what
+!> was still missing, so convergence is measured, not hoped for.
+module ek_newton
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t, move_as_screw
+   use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
+   implicit none(type, external)
+   private
+   public :: outcome_t, find_equilibrium
+
+   integer, parameter :: most_iterations = 15   !! Newton is quadratic: more would not help
+
+   !> How an iteration ended.
+   type :: outcome_t
+      logical :: is_converged = .false.
+      logical :: is_singular = .false.    !! a matrix could not be factorised
+      integer :: factorisations = 0
+      real(wp) :: first = 0.0_wp          !! length of the first correction: error of the guess [m]
+      real(wp) :: last = 0.0_wp           !! length of the last correction [m]
+      integer :: negative = 0             !! negative eigenvalues of the last matrix
+      real(wp) :: pivot_ratio = 1.0_wp    !! cheap condition estimate of the last matrix
+   end type outcome_t
+
+contains
+
+   !> Newton's method to `tolerance`: the last correction of any body [m, rad × characteristic length].
+   pure subroutine find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
+      type(suspension_t), intent(in) :: suspension
+      type(demand_t), intent(in) :: demand
+      real(wp), intent(in) :: tolerance       !! m
+      type(state_t), intent(inout) :: state   !! guess → equilibrium
+      type(kkt_t), intent(inout) :: kkt
+      type(outcome_t), intent(out) :: outcome
+      real(wp) :: largest, previous
+      integer :: iteration
+
+      ! a correction longer than a quarter of the mechanism is no correction: halve the increment
+      largest = 0.25_wp*kkt%length + 0.05_wp
+      previous = huge(previous)
+      do iteration = 1, most_iterations
+         call assemble(suspension, state, demand, whole_tangent, kkt)
+         call factorise(kkt)
+         outcome%factorisations = iteration
+         outcome%negative = kkt%negative
+         outcome%pivot_ratio = kkt%pivot_ratio
+         outcome%is_singular = kkt%is_singular
+         if (outcome%is_singular) return
+         call take_step(state, kkt, outcome%last)
+         if (iteration == 1) outcome%first = outcome%last
+         if (.not. outcome%last <= largest) return      ! also when it is not a number
+         if (outcome%last <= tolerance) exit
+         if (outcome%last > 2.0_wp*previous) return
+         previous = outcome%last
+         if (outcome%last < 0.01_wp*kkt%length) then
+            call assemble(suspension, state, demand, residual_only, kkt)
+            call take_step(state, kkt, outcome%last)
+            if (outcome%last <= tolerance) exit
+            if (.not. outcome%last <= largest) return
+         end if
+      end do
+      outcome%is_converged = outcome%last <= tolerance
+   end subroutine find_equilibrium
+
+   !> Solves with the factors at hand, moves the state, and measures the step.
+   pure subroutine take_step(state, kkt, length)
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: length     !! largest |Δr|, |Δπ| × characteristic length [m]
+
+      call solve(kkt)
+      length = step_length(kkt%rhs(:kkt%nq), kkt%length)
+      if (.not. length < huge(length)) return
+      state%reaction = state%reaction + kkt%rhs(kkt%nq + 1:)
+      call move_as_screw(state, kkt%rhs(:kkt%nq))
+   end subroutine take_step
+
+   !> The largest translation or rotation × length of any body.
+   pure real(wp) function step_length(step, length)
+      real(wp), contiguous, intent(in) :: step(:)
+      real(wp), intent(in) :: length
+      real(wp) :: square
+      integer :: k
+
+      square = 0.0_wp
+      do k = 1, size(step), 6
+         square = max(square, step(k)**2 + step(k + 1)**2 + step(k + 2)**2, &
+            length**2*(step(k + 3)**2 + step(k + 4)**2 + step(k + 5)**2))
+         ! max() may drop a NaN: let it through
+         if (.not. step(k) + step(k + 3) < huge(square)) square = huge(square)
+      end do
+      step_length = sqrt(square)
+   end function step_length
+
+end module ek_newton

@@ -1,0 +1,414 @@
+!> A sweep: from design outward to either end of a case, one state after the other.
+!>
+!> A state that is not found is approached by halved increments; if that fails too, the sweep in
+!> that direction ends there, and everything before it is kept.
+module ek_path
+   use ek_kinds, only: wp
+   use ek_case, only: case_t
+   use ek_suspension, only: suspension_t, driver_row, load_number
+   use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
+   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_newton, only: outcome_t, find_equilibrium
+   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
+   use ek_predictor, only: predictor_t, new_predictor, remember, predict, forget, depth
+   implicit none(type, external)
+   private
+   public :: path_t, sweep, new_path, walk, settle, failure_t, progress_procedure
+
+   integer, parameter :: most_halvings = 12   !! an increment is cut to 1/4096 before a state is given up
+
+   abstract interface
+      !> Told now and then how many states of how many are there.
+      subroutine progress_procedure(done, total)
+         integer, intent(in) :: done, total
+      end subroutine progress_procedure
+   end interface
+
+   !> Where and how a sweep stopped.
+   type :: failure_t
+      integer :: state = 0                 !! index of the state that was not found, 0: all were
+      real(wp) :: value = 0.0_wp           !! demand that was last tried
+      real(wp) :: reached = 0.0_wp         !! demand of the last equilibrium
+      logical :: is_singular = .false.
+      integer :: body = 0                  !! which moved most in the failed attempt
+      real(wp) :: moved = 0.0_wp           !! how far [m]
+      integer :: row = 0                   !! constraint furthest from its value
+      real(wp) :: gap = 0.0_wp             !! by how much [m, - or rad]
+   end type failure_t
+
+   !> All states of a sweep, in order from…to.
+   type :: path_t
+      integer :: states = 0
+      integer :: start = 0                        !! index of the design state, 0 if the range leaves it out
+      real(wp), allocatable :: value(:)           !! demand: factor, or change of the driven value [m, rad]
+      real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
+      logical, allocatable :: is_reached(:)
+      logical, allocatable :: is_stable(:)        !! no negative stiffness
+      integer, allocatable :: iterations(:)       !! factorisations spent on a state
+      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
+      real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
+      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling
+   end type path_t
+
+contains
+
+   !> Sweeps a case; failures are told by path%failure, never by stopping.
+   subroutine sweep(suspension, case, path, kkt, progress)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(out) :: path
+      type(kkt_t), intent(inout) :: kkt                        !! of new_kkt
+      procedure(progress_procedure), optional :: progress
+
+      call new_path(suspension, case, path)
+      call walk(suspension, case, path, kkt, progress)
+   end subroutine sweep
+
+   !> Places of all states, and room for them.
+   !>
+   !> A range around design is walked outward in both directions, its increments shared in proportion.
+   subroutine new_path(suspension, case, path)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(out) :: path
+      integer :: n, before, k
+
+      n = case%increments
+      if (case%from*case%to <= 0.0_wp) then
+         before = nint(n*abs(case%from)/(abs(case%from) + abs(case%to)))
+         if (abs(case%from) > 0.0_wp) before = max(before, 1)
+         if (abs(case%to) > 0.0_wp) then
+            n = max(n, before + merge(1, 0, abs(case%from) > 0.0_wp .and. n == 1))
+            before = min(before, n - 1)
+         end if
+         path%start = before + 1
+      end if
+      path%states = n + 1
+      allocate (path%value(n + 1), path%pivot_ratio(n + 1), source=0.0_wp)
+      allocate (path%packed(coordinates(suspension), n + 1), path%settled(coordinates(suspension)), source=0.0_wp)
+      allocate (path%is_reached(n + 1), source=.false.)
+      allocate (path%is_stable(n + 1), source=.true.)
+      allocate (path%iterations(n + 1), source=0)
+      do k = 1, n + 1
+         if (path%start == 0) then
+            path%value(k) = case%from + (case%to - case%from)*real(k - 1, wp)/n
+         else if (k < path%start) then
+            path%value(k) = case%from*real(path%start - k, wp)/(path%start - 1)
+         else if (k > path%start) then
+            path%value(k) = case%to*real(k - path%start, wp)/(n + 1 - path%start)
+         end if
+      end do
+   end subroutine new_path
+
+   !> Walks the whole path of new_path.
+   subroutine walk(suspension, case, path, kkt, progress)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      procedure(progress_procedure), optional :: progress
+      type(state_t) :: state
+      type(carry_t) :: carry
+      type(predictor_t) :: predictor
+      type(demand_t) :: demand
+      integer :: done
+
+      demand%load = load_number(suspension, case%load)
+      demand%row = driver_row(suspension, case%drive)
+      predictor = new_predictor(size(path%settled))
+      state = design_state(suspension)
+      path%failure = failure_t()
+      path%is_reached = .false.
+      if (case%method == 'recursive') then
+         call start_recursion(suspension, state, kkt, carry)
+      else
+         call settle(suspension, case%tolerance, state, kkt, path%failure(1))
+         if (path%failure(1)%state > 0) return
+      end if
+      call pack_state(state, path%settled)
+      done = 0
+      if (path%start > 0) then
+         call keep(path%start)
+         call walk_branch(path%start, path%states, 1, path%failure(1))
+         call walk_branch(path%start, 1, -1, path%failure(2))
+      else if (abs(path%value(1)) < abs(path%value(path%states))) then
+         call approach(1)
+         if (path%failure(1)%state == 0) call walk_branch(1, path%states, 1, path%failure(1))
+      else
+         call approach(path%states)
+         if (path%failure(1)%state == 0) call walk_branch(path%states, 1, -1, path%failure(1))
+      end if
+
+   contains
+
+      !> Stores the state at hand as state k.
+      subroutine keep(k)
+         integer, intent(in) :: k
+         call pack_state(state, path%packed(:, k))
+         path%is_reached(k) = .true.
+         path%is_stable(k) = kkt%negative == kkt%nc
+         path%pivot_ratio(k) = kkt%pivot_ratio
+         done = done + 1
+         if (present(progress)) then
+            if (mod(done, 1000) == 0) call progress(done, path%states)
+         end if
+      end subroutine keep
+
+      !> From design to the nearer end of a range that leaves design out, in increments of the same size.
+      subroutine approach(k)
+         integer, intent(in) :: k
+         integer :: step, steps
+         real(wp) :: size_of_one
+
+         size_of_one = abs(path%value(2) - path%value(1))
+         steps = max(1, nint(abs(path%value(k))/size_of_one))
+         call restart()
+         do step = 1, steps
+            call advance(path%value(k)*real(step, wp)/steps, k, path%failure(1))
+            if (path%failure(1)%state > 0) return
+         end do
+         call keep(k)
+      end subroutine approach
+
+      !> From state `first` (known) to state `last`.
+      subroutine walk_branch(first, last, direction, failure)
+         integer, intent(in) :: first, last, direction
+         type(failure_t), intent(inout) :: failure
+         integer :: k
+
+         if (first == path%start) then
+            call restart()
+            call seed(first, -direction)
+         end if
+         do k = first + direction, last, direction
+            call advance(path%value(k), k, failure)
+            if (failure%state > 0) return
+            call keep(k)
+         end do
+      end subroutine walk_branch
+
+      !> Back to the settled state, at demand 0.
+      subroutine restart()
+         call unpack_state(path%settled, state)
+         demand%value = 0.0_wp
+         if (case%method == 'recursive') call start_recursion(suspension, state, kkt, carry)
+         call forget(predictor)
+         call remember(predictor, 0.0_wp, path%settled)
+      end subroutine restart
+
+      !> The other branch, walked before, helps to guess the first states of this one.
+      subroutine seed(first, direction)
+         integer, intent(in) :: first, direction
+         integer :: k, last
+
+         call forget(predictor)
+         last = first
+         do k = 1, depth - 1
+            if (first + k*direction < 1 .or. first + k*direction > path%states) exit
+            if (.not. path%is_reached(first + k*direction)) exit
+            last = first + k*direction
+         end do
+         do k = last, first, -direction
+            call remember(predictor, path%value(k), path%packed(:, k))
+         end do
+      end subroutine seed
+
+      !> One increment to `value`, by the method of the case.
+      subroutine advance(value, k, failure)
+         real(wp), intent(in) :: value
+         integer, intent(in) :: k
+         type(failure_t), intent(inout) :: failure
+         type(demand_t) :: next
+
+         next = demand
+         next%value = value
+         select case (case%method)
+         case ('recursive')
+            call recursive_increment(suspension, demand, next, state, kkt, carry)
+            path%iterations(k) = 1
+            call check_increment(kkt, k, demand%value, value, failure)
+         case ('corrected')
+            call corrected_increment(suspension, next, state, kkt)
+            path%iterations(k) = 1
+            call check_increment(kkt, k, demand%value, value, failure)
+         case default
+            call reach(suspension, next, case%tolerance, predictor, state, kkt, path%iterations(k), failure)
+            if (failure%state > 0) failure%state = k
+         end select
+         demand%value = value
+      end subroutine advance
+
+   end subroutine walk
+
+   !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
+   subroutine check_increment(kkt, state_number, before, value, failure)
+      type(kkt_t), intent(in) :: kkt
+      integer, intent(in) :: state_number
+      real(wp), intent(in) :: before, value      !! demand at either end of the increment
+      type(failure_t), intent(inout) :: failure
+      real(wp), parameter :: far = 100.0_wp      ! m: no suspension moves that far
+      real(wp) :: moved
+      integer :: k
+
+      if (.not. kkt%is_singular) then
+         do k = 1, kkt%nq/6
+            moved = norm2(kkt%rhs(6*k - 5:6*k - 3))
+            if (moved <= failure%moved) cycle
+            failure%moved = moved
+            failure%body = k
+         end do
+         if (failure%moved <= far) then
+            failure%moved = 0.0_wp
+            return
+         end if
+      end if
+      failure%state = state_number
+      failure%is_singular = kkt%is_singular
+      failure%value = value
+      failure%reached = before
+   end subroutine check_increment
+
+   !> Reaches equilibrium at a demand from the states remembered, halving the way when needed.
+   !>
+   !> On failure `state` is the last equilibrium.
+   subroutine reach(suspension, target, tolerance, predictor, state, kkt, iterations, failure)
+      type(suspension_t), intent(in) :: suspension
+      type(demand_t), intent(in) :: target       !! the place on the path is its value, or 1 − relief
+      real(wp), intent(in) :: tolerance          !! m
+      type(predictor_t), intent(inout) :: predictor
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      integer, intent(inout) :: iterations
+      type(failure_t), intent(inout) :: failure
+      type(demand_t) :: demand
+      type(outcome_t) :: outcome
+      real(wp) :: goal, here, trial
+      integer :: halvings, points
+
+      demand = target
+      goal = target%value
+      here = predictor%abscissa(predictor%newest)
+      iterations = 0
+      halvings = 0
+      points = depth
+      do
+         trial = here + (goal - here)*0.5_wp**halvings
+         if (halvings == 0) trial = goal
+         demand%value = trial
+         call guess(predictor, trial, points, state)
+         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
+         iterations = iterations + outcome%factorisations
+         if (outcome%is_converged) then
+            call store(predictor, trial, state)
+            here = trial
+            if (halvings == 0) return
+            halvings = halvings - 1
+         else
+            if (halvings == 0) points = 2     ! a bold guess may itself be the trouble
+            halvings = halvings + 1
+            if (halvings > most_halvings) exit
+         end if
+      end do
+      call blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
+   end subroutine reach
+
+   !> The predictor's state as a guess.
+   pure subroutine guess(predictor, abscissa, points, state)
+      type(predictor_t), intent(inout) :: predictor
+      real(wp), intent(in) :: abscissa
+      integer, intent(in) :: points
+      type(state_t), intent(inout) :: state
+
+      call predict(predictor, abscissa, points)
+      call unpack_state(predictor%guess, state)
+   end subroutine guess
+
+   !> Hands an equilibrium to the predictor.
+   pure subroutine store(predictor, abscissa, state)
+      type(predictor_t), intent(inout) :: predictor
+      real(wp), intent(in) :: abscissa
+      type(state_t), intent(in) :: state
+
+      call pack_state(state, predictor%guess)
+      call remember(predictor, abscissa, predictor%guess)
+   end subroutine store
+
+   !> Says which body moved most in a failed attempt, and which constraint is furthest off.
+   subroutine blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
+      type(suspension_t), intent(in) :: suspension
+      type(predictor_t), intent(in) :: predictor
+      type(demand_t), intent(in) :: demand
+      type(outcome_t), intent(in) :: outcome
+      real(wp), intent(in) :: here
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      type(failure_t), intent(inout) :: failure
+      type(state_t) :: before
+      real(wp) :: moved
+      integer :: k
+
+      before = state
+      call unpack_state(predictor%packed(:, predictor%newest), before)
+      failure%state = 1
+      failure%value = demand%value
+      failure%reached = here
+      failure%is_singular = outcome%is_singular
+      do k = 2, size(state%poses)
+         moved = norm2(state%poses(k)%r - before%poses(k)%r) &
+            + kkt%length*norm2(state%poses(k)%a - before%poses(k)%a)/sqrt(2.0_wp)
+         if (moved > failure%moved) then
+            failure%moved = moved
+            failure%body = k - 1
+         end if
+      end do
+      call assemble(suspension, state, demand, residual_only, kkt)
+      do k = 1, kkt%nc
+         if (abs(kkt%values(k)) > abs(failure%gap)) then
+            failure%gap = kkt%values(k)
+            failure%row = k
+         end if
+      end do
+      state = before
+   end subroutine blame
+
+   !> From design to equilibrium under the constant loads and preloads alone.
+   !>
+   !> Tried at once; if that fails the imbalance of the design position is let in little by little.
+   subroutine settle(suspension, tolerance, state, kkt, failure)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: tolerance          !! m
+      type(state_t), intent(inout) :: state      !! design → equilibrium
+      type(kkt_t), intent(inout) :: kkt
+      type(failure_t), intent(inout) :: failure
+      type(predictor_t) :: predictor
+      type(demand_t) :: demand
+      type(outcome_t) :: outcome
+      real(wp) :: here, share
+      integer :: halvings
+
+      call assemble(suspension, state, demand, residual_only, kkt)
+      kkt%imbalance = kkt%rhs(:kkt%nq)
+      predictor = new_predictor(coordinates(suspension))
+      call store(predictor, 0.0_wp, state)
+      here = 0.0_wp
+      halvings = 0
+      do
+         share = here + (1.0_wp - here)*0.5_wp**halvings
+         if (halvings == 0) share = 1.0_wp
+         demand%relief = 1.0_wp - share
+         call guess(predictor, share, 2, state)
+         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
+         if (outcome%is_converged) then
+            call store(predictor, share, state)
+            here = share
+            if (halvings == 0) return
+            halvings = halvings - 1
+         else
+            halvings = halvings + 1
+            if (halvings > most_halvings) exit
+         end if
+      end do
+      call blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
+   end subroutine settle
+
+end module ek_path

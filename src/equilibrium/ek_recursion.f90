@@ -1,0 +1,107 @@
+!> One load increment: the paper's linear recursive formula, and its corrected form.
+module ek_recursion
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t, move, move_as_screw
+   use ek_kkt, only: kkt_t, assemble, factorise, solve, wrench, whole_tangent, material_only
+   implicit none(type, external)
+   private
+   public :: carry_t, start_recursion, recursive_increment, corrected_increment
+
+   !> What the recursion hands from increment to increment: Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹ [N, N m].
+   type :: carry_t
+      real(wp), allocatable :: pull(:)
+   end type carry_t
+
+contains
+
+   !> Before the first increment: λ⁻¹ is the reaction in the design state (zero without preload).
+   !>
+   !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes where the preloads
+   !> balance the constant loads.
+   subroutine start_recursion(suspension, state, kkt, carry)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      type(carry_t), intent(out) :: carry
+
+      allocate (carry%pull(kkt%nq), source=0.0_wp)
+      state%reaction = 0.0_wp
+      call assemble(suspension, state, demand_t(), material_only, kkt)
+      call factorise(kkt)
+      if (kkt%is_singular) return
+      call solve(kkt)
+      state%reaction = kkt%rhs(kkt%nq + 1:)
+      call gather(suspension, kkt, state%reaction, carry%pull)
+   end subroutine start_recursion
+
+   !> One increment of Kang (2005), eqs. (25)–(29), literally:
+   !>
+   !>     [K(qⁿ) Φqᵀ; Φq 0][Δqⁿ; λⁿ] = [Δf; Δc] + [Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹; 0],  K = −(19)
+   !>
+   !> It never looks at the elastic force or at Φ(q) where the bodies are now; its bias is the paper's.
+   pure subroutine recursive_increment(suspension, before, after, state, kkt, carry)
+      type(suspension_t), intent(in) :: suspension
+      type(demand_t), intent(in) :: before, after     !! the demand at either end of the increment
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      type(carry_t), intent(inout) :: carry
+      real(wp) :: force(3), moment(3), arm(3), change
+      integer :: at
+
+      call assemble(suspension, state, before, material_only, kkt)
+      kkt%rhs(:kkt%nq) = carry%pull
+      kkt%rhs(kkt%nq + 1:) = 0.0_wp
+      change = after%value - before%value
+      if (after%load > 0) then
+         at = 6*(suspension%loads(after%load)%body - 1)
+         call wrench(suspension%loads(after%load), state%poses(suspension%loads(after%load)%body + 1), force, moment, arm)
+         kkt%rhs(at + 1:at + 3) = kkt%rhs(at + 1:at + 3) + change*force
+         kkt%rhs(at + 4:at + 6) = kkt%rhs(at + 4:at + 6) + change*moment
+      end if
+      if (after%row > 0) kkt%rhs(kkt%nq + after%row) = change
+      call factorise(kkt)
+      if (kkt%is_singular) return
+      call solve(kkt)
+      state%reaction = kkt%rhs(kkt%nq + 1:)
+      call gather(suspension, kkt, state%reaction, carry%pull)
+      call move(state, kkt%rhs(:kkt%nq))
+   end subroutine recursive_increment
+
+   !> One full Newton step towards the next demand, once per increment: same matrix size, one solve.
+   !>
+   !>     [T Φqᵀ; Φq 0][Δq; Δλ] = [f_ext(Fₙ₊₁, qⁿ) − f_el(qⁿ) − Φqᵀλⁿ; cₙ₊₁ − Φ(qⁿ)]
+   pure subroutine corrected_increment(suspension, after, state, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(demand_t), intent(in) :: after
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+
+      call assemble(suspension, state, after, whole_tangent, kkt)
+      call factorise(kkt)
+      if (kkt%is_singular) return
+      call solve(kkt)
+      state%reaction = state%reaction + kkt%rhs(kkt%nq + 1:)
+      call move_as_screw(state, kkt%rhs(:kkt%nq))
+   end subroutine corrected_increment
+
+   !> Φqᵀλ with the gradients of the last assembly.
+   pure subroutine gather(suspension, kkt, reaction, pull)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt
+      real(wp), intent(in) :: reaction(:)
+      real(wp), intent(inout) :: pull(:)
+      integer :: k, t, at
+
+      pull = 0.0_wp
+      do k = 1, size(suspension%rows)
+         do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
+            at = 6*(suspension%terms(t)%measure%body_i - 1)
+            if (at >= 0) pull(at + 1:at + 6) = pull(at + 1:at + 6) + reaction(k)*kkt%gradients(1:6, t)
+            at = 6*(suspension%terms(t)%measure%body_j - 1)
+            if (at >= 0) pull(at + 1:at + 6) = pull(at + 1:at + 6) + reaction(k)*kkt%gradients(7:12, t)
+         end do
+      end do
+   end subroutine gather
+
+end module ek_recursion

@@ -1,0 +1,125 @@
+!> A state of a suspension (where the bodies are, what the joints take) and what is demanded of it.
+module ek_state
+   use ek_kinds, only: wp
+   use ek_measure, only: pose_t
+   use ek_rotation, only: cross, rotate_quaternion, rotation_matrix
+   use ek_suspension, only: suspension_t, design_poses
+   implicit none(type, external)
+   private
+   public :: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+
+   !> Poses of bodies 0 … n (index 1 is the chassis, which never moves) and the reactions λ.
+   type :: state_t
+      type(pose_t), allocatable :: poses(:)
+      real(wp), allocatable :: reaction(:)   !! λ, one a constraint row [N, or N m for a row without length]
+   end type state_t
+
+   !> What the surroundings ask for: one scaled load, or one prescribed value, besides the constant loads.
+   type :: demand_t
+      integer :: load = 0               !! number of the scaled load, 0 none
+      integer :: row = 0                !! number of the driven constraint row, 0 none
+      real(wp) :: value = 0.0_wp        !! factor of the load [-], or change of the row's value [m, rad]
+      real(wp) :: relief = 0.0_wp       !! share of the design imbalance taken away, 1 at design, 0 in truth
+   end type demand_t
+
+contains
+
+   !> The design position, without reactions.
+   function design_state(suspension) result(state)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t) :: state
+
+      allocate (state%poses, source=design_poses(suspension))
+      allocate (state%reaction(suspension%constraints()), source=0.0_wp)
+   end function design_state
+
+   !> Length of a packed state: 7 numbers a body and the reactions.
+   pure integer function coordinates(suspension)
+      type(suspension_t), intent(in) :: suspension
+      coordinates = 7*size(suspension%bodies) + suspension%constraints()
+   end function coordinates
+
+   !> [r, q] of each body, then λ.
+   pure subroutine pack_state(state, packed)
+      type(state_t), intent(in) :: state
+      real(wp), contiguous, intent(out) :: packed(:)
+      integer :: k, at
+
+      at = 0
+      do k = 2, size(state%poses)
+         packed(at + 1:at + 3) = state%poses(k)%r
+         packed(at + 4:at + 7) = state%poses(k)%q
+         at = at + 7
+      end do
+      packed(at + 1:) = state%reaction
+   end subroutine pack_state
+
+   !> Back from packed numbers; quaternions are brought to unit length.
+   pure subroutine unpack_state(packed, state)
+      real(wp), contiguous, intent(in) :: packed(:)
+      type(state_t), intent(inout) :: state
+      integer :: k, at
+
+      at = 0
+      do k = 2, size(state%poses)
+         associate (pose => state%poses(k), q => packed(at + 4:at + 7))
+            pose%r = packed(at + 1:at + 3)
+            pose%q = q/sqrt(q(1)**2 + q(2)**2 + q(3)**2 + q(4)**2)
+            pose%a = rotation_matrix(pose%q)
+         end associate
+         at = at + 7
+      end do
+      state%reaction = packed(at + 1:)
+   end subroutine unpack_state
+
+   !> r ← r + Δr, A ← exp(Δπ̃) A (Kang 2005, eq. 4) for every body.
+   pure subroutine move(state, step)
+      type(state_t), intent(inout) :: state
+      real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]
+      integer :: k, at
+
+      at = 0
+      do k = 2, size(state%poses)
+         associate (pose => state%poses(k))
+            pose%r = pose%r + step(at + 1:at + 3)
+            pose%q = rotate_quaternion(step(at + 4:at + 6), pose%q)
+            pose%a = rotation_matrix(pose%q)
+         end associate
+         at = at + 6
+      end do
+   end subroutine move
+
+   !> Every body makes a screw motion: the exponential of the twist (Δr at its reference point, Δπ).
+   !>
+   !>     r ← r + V(Δπ) Δr,   V = I + (1 − cos θ)/θ² Δπ̃ + (θ − sin θ)/θ³ Δπ̃²,   A ← exp(Δπ̃) A
+   !>
+   !> Agrees with `move` to first order. Other than there, it does not matter which point of the body
+   !> is its reference: a twist and its exponential belong to the body, not to a point.
+   pure subroutine move_as_screw(state, step)
+      type(state_t), intent(inout) :: state
+      real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]
+      real(wp) :: bow(3), square, theta, b, c
+      integer :: k, at
+
+      at = 0
+      do k = 2, size(state%poses)
+         associate (pose => state%poses(k), v => step(at + 1:at + 3), w => step(at + 4:at + 6))
+            square = w(1)**2 + w(2)**2 + w(3)**2
+            if (square < 1.0e-2_wp) then   ! Taylor series, next terms below 1e-16
+               b = 0.5_wp - square/24.0_wp*(1.0_wp - square/30.0_wp*(1.0_wp - square/56.0_wp*(1.0_wp - square/90.0_wp)))
+               c = 1.0_wp/6 - square/120.0_wp*(1.0_wp - square/42.0_wp*(1.0_wp - square/72.0_wp*(1.0_wp - square/110.0_wp)))
+            else
+               theta = sqrt(square)
+               b = (1.0_wp - cos(theta))/square
+               c = (theta - sin(theta))/(theta*square)
+            end if
+            bow = cross(w, v)
+            pose%r = pose%r + v + b*bow + c*cross(w, bow)
+            pose%q = rotate_quaternion(w, pose%q)
+            pose%a = rotation_matrix(pose%q)
+         end associate
+         at = at + 6
+      end do
+   end subroutine move_as_screw
+
+end module ek_state

@@ -1,0 +1,56 @@
+!> How far the ends of a sweep are from equilibrium: what a linear method has lost on the way.
+module ek_drift
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t, load_number, driver_row
+   use ek_case, only: case_t, default_tolerance
+   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_kkt, only: kkt_t
+   use ek_path, only: path_t
+   use ek_newton, only: outcome_t, find_equilibrium
+   use ek_attitude, only: attitude_t
+   use ek_sweep_table, only: wheel_attitude
+   implicit none(type, external)
+   private
+   public :: drift_t, drift_at
+
+   !> A state against the equilibrium under the same demand.
+   type :: drift_t
+      logical :: is_known = .false.       !! the equilibrium was found from there
+      real(wp) :: travel = 0.0_wp         !! m, state less equilibrium
+      real(wp) :: toe = 0.0_wp            !! rad
+      real(wp) :: camber = 0.0_wp         !! rad
+      type(attitude_t) :: equilibrium     !! of the first wheel
+   end type drift_t
+
+contains
+
+   !> Drift of state k of a sweep, seen at the first wheel, by one equilibrium solution from there.
+   subroutine drift_at(suspension, case, path, k, kkt, drift)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k
+      type(kkt_t), intent(inout) :: kkt
+      type(drift_t), intent(out) :: drift
+      type(state_t) :: state
+      type(demand_t) :: demand
+      type(outcome_t) :: outcome
+      type(attitude_t) :: before
+
+      if (size(suspension%wheels) == 0) return
+      state = design_state(suspension)
+      call unpack_state(path%packed(:, k), state)
+      demand%load = load_number(suspension, case%load)
+      demand%row = driver_row(suspension, case%drive)
+      demand%value = path%value(k)
+      before = wheel_attitude(suspension, state, 1)
+      call find_equilibrium(suspension, demand, min(case%tolerance, default_tolerance), state, kkt, outcome)
+      drift%is_known = outcome%is_converged
+      if (.not. drift%is_known) return
+      drift%equilibrium = wheel_attitude(suspension, state, 1)
+      drift%travel = before%centre(3) - drift%equilibrium%centre(3)
+      drift%toe = before%toe - drift%equilibrium%toe
+      drift%camber = before%camber - drift%equilibrium%camber
+   end subroutine drift_at
+
+end module ek_drift

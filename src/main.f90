@@ -1,0 +1,42 @@
+!> The program: arguments → command → exit status.
+program elastokin
+   use, intrinsic :: iso_fortran_env, only: output_unit
+   use ek_error, only: error_t, exit_usage
+   use ek_arguments, only: arguments_t, read_arguments
+   use ek_help, only: help_text
+   use ek_version, only: version
+   use ek_words, only: complain
+   use ek_run, only: run
+   use ek_check, only: check
+   use ek_study_command, only: run_study_command
+   use ek_bench, only: bench
+   implicit none(type, external)
+   type(arguments_t) :: arguments
+   type(error_t), allocatable :: error
+
+   call read_arguments(arguments, error)
+   if (.not. allocated(error)) then
+      if (arguments%version) then
+         write (output_unit, '(a)') 'elastokin '//version
+      else if (arguments%help) then
+         write (output_unit, '(a)') help_text(arguments%command)
+      else
+         select case (arguments%command)
+         case ('run')
+            call run(arguments, error)
+         case ('check')
+            call check(arguments, error)
+         case ('study')
+            call run_study_command(arguments, error)
+         case ('bench')
+            call bench(arguments, error)
+         end select
+      end if
+   end if
+
+   if (allocated(error)) then
+      call complain(error%message)
+      if (error%code == exit_usage) call complain('see elastokin --help')
+      stop error%code, quiet=.true.
+   end if
+end program elastokin

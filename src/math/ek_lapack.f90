@@ -1,0 +1,111 @@
+!> Explicit interfaces to the LAPACK routines in use: argument mistakes are found by the compiler.
+module ek_lapack
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesvd, dgeqp3, dgelsd
+
+   interface
+      !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
+      pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dsytrf
+
+      !> Solution with the factors of dsytrf.
+      pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(in) :: a(lda, *)
+         integer, intent(in) :: ipiv(*)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dsytrs
+
+      !> Reciprocal condition number (1-norm) from the factors of dsytrf.
+      pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(wp), intent(in) :: a(lda, *)
+         integer, intent(in) :: ipiv(*)
+         real(wp), intent(in) :: anorm
+         real(wp), intent(out) :: rcond
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dsycon
+
+      !> Factor and solve in one call: the unit of the benchmark.
+      pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, nrhs, lda, ldb, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         real(wp), intent(inout) :: b(ldb, *)
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dsysv
+
+      !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
+      pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: jobz, uplo
+         integer, intent(in) :: n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: w(*)
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dsyev
+
+      !> Singular value decomposition.
+      pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: jobu, jobvt
+         integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(out) :: s(*), u(ldu, *), vt(ldvt, *)
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dgesvd
+
+      !> QR with column pivoting: reveals the rank.
+      pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
+         import :: wp
+         implicit none(type, external)
+         integer, intent(in) :: m, n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(inout) :: jpvt(*)
+         real(wp), intent(out) :: tau(*), work(*)
+         integer, intent(out) :: info
+      end subroutine dgeqp3
+
+      !> Least squares of least norm, any rank.
+      pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+         import :: wp
+         implicit none(type, external)
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+         real(wp), intent(out) :: s(*)
+         real(wp), intent(in) :: rcond
+         integer, intent(out) :: rank
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dgelsd
+   end interface
+
+end module ek_lapack

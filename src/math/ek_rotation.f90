@@ -1,0 +1,135 @@
+!> Small rotations and vectors: quaternions (scalar first), rotation vectors, skew matrices.
+!>
+!> A unit quaternion q = (cos φ/2, n sin φ/2) carries the rotation matrix A(q) that maps
+!> body axes to global axes. Products follow A(p⊗q) = A(p) A(q).
+module ek_rotation
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: cross, skew, unit_vector, perpendicular
+   public :: quaternion_product, quaternion_of_vector, rotation_matrix, rotate_quaternion
+   public :: matrix_of_vector, quaternion_of_matrix, identity3
+
+   real(wp), parameter :: identity3(3, 3) = &
+      reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+
+contains
+
+   !> a × b
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+      c(1) = a(2)*b(3) - a(3)*b(2)
+      c(2) = a(3)*b(1) - a(1)*b(3)
+      c(3) = a(1)*b(2) - a(2)*b(1)
+   end function cross
+
+   !> p̃, the matrix with p̃ x = p × x.
+   pure function skew(p) result(matrix)
+      real(wp), intent(in) :: p(3)
+      real(wp) :: matrix(3, 3)
+      matrix(:, 1) = [0.0_wp, p(3), -p(2)]
+      matrix(:, 2) = [-p(3), 0.0_wp, p(1)]
+      matrix(:, 3) = [p(2), -p(1), 0.0_wp]
+   end function skew
+
+   !> v/|v|; v must not be zero (checked where it enters).
+   pure function unit_vector(v) result(u)
+      real(wp), intent(in) :: v(3)
+      real(wp) :: u(3)
+      u = v/norm2(v)
+   end function unit_vector
+
+   !> A unit vector across z, chosen deterministically: the global axis least along z,
+   !> made perpendicular to it.
+   pure function perpendicular(z) result(x)
+      real(wp), intent(in) :: z(3)   !! unit vector
+      real(wp) :: x(3)
+      integer :: least
+
+      least = minloc(abs(z), dim=1)
+      x = 0.0_wp
+      x(least) = 1.0_wp
+      x = unit_vector(x - dot_product(x, z)*z)
+   end function perpendicular
+
+   !> p ⊗ q
+   pure function quaternion_product(p, q) result(r)
+      real(wp), intent(in) :: p(4), q(4)
+      real(wp) :: r(4)
+      r(1) = p(1)*q(1) - p(2)*q(2) - p(3)*q(3) - p(4)*q(4)
+      r(2) = p(1)*q(2) + p(2)*q(1) + p(3)*q(4) - p(4)*q(3)
+      r(3) = p(1)*q(3) - p(2)*q(4) + p(3)*q(1) + p(4)*q(2)
+      r(4) = p(1)*q(4) + p(2)*q(3) - p(3)*q(2) + p(4)*q(1)
+   end function quaternion_product
+
+   !> Quaternion of the rotation vector v [rad]; exact for any length.
+   pure function quaternion_of_vector(v) result(q)
+      real(wp), intent(in) :: v(3)
+      real(wp) :: q(4), square, half
+
+      square = v(1)**2 + v(2)**2 + v(3)**2
+      if (square < 1.0e-4_wp) then
+         ! Taylor series: the next terms are below 1e-20 here, and no 0/0 at rest
+         q(1) = 1.0_wp - square/8.0_wp*(1.0_wp - square/48.0_wp*(1.0_wp - square/120.0_wp))
+         q(2:4) = v*(0.5_wp - square/48.0_wp*(1.0_wp - square/80.0_wp*(1.0_wp - square/168.0_wp)))
+      else
+         half = 0.5_wp*sqrt(square)
+         q(1) = cos(half)
+         q(2:4) = v*(0.5_wp*sin(half)/half)
+      end if
+   end function quaternion_of_vector
+
+   !> exp(ṽ) applied on the left of q, then brought back to unit length: rounding never
+   !> accumulates, over any number of increments.
+   pure function rotate_quaternion(v, q) result(turned)
+      real(wp), intent(in) :: v(3)     !! rotation vector, global axes [rad]
+      real(wp), intent(in) :: q(4)
+      real(wp) :: turned(4), square
+
+      turned = quaternion_product(quaternion_of_vector(v), q)
+      square = turned(1)**2 + turned(2)**2 + turned(3)**2 + turned(4)**2
+      turned = turned/sqrt(square)
+   end function rotate_quaternion
+
+   !> A(q), body axes to global axes; q must be of unit length.
+   pure function rotation_matrix(q) result(a)
+      real(wp), intent(in) :: q(4)
+      real(wp) :: a(3, 3), xx, yy, zz, xy, xz, yz, wx, wy, wz
+
+      xx = 2.0_wp*q(2)*q(2); yy = 2.0_wp*q(3)*q(3); zz = 2.0_wp*q(4)*q(4)
+      xy = 2.0_wp*q(2)*q(3); xz = 2.0_wp*q(2)*q(4); yz = 2.0_wp*q(3)*q(4)
+      wx = 2.0_wp*q(1)*q(2); wy = 2.0_wp*q(1)*q(3); wz = 2.0_wp*q(1)*q(4)
+      a(1, 1) = 1.0_wp - yy - zz; a(1, 2) = xy - wz; a(1, 3) = xz + wy
+      a(2, 1) = xy + wz; a(2, 2) = 1.0_wp - xx - zz; a(2, 3) = yz - wx
+      a(3, 1) = xz - wy; a(3, 2) = yz + wx; a(3, 3) = 1.0_wp - xx - yy
+   end function rotation_matrix
+
+   !> exp(ṽ)
+   pure function matrix_of_vector(v) result(a)
+      real(wp), intent(in) :: v(3)
+      real(wp) :: a(3, 3)
+      a = rotation_matrix(quaternion_of_vector(v))
+   end function matrix_of_vector
+
+   !> Unit quaternion of a rotation matrix (Shepperd: divide by the largest component).
+   pure function quaternion_of_matrix(a) result(q)
+      real(wp), intent(in) :: a(3, 3)
+      real(wp) :: q(4), trace, pick(4)
+
+      trace = a(1, 1) + a(2, 2) + a(3, 3)
+      pick = [trace, a(1, 1), a(2, 2), a(3, 3)]
+      select case (maxloc(pick, dim=1))
+      case (1)
+         q = [1.0_wp + trace, a(3, 2) - a(2, 3), a(1, 3) - a(3, 1), a(2, 1) - a(1, 2)]
+      case (2)
+         q = [a(3, 2) - a(2, 3), 1.0_wp + 2*a(1, 1) - trace, a(1, 2) + a(2, 1), a(3, 1) + a(1, 3)]
+      case (3)
+         q = [a(1, 3) - a(3, 1), a(1, 2) + a(2, 1), 1.0_wp + 2*a(2, 2) - trace, a(2, 3) + a(3, 2)]
+      case default
+         q = [a(2, 1) - a(1, 2), a(3, 1) + a(1, 3), a(2, 3) + a(3, 2), 1.0_wp + 2*a(3, 3) - trace]
+      end select
+      q = q/norm2(q)
+   end function quaternion_of_matrix
+
+end module ek_rotation

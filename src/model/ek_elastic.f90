@@ -1,0 +1,203 @@
+!> Elastic elements: measures with a law, each with an energy, so that all forces balance.
+!>
+!> Spring:  T(L) = rate (L − L_design) − preload, a tension along the distance of two points.
+!> Bushing: V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ, d the gap from marker I to marker J and θ the
+!>          relative rotation vector, both in the axes of marker I (fixed in body i).
+!>
+!> "Pull" below means the gradient of the energy, dV/dz: the force ON the bodies is minus that.
+module ek_elastic
+   use ek_kinds, only: wp
+   use ek_measure, only: pose_t, measure_t, view_t, turn_t, look, relative_turn, turn_gradient, &
+      turn_jacobian, add_turn_hessian, add_gap_hessian, add_link_stiffness, add_diagonal_block, &
+      add_block, s_matrix, rotated
+   use ek_rotation, only: cross, identity3
+   implicit none(type, external)
+   private
+   public :: spring_t, bushing_t, bushing_view_t
+   public :: spring_tension, add_spring_tangent, set_bushing_axes
+   public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
+
+   !> An axial spring.
+   type :: spring_t
+      character(:), allocatable :: name, where
+      type(measure_t) :: measure            !! its length, a distance
+      real(wp) :: rate = 0.0_wp             !! N/m
+      real(wp) :: design_length = 0.0_wp    !! m
+      real(wp) :: preload = 0.0_wp          !! compression at design [N]
+   end type spring_t
+
+   !> A six-axis linear bushing from marker I on body i to marker J on body j. The markers are parallel
+   !> at design; where two points are given they may lie apart, and the design gap is free of force.
+   type :: bushing_t
+      character(:), allocatable :: name, where
+      integer :: body_i = 0, body_j = 0
+      real(wp) :: arm_i(3) = 0.0_wp, arm_j(3) = 0.0_wp   !! markers from the reference points [m]
+      real(wp) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
+      real(wp) :: kt(3) = 0.0_wp             !! N/m along the marker axes
+      real(wp) :: kr(3) = 0.0_wp             !! N m/rad about them
+      real(wp) :: preload_force(3) = 0.0_wp  !! on body j at design, marker axes [N]
+      real(wp) :: preload_moment(3) = 0.0_wp !! likewise [N m]
+      ! derived by set_bushing_axes: the same law in the axes of body i
+      real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
+      real(wp) :: force0(3) = 0.0_wp, moment0(3) = 0.0_wp
+      real(wp) :: gap0(3) = 0.0_wp           !! design gap, axes of body i [m]
+   end type bushing_t
+
+   !> A bushing at one pair of poses.
+   type :: bushing_view_t
+      real(wp) :: a(3) = 0.0_wp, b(3) = 0.0_wp, d(3) = 0.0_wp   !! arms and gap, global [m]
+      real(wp) :: frame(3, 3) = identity3                      !! A_i
+      real(wp) :: gap(3) = 0.0_wp        !! gap less the design gap, axes of body i [m]
+      real(wp) :: force(3) = 0.0_wp      !! dV/dd, global [N]
+      real(wp) :: moment(3) = 0.0_wp     !! dV/dθ, axes of body i [N m]
+      type(turn_t) :: turn
+   end type bushing_view_t
+
+contains
+
+   !> Tension at a length, and its slope dT/dL.
+   pure subroutine spring_tension(spring, length, tension, slope)
+      type(spring_t), intent(in) :: spring
+      real(wp), intent(in) :: length    !! m
+      real(wp), intent(out) :: tension  !! N, pulling the ends together
+      real(wp), intent(out) :: slope    !! N/m
+
+      tension = spring%rate*(length - spring%design_length) - spring%preload
+      slope = spring%rate
+   end subroutine spring_tension
+
+   !> Adds Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and the arm terms of the distance's Hessian.
+   pure subroutine add_spring_tangent(view, tension, slope, at_i, at_j, ld, matrix)
+      type(view_t), intent(in) :: view       !! of the spring's measure
+      real(wp), intent(in) :: tension, slope
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: m(3, 3), pull(3), across
+      integer :: k
+
+      across = tension/view%value
+      do k = 1, 3
+         m(:, k) = ((slope - across)*view%u(k))*view%u
+         m(k, k) = m(k, k) + across
+      end do
+      call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
+      pull = tension*view%u
+      call add_diagonal_block(-s_matrix(view%a, pull), at_i + 3, at_i, ld, matrix)
+      call add_diagonal_block(s_matrix(view%b, pull), at_j + 3, at_j, ld, matrix)
+   end subroutine add_spring_tangent
+
+   !> Brings rates and preloads from marker axes to the axes of body i (A_i = I at design):
+   !> K = E diag(k) Eᵀ. To be called after any change of axes, rates or preload.
+   pure subroutine set_bushing_axes(bushing)
+      type(bushing_t), intent(inout) :: bushing
+
+      bushing%stiffness_t = in_body(bushing%axes, bushing%kt)
+      bushing%stiffness_r = in_body(bushing%axes, bushing%kr)
+      bushing%force0 = rotated(bushing%axes, bushing%preload_force)
+      bushing%moment0 = rotated(bushing%axes, bushing%preload_moment)
+   end subroutine set_bushing_axes
+
+   !> E diag(k) Eᵀ
+   pure function in_body(axes, k) result(matrix)
+      real(wp), intent(in) :: axes(3, 3), k(3)
+      real(wp) :: matrix(3, 3)
+      integer :: i, j
+
+      do j = 1, 3
+         do i = 1, 3
+            matrix(i, j) = sum(axes(i, :)*k*axes(j, :))
+         end do
+      end do
+   end function in_body
+
+   !> Gap, rotation, and the force and moment of the law.
+   pure subroutine look_bushing(bushing, pose_i, pose_j, view)
+      type(bushing_t), intent(in) :: bushing
+      type(pose_t), intent(in) :: pose_i, pose_j
+      type(bushing_view_t), intent(inout) :: view
+
+      view%frame = pose_i%a
+      view%a = rotated(pose_i%a, bushing%arm_i)
+      view%b = rotated(pose_j%a, bushing%arm_j)
+      view%d = (pose_j%r - pose_i%r) + (view%b - view%a)
+      view%gap(1) = dot_product(pose_i%a(:, 1), view%d) - bushing%gap0(1)
+      view%gap(2) = dot_product(pose_i%a(:, 2), view%d) - bushing%gap0(2)
+      view%gap(3) = dot_product(pose_i%a(:, 3), view%d) - bushing%gap0(3)
+      view%force = rotated(pose_i%a, rotated(bushing%stiffness_t, view%gap) - bushing%force0)
+      call relative_turn(pose_i, pose_j, view%turn)
+      view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
+   end subroutine look_bushing
+
+   !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
+   pure function bushing_pull(view) result(pull)
+      type(bushing_view_t), intent(in) :: view
+      real(wp) :: pull(12), w(3)
+
+      w = rotated(view%frame, turn_gradient(view%turn, view%moment))
+      pull(1:3) = -view%force
+      pull(4:6) = -cross(view%a + view%d, view%force) - w
+      pull(7:9) = view%force
+      pull(10:12) = cross(view%b, view%force) + w
+   end function bushing_pull
+
+   !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
+   pure subroutine add_bushing_tangent(bushing, view, at_i, at_j, ld, matrix)
+      type(bushing_t), intent(in) :: bushing
+      type(bushing_view_t), intent(in) :: view
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: g(3, 3), kg(3, 3), inner(3, 3)
+      integer :: k, l
+
+      call add_link_stiffness(in_world(view%frame, bushing%stiffness_t, at_i), &
+         view%a + view%d, view%b, at_i, at_j, ld, matrix)
+      call add_gap_hessian(view%force, view%a, view%b, view%d, at_i, at_j, ld, matrix)
+      g = turn_jacobian(view%turn)
+      do k = 1, 3
+         kg(:, k) = rotated(bushing%stiffness_r, g(:, k))
+      end do
+      do k = 1, 3
+         do l = k, 3
+            inner(l, k) = dot_product(g(:, l), kg(:, k))
+            inner(k, l) = inner(l, k)
+         end do
+      end do
+      call add_turn_hessian(view%turn, view%moment, inner, view%frame, at_i, at_j, ld, matrix)
+   end subroutine add_bushing_tangent
+
+   !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], u over the three
+   !> marker axes. No force enters, and the frame's own turning (u×d) is left out.
+   pure subroutine add_bushing_material(bushing, view, at_i, at_j, ld, matrix)
+      type(bushing_t), intent(in) :: bushing
+      type(bushing_view_t), intent(in) :: view
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: k(3, 3)
+
+      call add_link_stiffness(in_world(view%frame, bushing%stiffness_t, at_i), view%a, view%b, at_i, at_j, ld, matrix)
+      k = in_world(view%frame, bushing%stiffness_r, at_i)
+      call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
+      call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
+      if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
+   end subroutine add_bushing_material
+
+   !> A K Aᵀ; the chassis (at_i < 0) never turns.
+   pure function in_world(a, k, at_i) result(world)
+      real(wp), intent(in) :: a(3, 3), k(3, 3)
+      integer, intent(in) :: at_i
+      real(wp) :: world(3, 3), ak(3, 3)
+      integer :: j
+
+      if (at_i < 0) then
+         world = k
+         return
+      end if
+      do j = 1, 3
+         ak(:, j) = rotated(a, k(:, j))
+      end do
+      do j = 1, 3
+         world(j, :) = rotated(a, ak(j, :))
+      end do
+   end function in_world
+
+end module ek_elastic

@@ -1,0 +1,195 @@
+!> A table as comma-separated text: `# ` lines, a line of column names, one line per row.
+!>
+!> Numbers have 15 significant digits, `nan` where there is none.
+module ek_csv
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_file
+   use ek_text, only: str, quoted, plural
+   use ek_file, only: write_whole, read_whole
+   use ek_decimal, only: put_decimal, get_decimal, longest_decimal
+   use ek_table, only: table_t, new_table, name_length
+   implicit none(type, external)
+   private
+   public :: csv_text, write_csv, read_csv
+
+   character(*), parameter :: line_end = new_line('a')
+
+contains
+
+   !> The table as text.
+   pure function csv_text(table) result(text)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: text
+      character(:), allocatable :: head, buffer
+      integer :: row, k, used
+      real(wp) :: value
+
+      head = head_text(table)
+      allocate (character(len(head) + size(table%values)*(longest_decimal + 1)) :: buffer)
+      buffer(:len(head)) = head
+      used = len(head)
+      do row = 1, size(table%values, 2)
+         do k = 1, size(table%values, 1)
+            value = table%values(k, row)
+            if (table%is_whole(k)) value = whole(value)
+            call put_decimal(value, buffer, used)
+            used = used + 1
+            buffer(used:used) = ','
+         end do
+         buffer(used:used) = line_end
+      end do
+      text = buffer(:used)
+   end function csv_text
+
+   !> The nearest whole number, where doubles have a fraction at all; nan stays nan.
+   elemental real(wp) function whole(value)
+      real(wp), intent(in) :: value
+
+      whole = value
+      if (abs(value) < 1e15_wp) whole = anint(value)
+   end function whole
+
+   !> The lines above the numbers.
+   pure function head_text(table) result(text)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: text
+      character(:), allocatable :: lines
+      integer :: k
+
+      text = ''
+      if (table%header%count() > 0) then
+         lines = table%header%text()
+         text = '# '
+         do k = 1, len(lines)
+            text = text//lines(k:k)
+            if (lines(k:k) == line_end) text = text//'# '
+         end do
+         text = text//line_end
+      end if
+      do k = 1, size(table%columns)
+         if (k > 1) text = text//','
+         text = text//trim(table%columns(k))
+      end do
+      text = text//line_end
+   end function head_text
+
+   !> Write the table; the file is there whole or not at all.
+   subroutine write_csv(table, path, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(out) :: error   !! exit_file
+      integer :: k
+
+      do k = 1, size(table%columns)
+         if (scan(table%columns(k), ',"'//line_end) == 0) cycle
+         call fail(error, exit_file, "cannot write '"//path//"': the column name "// &
+            quoted(table%columns(k))//' holds a comma, a quote or a line end')
+         return
+      end do
+      call write_whole(path, csv_text(table), error)
+   end subroutine write_csv
+
+   !> Read a table back. Lines with # go to the header wherever they stand; empty lines are skipped.
+   subroutine read_csv(path, table, error)
+      character(*), intent(in) :: path
+      type(table_t), intent(out) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file: path:line: what is wrong
+      character(:), allocatable :: text, content
+      integer :: first, last, line, rows
+
+      table = new_table([character(1) ::], 0)
+      call read_whole(path, text, error)
+      if (allocated(error)) return
+      line = 0
+      rows = -1                                          ! the names come first
+      first = 1
+      do while (first <= len(text))
+         last = index(text(first:), line_end) + first - 2
+         if (last < first - 1) last = len(text)
+         line = line + 1
+         content = text(first:last)
+         if (len(content) > 0) then
+            if (content(len(content):) == achar(13)) content = content(:len(content) - 1)   ! from Windows
+         end if
+         if (index(content, '#') == 1) then
+            call table%header%add(trim(content(min(3, verify(content(2:)//'x', ' ') + 1):)))
+         else if (len_trim(content) > 0 .and. rows < 0) then
+            call take_names(content, lines_left(text(last + 1:)), table)
+            rows = 0
+         else if (len_trim(content) > 0) then
+            rows = rows + 1
+            call take_row(content, path//':'//str(line)//': ', rows, table, error)
+            if (allocated(error)) return
+         end if
+         first = last + 2
+      end do
+      if (rows < 0) then
+         call fail(error, exit_file, path//': there is no line of column names')
+         return
+      end if
+      table%values = table%values(:, :rows)
+   end subroutine read_csv
+
+   !> Upper bound of the rows still to come.
+   pure integer function lines_left(text) result(lines)
+      character(*), intent(in) :: text
+      integer :: k
+
+      lines = 1
+      do k = 1, len(text)
+         if (text(k:k) == line_end) lines = lines + 1
+      end do
+   end function lines_left
+
+   !> The line of column names makes the table.
+   pure subroutine take_names(content, rows, table)
+      character(*), intent(in) :: content
+      integer, intent(in) :: rows
+      type(table_t), intent(inout) :: table
+      character(name_length), allocatable :: names(:)
+      type(table_t) :: fresh
+      integer :: k, first, last
+
+      allocate (names(count([(content(k:k) == ',', k=1, len(content))]) + 1))
+      first = 1
+      do k = 1, size(names)
+         last = index(content(first:)//',', ',') + first - 2
+         names(k) = adjustl(content(first:last))
+         first = last + 2
+      end do
+      fresh = new_table(names, rows)
+      fresh%header = table%header
+      table = fresh
+   end subroutine take_names
+
+   !> One line of numbers.
+   pure subroutine take_row(content, where, row, table, error)
+      character(*), intent(in) :: content
+      character(*), intent(in) :: where                  !! 'file:line: ' for messages
+      integer, intent(in) :: row
+      type(table_t), intent(inout) :: table
+      type(error_t), allocatable, intent(out) :: error
+      integer :: k, first, last, fields
+      logical :: is_number
+
+      fields = count([(content(k:k) == ',', k=1, len(content))]) + 1
+      if (fields /= size(table%columns)) then
+         call fail(error, exit_file, where//plural(fields, 'value', 'values')//' for '// &
+            plural(size(table%columns), 'column', 'columns'))
+         return
+      end if
+      first = 1
+      do k = 1, fields
+         last = index(content(first:), ',') + first - 2
+         if (k == fields) last = len(content)
+         call get_decimal(content(first:last), table%values(k, row), is_number)
+         if (.not. is_number) then
+            call fail(error, exit_file, where//'column '//quoted(table%columns(k))//': '// &
+               quoted(content(first:last))//' is not a number')
+            return
+         end if
+         first = last + 2
+      end do
+   end subroutine take_row
+
+end module ek_csv

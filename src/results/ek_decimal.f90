@@ -1,0 +1,285 @@
+!> A real as text with 15 significant digits, and back: fast, and correctly rounded.
+!>
+!> gfortran's own formatted write takes about a microsecond a number; a table of 600 states and
+!> 70 columns would cost more than its solution.
+!>
+!> A double is m·2^b with a whole number m < 2^53, so with 10^q = 5^q·2^q
+!>
+!>     digits = x·10^q = m·5^q · 2^(b+q)
+!>
+!> is a whole product shifted to the right. It is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13).
+!> Above, 5^q is cut to 63 bits, which bounds the digits from both sides; where the bounds round
+!> to different numbers, the (slow, exact) formatted write decides. It also takes what lies
+!> outside 1e-40 ≤ |x| < 1e15. So every text is the correctly rounded decimal; a tie
+!> goes to the even digit, as in the formatted write.
+module ek_decimal
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
+   use ek_kinds, only: wp, i8
+   implicit none(type, external)
+   private
+   public :: put_decimal, get_decimal, longest_decimal
+
+   integer, parameter :: longest_decimal = 24       !! letters that one number takes at most
+   integer, parameter :: i16 = selected_int_kind(38)
+   integer, parameter :: kept = 15                  !! significant digits
+   integer(i8), parameter :: full = 10_i8**kept
+   integer, parameter :: smallest = -40             !! least decade of the fast way
+   integer, parameter :: most = kept - 1 - smallest !! largest power q
+   integer, parameter :: mantissa_bits = digits(1.0_wp) - 1
+   integer, parameter :: bias = maxexponent(1.0_wp) - 1 + mantissa_bits
+
+   integer :: k, l                                  ! run through the tables here, used nowhere else
+   integer(i16), parameter :: five(0:most) = [(5_i16**k, k=0, most)]
+   integer, parameter :: cut(0:most) = [(max(0, 65 - leadz(five(k))), k=0, most)]
+   integer(i16), parameter :: top(0:most) = [(shiftr(five(k), cut(k)), k=0, most)]
+   real(wp), parameter :: ten(smallest:kept) = [(10.0_wp**k, k=smallest, kept)]
+   real(wp), parameter :: exact_ten(0:22) = [(10.0_wp**k, k=0, 22)]   !! no rounding error
+   character(2), parameter :: pair(0:99) = &
+      [((achar(iachar('0') + k)//achar(iachar('0') + l), l=0, 9), k=0, 9)]
+
+contains
+
+   !> Append x to a buffer: -102.918270651123, 0.25, 3, 1.23456789012345e-09, nan, inf, -inf.
+   !> Plain for 1e-5 ≤ |x| < 1e15; no trailing zeros; both zeros are `0`.
+   pure subroutine put_decimal(x, buffer, used)
+      real(wp), intent(in) :: x
+      character(*), intent(inout) :: buffer     !! with room for longest_decimal more
+      integer, intent(inout) :: used            !! letters of the buffer in use
+      integer(i8) :: bits, number
+      integer :: decade, exponent
+      character(kept) :: text
+
+      bits = transfer(x, bits)
+      exponent = int(ibits(bits, mantissa_bits, 11))
+      if (exponent == 2047 .and. ibits(bits, 0, mantissa_bits) /= 0) then
+         call put('nan', buffer, used)
+         return
+      end if
+      bits = ibclr(bits, 63)
+      if (bits == 0) then
+         call put('0', buffer, used)
+         return
+      end if
+      if (transfer(x, bits) < 0) call put('-', buffer, used)
+      if (exponent == 2047) then
+         call put('inf', buffer, used)
+         return
+      end if
+      call find_digits(transfer(bits, x), number, decade)
+      call spell(number, text)
+      call put_digits(text, decade, buffer, used)
+   end subroutine put_decimal
+
+   pure subroutine put(word, buffer, used)
+      character(*), intent(in) :: word
+      character(*), intent(inout) :: buffer
+      integer, intent(inout) :: used
+
+      buffer(used + 1:used + len(word)) = word
+      used = used + len(word)
+   end subroutine put
+
+   !> The 15 digits of a positive finite x as a whole number, x ≈ number·10^(decade − 14).
+   pure subroutine find_digits(x, number, decade)
+      real(wp), intent(in) :: x
+      integer(i8), intent(out) :: number        !! 10^14 ≤ number < 10^15
+      integer, intent(out) :: decade
+      integer(i8) :: bits
+      integer(i16) :: mantissa, product, half
+      integer :: exponent, power, shift
+
+      if (.not. (x >= ten(smallest) .and. x < ten(kept))) then
+         call find_digits_slowly(x, number, decade)
+         return
+      end if
+      bits = transfer(x, bits)
+      exponent = int(shiftr(bits, mantissa_bits)) - bias
+      mantissa = ibset(ibits(bits, 0, mantissa_bits), mantissa_bits)
+      ! log10(2) = 0.30103 (78913/2^18): the decade or the one below it
+      decade = shifta((exponent + mantissa_bits)*78913, 18)
+      if (x >= ten(decade + 1)) decade = decade + 1
+      power = kept - 1 - decade
+      shift = -(exponent + power) - cut(power)
+      half = shiftl(1_i16, shift - 1)
+      product = mantissa*top(power) + half
+      number = int(shiftr(product, shift), i8)
+      if (cut(power) > 0) then
+         if (int(shiftr(product + mantissa, shift), i8) /= number) then
+            call find_digits_slowly(x, number, decade)
+            return
+         end if
+      else if (ibits(product, 0, shift) == 0) then
+         number = ibclr(number, 0)
+      end if
+      if (number >= full) then
+         number = full/10
+         decade = decade + 1
+      end if
+   end subroutine find_digits
+
+   !> The same by gfortran's formatted write.
+   pure subroutine find_digits_slowly(x, number, decade)
+      real(wp), intent(in) :: x
+      integer(i8), intent(out) :: number
+      integer, intent(out) :: decade
+      character(24) :: text
+      integer(i8) :: first, rest
+
+      write (text, '(es24.14e3)') x             ! '    1.23456789012345E-009'
+      read (text, '(t4, i1, 1x, i14, 1x, i4)') first, rest, decade
+      number = first*(full/10) + rest
+   end subroutine find_digits_slowly
+
+   !> A whole number as 15 digits, four at a time.
+   pure subroutine spell(number, text)
+      integer(i8), intent(in) :: number
+      character(kept), intent(out) :: text
+      integer :: high, low
+
+      high = int(number/100000000_i8)           ! 7 digits
+      low = int(number - high*100000000_i8)     ! 8 digits
+      text(1:1) = achar(iachar('0') + high/1000000)
+      text(2:3) = pair(mod(high/10000, 100))
+      call spell_four(mod(high, 10000), text(4:7))
+      call spell_four(low/10000, text(8:11))
+      call spell_four(mod(low, 10000), text(12:15))
+   end subroutine spell
+
+   pure subroutine spell_four(number, text)
+      integer, intent(in) :: number
+      character(4), intent(out) :: text
+
+      text(1:2) = pair(number/100)
+      text(3:4) = pair(mod(number, 100))
+   end subroutine spell_four
+
+   !> Append digits with the point at its place.
+   pure subroutine put_digits(text, decade, buffer, used)
+      character(kept), intent(in) :: text
+      integer, intent(in) :: decade
+      character(*), intent(inout) :: buffer
+      integer, intent(inout) :: used
+      integer :: last, rest
+
+      do last = kept, 2, -1
+         if (text(last:last) /= '0') exit
+      end do
+      if (decade >= 0 .and. decade < kept) then
+         buffer(used + 1:used + kept) = text
+         if (last <= decade + 1) then
+            used = used + decade + 1
+         else
+            buffer(used + decade + 2:used + decade + 2) = '.'
+            buffer(used + decade + 3:used + kept + 1) = text(decade + 2:)
+            used = used + last + 1
+         end if
+      else if (decade < 0 .and. decade >= -5) then
+         buffer(used + 1:used + 6) = '0.0000'
+         used = used + 1 - decade
+         buffer(used + 1:used + kept) = text
+         used = used + last
+      else
+         buffer(used + 1:used + 1) = text(1:1)
+         buffer(used + 2:used + 2) = '.'
+         buffer(used + 3:used + kept + 1) = text(2:)
+         used = used + merge(1, last + 1, last == 1)
+         buffer(used + 1:used + 1) = 'e'
+         buffer(used + 2:used + 2) = merge('-', '+', decade < 0)
+         used = used + 2
+         rest = abs(decade)
+         if (rest >= 100) then
+            buffer(used + 1:used + 1) = achar(iachar('0') + rest/100)
+            used = used + 1
+         end if
+         buffer(used + 1:used + 2) = pair(mod(rest, 100))
+         used = used + 2
+      end if
+   end subroutine put_digits
+
+   !> Read what put_decimal or a person wrote; blanks around it are allowed. The nearest double.
+   pure subroutine get_decimal(text, x, is_number)
+      character(*), intent(in) :: text
+      real(wp), intent(out) :: x
+      logical, intent(out) :: is_number         !! false: something else, x is nan
+      integer(i8) :: number
+      integer :: at, last, decade, places, figures, mark, sign, status
+
+      x = ieee_value(x, ieee_quiet_nan)
+      is_number = .false.
+      at = verify(text, ' ')
+      if (at == 0) return
+      last = len_trim(text)
+      is_number = .true.
+      select case (text(at:last))
+      case ('nan', 'NaN', 'NAN')
+         return
+      case ('inf', '+inf', 'Infinity', 'INF')
+         x = ieee_value(x, ieee_positive_inf)
+         return
+      case ('-inf', '-Infinity', '-INF')
+         x = ieee_value(x, ieee_negative_inf)
+         return
+      end select
+      is_number = .false.
+      mark = at
+      sign = 1
+      if (text(at:at) == '-') sign = -1
+      if (scan(text(at:at), '+-') == 1) at = at + 1
+      number = 0
+      places = 0
+      figures = 0
+      call take_digits(text(:last), at, number, figures)
+      if (at <= last) then
+         if (text(at:at) == '.') then
+            at = at + 1
+            places = figures
+            call take_digits(text(:last), at, number, figures)
+            places = figures - places
+         end if
+      end if
+      if (figures == 0) return
+      decade = 0
+      if (at <= last) then
+         if (scan(text(at:at), 'eEdD') == 0 .or. at == last) return
+         if (verify(text(at + 1:at + 1), '+-0123456789') > 0) return
+         if (verify(text(at + 2:last), '0123456789') > 0 .or. last - at > 4) return
+         read (text(at + 1:last), *, iostat=status) decade
+         if (status /= 0) return
+      end if
+      decade = decade - places
+      is_number = .true.
+      if (number < 2_i8**53 .and. figures <= 18 .and. abs(decade) <= 22) then
+         ! one operation on two exact numbers: correctly rounded
+         x = real(sign*number, wp)
+         if (decade < 0) then
+            x = x/exact_ten(-decade)
+         else
+            x = x*exact_ten(decade)
+         end if
+      else if (number == 0 .and. figures <= 18) then
+         x = 0.0_wp
+      else if (decade + figures > 308) then
+         is_number = .false.                    ! would overflow; 1e308 and above never come up
+      else
+         read (text(mark:last), *, iostat=status) x
+         is_number = status == 0
+      end if
+   end subroutine get_decimal
+
+   !> Run over digits, and take the first 18 of them into the number.
+   pure subroutine take_digits(text, at, number, figures)
+      character(*), intent(in) :: text
+      integer, intent(inout) :: at, figures
+      integer(i8), intent(inout) :: number
+      integer :: digit
+
+      do while (at <= len(text))
+         digit = iachar(text(at:at)) - iachar('0')
+         if (digit < 0 .or. digit > 9) exit
+         figures = figures + 1
+         if (figures <= 18) number = 10*number + digit
+         at = at + 1
+      end do
+   end subroutine take_digits
+
+end module ek_decimal

@@ -1,0 +1,318 @@
+!> The figures an engineer expects of one run: wheel attitude, steer axis and forces over the stroke.
+module ek_plot
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
+   use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
+   use ek_file, only: base_name
+   implicit none(type, external)
+   private
+   public :: run_figures
+
+   real(wp), parameter :: least_stroke = 1.0_wp   !! mm; a wheel that moves less is not drawn over its travel
+   character(*), parameter :: travel = 'wheel_travel_mm'
+   integer, parameter :: most_curves = 8          !! in one panel, then it becomes a thicket
+
+   !> What is drawn for every wheel: column without the wheel's name, title, label with its sign.
+   type :: quantity_t
+      character(24) :: column
+      character(28) :: title
+      character(56) :: label
+      real(wp) :: noise                           !! unit of the column; a smaller span is drawn flat
+   end type quantity_t
+
+   type(quantity_t), parameter :: toe = &
+      quantity_t('toe_deg', 'Toe', 'toe [deg]    (+ front edge inward)', 0.01_wp)
+   type(quantity_t), parameter :: camber = &
+      quantity_t('camber_deg', 'Camber', 'camber [deg]    (+ top outward)', 0.01_wp)
+   type(quantity_t), parameter :: lateral = &
+      quantity_t('track_change_mm', 'Lateral movement', 'contact patch, lateral [mm]    (+ outward)', 0.1_wp)
+   type(quantity_t), parameter :: longitudinal = &
+      quantity_t('wheelbase_change_mm', 'Longitudinal movement', 'contact patch, longitudinal [mm]    (+ rearward)', 0.1_wp)
+   type(quantity_t), parameter :: caster = &
+      quantity_t('caster_deg', 'Caster', 'caster [deg]    (+ top rearward)', 0.01_wp)
+   type(quantity_t), parameter :: inclination = &
+      quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'kingpin inclination [deg]    (+ top inward)', 0.01_wp)
+   type(quantity_t), parameter :: scrub = &
+      quantity_t('scrub_radius_mm', 'Scrub radius', 'scrub radius [mm]    (+ axis inboard of the patch)', 0.1_wp)
+   type(quantity_t), parameter :: trail = &
+      quantity_t('caster_trail_mm', 'Caster trail', 'caster trail [mm]    (+ axis ahead of the patch)', 0.1_wp)
+
+   !> The run as the figures see it.
+   type :: view_t
+      character(:), allocatable :: file, stem, subtitle
+      character(name_length), allocatable :: wheels(:)   !! prefixes: '', or 'left_' and 'right_'
+      character(:), allocatable :: abscissa, label       !! column, and what is written along the axis
+      logical :: is_travel = .false.                     !! abscissa is each wheel's own travel, drawn upward
+      logical :: has_design = .false.                    !! a state with factor 0 is in the table
+   end type view_t
+
+contains
+
+   !> Figures for the table of a run. What the table does not hold, or never has a value, is left out.
+   !>
+   !> The stroke stands upward when the wheel moves by 1 mm or more; otherwise (a lateral force, say)
+   !> everything is drawn over the load factor, or over `abscissa` when that is given.
+   pure subroutine run_figures(table, model, case_name, csv_name, figures, abscissa, abscissa_label, elements)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: model, case_name          !! for the titles
+      character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
+      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without extension>_<what>
+      character(*), intent(in), optional :: abscissa        !! column to draw over
+      character(*), intent(in), optional :: abscissa_label  !! with its unit
+      character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; none: all with _fx_n, _fy_n, _fz_n
+      type(view_t) :: view
+
+      allocate (figures(0))
+      call set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
+      call add_quantities(figures, table, view, 'overview', 'Overview', [toe, camber, lateral, longitudinal])
+      call add_quantities(figures, table, view, 'toe', 'Toe', [toe])
+      call add_quantities(figures, table, view, 'camber', 'Camber', [camber])
+      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', [lateral])
+      call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
+         [longitudinal])
+      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', [caster, inclination, scrub, trail])
+      call add_springs(figures, table, view)
+      call add_bushings(figures, table, view, elements)
+   end subroutine run_figures
+
+   !> Which wheels there are and what everything is drawn over.
+   pure subroutine set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: model, case_name, csv_name
+      type(view_t), intent(out) :: view
+      character(*), intent(in), optional :: abscissa, abscissa_label
+      real(wp) :: range(2)
+      integer :: k, place
+
+      view%file = csv_name
+      view%stem = base_name(csv_name)
+      view%subtitle = trim(model)//', '//trim(case_name)
+      allocate (view%wheels(0))
+      do k = 1, size(table%columns)
+         place = len_trim(table%columns(k)) - len(travel)
+         if (place < 0) cycle
+         if (table%columns(k) (place + 1:) /= travel) cycle
+         view%wheels = [character(name_length) :: view%wheels, table%columns(k) (:place)]
+         range = column_range(table, table%columns(k))
+         if (ieee_is_finite(range(1))) view%is_travel = view%is_travel .or. range(2) - range(1) >= least_stroke
+      end do
+      view%has_design = any(abs(finite_only(column(table, 'factor'))) <= 0.0_wp)
+      if (present(abscissa)) then
+         view%is_travel = .false.
+         view%abscissa = trim(abscissa)
+         view%label = trim(abscissa)
+      else if (view%is_travel) then
+         view%abscissa = travel
+         view%label = 'wheel travel [mm]    (+ bump)'
+      else
+         view%abscissa = 'factor'
+         view%label = 'load factor'
+      end if
+      if (present(abscissa_label)) view%label = abscissa_label
+   end subroutine set_view
+
+   !> One figure with a panel for every quantity that the table holds.
+   pure subroutine add_quantities(figures, table, view, name, title, quantities)
+      type(figure_t), allocatable, intent(inout) :: figures(:)
+      type(table_t), intent(in) :: table
+      type(view_t), intent(in) :: view
+      character(*), intent(in) :: name, title
+      type(quantity_t), intent(in) :: quantities(:)
+      type(figure_t) :: figure
+      type(panel_t) :: panel
+      character(name_length) :: wanted
+      real(wp) :: range(2), middle, width
+      integer :: k, wheel
+
+      figure = new_figure(view%stem//'_'//name, title, view%subtitle)
+      do k = 1, size(quantities)
+         panel = view_panel(view, trim(quantities(k)%title), trim(quantities(k)%label))
+         if (size(quantities) == 1) panel%title = ''
+         middle = 0.0_wp
+         width = 0.0_wp
+         do wheel = 1, size(view%wheels)
+            wanted = trim(view%wheels(wheel))//quantities(k)%column
+            range = column_range(table, wanted)
+            if (.not. ieee_is_finite(range(1))) cycle
+            middle = sum(range)/2
+            width = max(width, range(2) - range(1))
+            call add_curve(panel, new_curve(view%file, abscissa_of(view, view%wheels(wheel)), trim(wanted), &
+               wheel_title(view%wheels(wheel)), trim(merge('dashed', 'line  ', wheel > 1)), wheel))
+         end do
+         if (size(panel%curves) == 0) cycle
+         if (width < quantities(k)%noise) panel%least_y = middle + quantities(k)%noise*[-1.0_wp, 1.0_wp]
+         call mark_design(panel, view)
+         call add_panel(figure, panel)
+      end do
+      if (size(figure%panels) == 0) return
+      if (size(figure%panels) == 1 .and. size(quantities) > 1) return    ! that one has a figure of its own
+      call append(figures, figure)
+   end subroutine add_quantities
+
+   !> Force of every spring: columns <name>_force_n.
+   pure subroutine add_springs(figures, table, view)
+      type(figure_t), allocatable, intent(inout) :: figures(:)
+      type(table_t), intent(in) :: table
+      type(view_t), intent(in) :: view
+      character(*), parameter :: tail = '_force_n'
+      type(figure_t) :: figure
+      type(panel_t) :: panel
+      integer :: k, place
+
+      figure = new_figure(view%stem//'_spring_force', 'Spring force', view%subtitle)
+      panel = view_panel(view, '', 'force [N]    (+ compression)')
+      do k = 1, size(table%columns)
+         place = len_trim(table%columns(k)) - len(tail)
+         if (place < 1 .or. size(panel%curves) >= most_curves) cycle
+         if (table%columns(k) (place + 1:) /= tail) cycle
+         if (.not. any(ieee_is_finite(table%values(k, :)))) cycle
+         call add_curve(panel, new_curve(view%file, abscissa_of(view, table%columns(k)), &
+            trim(table%columns(k)), table%columns(k) (:place)))
+      end do
+      if (size(panel%curves) == 0) return
+      call mark_design(panel, view)
+      call add_panel(figure, panel)
+      call append(figures, figure)
+   end subroutine add_springs
+
+   !> Magnitude of the force of every bushing, the strongest ones when there are many.
+   pure subroutine add_bushings(figures, table, view, elements)
+      type(figure_t), allocatable, intent(inout) :: figures(:)
+      type(table_t), intent(in) :: table
+      type(view_t), intent(in) :: view
+      character(*), intent(in), optional :: elements(:)
+      character(*), parameter :: tail = '_fx_n'
+      character(name_length), allocatable :: names(:)
+      real(wp), allocatable :: peak(:)
+      type(figure_t) :: figure
+      type(panel_t) :: panel
+      real(wp) :: least
+      integer :: k, place
+
+      allocate (names(0))
+      do k = 1, size(table%columns)
+         place = len_trim(table%columns(k)) - len(tail)
+         if (place < 1) cycle
+         if (table%columns(k) (place + 1:) /= tail) cycle
+         if (present(elements)) then
+            if (.not. any(elements == table%columns(k) (:place))) cycle
+         end if
+         names = [character(name_length) :: names, table%columns(k) (:place)]
+      end do
+      allocate (peak(size(names)))
+      do k = 1, size(names)
+         peak(k) = force_peak(table, trim(names(k)))
+      end do
+      least = 0.0_wp
+      do while (count(peak > least) > most_curves)
+         least = minval(peak, mask=peak > least)
+      end do
+      figure = new_figure(view%stem//'_bushing_force', 'Bushing force', view%subtitle)
+      if (count(peak > 0.0_wp) > most_curves) figure%title = 'Bushing force, the strongest'
+      panel = view_panel(view, '', 'force, magnitude [N]')
+      do k = 1, size(names)
+         if (.not. peak(k) > least) cycle
+         call add_curve(panel, new_curve(view%file, abscissa_of(view, names(k)), &
+            '(sqrt('//square(trim(names(k))//'_fx_n')//' + '//square(trim(names(k))//'_fy_n')//' + '// &
+            square(trim(names(k))//'_fz_n')//'))', trim(names(k))))
+      end do
+      if (size(panel%curves) == 0) return
+      panel%least_y = [0.0_wp, 1.0_wp]
+      call add_panel(figure, panel)
+      call append(figures, figure)
+   end subroutine add_bushings
+
+   pure function square(name) result(expression)
+      character(*), intent(in) :: name
+      character(:), allocatable :: expression
+      expression = 'column("'//name//'")**2'
+   end function square
+
+   !> Largest magnitude of an element's force [N]; 0 when a component is missing.
+   pure real(wp) function force_peak(table, name)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: name
+
+      integer :: place(3), row
+
+      place = [column_index(table, name//'_fx_n'), column_index(table, name//'_fy_n'), column_index(table, name//'_fz_n')]
+      force_peak = 0.0_wp
+      if (any(place == 0)) return
+      do row = 1, row_count(table)
+         if (.not. all(ieee_is_finite(table%values(place, row)))) cycle
+         force_peak = max(force_peak, norm2(table%values(place, row)))
+      end do
+   end function force_peak
+
+   !> Empty axes: the stroke upward, a load factor to the right.
+   pure type(panel_t) function view_panel(view, title, label) result(panel)
+      type(view_t), intent(in) :: view
+      character(*), intent(in) :: title, label
+
+      panel = new_panel(title, view%label, label)
+      panel%swap = view%is_travel
+   end function view_panel
+
+   !> A ring on the state without case load, on every curve.
+   pure subroutine mark_design(panel, view)
+      type(panel_t), intent(inout) :: panel
+      type(view_t), intent(in) :: view
+      type(curve_t) :: mark
+      integer :: k
+
+      if (.not. view%has_design) return
+      do k = 1, size(panel%curves)
+         mark = panel%curves(k)
+         mark%x = '(column("factor") == 0 ? column("'//mark%x//'") : NaN)'
+         mark%style = 'mark'
+         mark%title = ''
+         if (k == 1) mark%title = 'design'
+         call add_curve(panel, mark)
+      end do
+   end subroutine mark_design
+
+   !> What a wheel, or an element that begins with the name of one, is drawn over.
+   pure function abscissa_of(view, element) result(name)
+      type(view_t), intent(in) :: view
+      character(*), intent(in) :: element
+      character(:), allocatable :: name
+      integer :: k
+
+      name = view%abscissa
+      if (.not. view%is_travel) return
+      name = trim(view%wheels(1))//travel
+      do k = 2, size(view%wheels)
+         if (index(element, trim(view%wheels(k))) == 1) name = trim(view%wheels(k))//travel
+      end do
+   end function abscissa_of
+
+   !> 'left' of 'left_'; the only wheel needs no name.
+   pure function wheel_title(prefix) result(title)
+      character(*), intent(in) :: prefix
+      character(:), allocatable :: title
+
+      title = prefix(:max(0, len_trim(prefix) - 1))
+   end function wheel_title
+
+   !> The values that are numbers.
+   pure function finite_only(values) result(numbers)
+      real(wp), intent(in) :: values(:)
+      real(wp), allocatable :: numbers(:)
+      numbers = pack(values, ieee_is_finite(values))
+   end function finite_only
+
+   pure subroutine append(figures, figure)
+      type(figure_t), allocatable, intent(inout) :: figures(:)
+      type(figure_t), intent(in) :: figure
+      type(figure_t), allocatable :: grown(:)
+      integer :: n
+
+      n = size(figures)
+      allocate (grown(n + 1))
+      grown(:n) = figures
+      grown(n + 1) = figure
+      call move_alloc(grown, figures)
+   end subroutine append
+
+end module ek_plot

@@ -1,0 +1,3 @@
+module ek_study
+ implicit none
+end module

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# demo.sh: from a fresh clone to the paper's figures.
+#
+# Sets up, compiles, sweeps the McPherson strut over its stroke by all three methods, runs the study of the
+# number of increments, and draws toe, camber, lateral movement and the error over the number of
+# increments, as in
+#
+#     J. S. Kang, Elastokinematic analysis of a suspension system with linear recursive formula,
+#     International Journal of Automotive Technology 6(4), 2005
+#
+# Results and pictures: out/demo. What is up to date is not made again.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+elastokin=build/release/bin/elastokin
+deck=input/mcpherson/mcpherson.nml
+sweep=mcpherson_vertical_sweep.csv
+study=studies/step_size/out/step_size.csv
+paper=studies/paper
+
+is_current() { # is_current MADE FROM...: MADE exists and is newer than everything it was made from
+  local made=$1 from
+  shift
+  [ -s "$made" ] || return 1
+  for from in "$@"; do [ "$made" -nt "$from" ] || return 1; done
+}
+
+echo "demo: compiling (a few minutes the first time)"
+tools/build.sh release elastokin
+
+mkdir -p out/demo
+for method in recursive corrected equilibrium; do
+  folder=out/demo/$method
+  is_current "$folder/$sweep" $elastokin $deck && continue
+  echo "demo: sweeping the McPherson strut, method $method"
+  $elastokin run $deck --case vertical_sweep --method $method --out "$folder" --quiet
+done
+
+if ! is_current $study $elastokin $deck studies/step_size/study.nml; then
+  echo "demo: running the study of the number of increments"
+  $elastokin study studies/step_size/study.nml --out "$(dirname $study)"
+fi
+
+pictures=(toe camber lateral increments)
+sources=("$paper"/plot.gp "$paper"/*.awk "$study" out/demo/*/"$sweep")
+for picture in "${pictures[@]}"; do
+  if ! is_current "out/demo/$picture.png" "${sources[@]}" || ! is_current "out/demo/$picture.svg" "${sources[@]}"; then
+    echo "demo: drawing the figures"
+    gnuplot $paper/plot.gp
+    break
+  fi
+done
+
+echo
+awk -f $paper/key_numbers.awk out/demo/{recursive,corrected,equilibrium}/$sweep
+echo
+echo "Figures (.svg beside each):"
+for picture in "${pictures[@]}"; do echo "  out/demo/$picture.png"; done
+echo "Tables:"
+for method in recursive corrected equilibrium; do echo "  out/demo/$method/$sweep"; done
+echo "  $study"

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# setup.sh [PACKAGE...]: what it takes to build elastokin and draw its figures.
+#
+# Looks for gfortran 12 or newer, CMake 3.25 or newer, make, a LAPACK, and gnuplot with a font. What is
+# missing is installed with apt-get, as root or through a sudo that asks for no password; where neither
+# is possible, the command to type is printed and the status is 1. Further Debian or Ubuntu packages may be named.
+# Quick when nothing is missing. FC chooses another compiler than gfortran.
+set -euo pipefail
+
+missing=()
+reasons=()
+lacks() { # lacks PACKAGE WHAT
+  missing+=("$1")
+  reasons+=("$2")
+}
+
+at_least() { # at_least WANTED FOUND: version numbers
+  [ "$(printf '%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]
+}
+
+has_compiler() {
+  command -v "${FC:-gfortran}" >/dev/null && at_least 12 "$("${FC:-gfortran}" -dumpversion)"
+}
+
+has_cmake() {
+  command -v cmake >/dev/null && at_least 3.25 "$(cmake --version | awk 'NR == 1 {print $3}')"
+}
+
+has_lapack() { # a program that calls LAPACK links
+  local folder status=1 libraries
+  folder=$(mktemp -d)
+  printf 'external dsytrf\ncall dsytrf\nend\n' >"$folder/probe.f90"
+  for libraries in -lopenblas '-llapack -lblas'; do
+    # shellcheck disable=SC2086  # two words
+    if "${FC:-gfortran}" -o "$folder/probe" "$folder/probe.f90" $libraries 2>/dev/null; then status=0; break; fi
+  done
+  rm -rf "$folder"
+  return $status
+}
+
+has_font() { # a plain sans-serif; without it gnuplot draws with whatever there is, or with boxes
+  [ -n "$(find -L /usr/share/fonts /usr/local/share/fonts "${HOME:-/nonexistent}/.fonts" \
+    "${HOME:-/nonexistent}/.local/share/fonts" \( -iname '*sans*.[ot]tf' -o -iname '*arial*.ttf' \) -print -quit 2>/dev/null)" ]
+}
+
+look_around() {
+  missing=()
+  reasons=()
+  has_compiler || lacks gfortran 'gfortran 12 or newer'
+  has_cmake || lacks cmake 'CMake 3.25 or newer'
+  command -v make >/dev/null || lacks make make
+  if ! has_compiler || ! has_lapack; then
+    # with a compiler still to come, a LAPACK that is there already is installed again at no cost
+    lacks libopenblas-dev LAPACK
+  fi
+  command -v gnuplot >/dev/null || lacks gnuplot-nox gnuplot
+  has_font || lacks fonts-dejavu-core 'a font for the figures'
+  local package
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || lacks "$package" "$package"
+  done
+}
+
+explain() {
+  local k
+  for k in "${!missing[@]}"; do echo "setup: missing: ${reasons[k]}" >&2; done
+}
+
+look_around "$@"
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  explain
+  echo "setup: no apt-get here; install these by other means and run this again" >&2
+  exit 1
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
+    as_root=(sudo -n)
+  else
+    explain
+    echo "setup: root is needed to install them. Please run" >&2
+    echo "    sudo apt-get update && sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@" </dev/null >>"$log" 2>&1; }
+install() { apt install -y --no-install-recommends "${missing[@]}"; }
+
+echo "setup: installing ${missing[*]}"
+# package lists that are absent or out of date are fetched, and only then
+if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! install; then
+  if ! apt update || ! install; then
+    tail -n 20 "$log" >&2
+    echo "setup: apt-get could not install ${missing[*]}" >&2
+    exit 1
+  fi
+fi
+
+look_around "$@"
+if [ ${#missing[@]} -gt 0 ]; then
+  explain
+  echo "setup: still missing after apt-get: is this release older than Debian 12 or Ubuntu 24.04?" >&2
+  exit 1
+fi

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# test.sh [PRESET [CMAKE-ARGUMENT...]]: set up, compile, run every test; the last line is `N passed, N failed`.
+#
+# PRESET: release (without arguments), debug or asan. Status 0 when every test passed.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 1
+
+preset=${1:-release}
+shift $(($# < 1 ? $# : 1))
+folder=${EK_BUILD:-build/$preset}
+jobs=${EK_JOBS:-$(nproc)}
+
+built=0
+tools/build.sh "$preset" all "$@" || built=$?
+# a test that was not built counts as failed; without a build folder there is none to count
+if [ ! -f "$folder/CTestTestfile.cmake" ]; then
+  echo "0 passed, 1 failed"
+  exit 1
+fi
+sh tests/support/run_tests.sh "$folder" --parallel "$jobs"
+passed=$?
+exit $((passed != 0 ? passed : built))
