@@ -25,7 +25,7 @@ is_current() { # is_current MADE FROM...: MADE exists and is newer than everythi
   for from in "$@"; do [ "$made" -nt "$from" ] || return 1; done
 }
 
-echo "demo: compiling (a few minutes the first time)"
+[ -x $elastokin ] || echo "demo: compiling, a minute or so"
 tools/build.sh release elastokin
 
 mkdir -p out/demo
@@ -33,12 +33,12 @@ for method in recursive corrected equilibrium; do
   folder=out/demo/$method
   is_current "$folder/$sweep" $elastokin $deck && continue
   echo "demo: sweeping the McPherson strut, method $method"
-  $elastokin run $deck --case vertical_sweep --method $method --out "$folder" --quiet
+  $elastokin run $deck --case vertical_sweep --method $method --out "$folder" --quiet >/dev/null
 done
 
 if ! is_current $study $elastokin $deck studies/step_size/study.nml; then
   echo "demo: running the study of the number of increments"
-  $elastokin study studies/step_size/study.nml --out "$(dirname $study)"
+  $elastokin study studies/step_size/study.nml --out "$(dirname $study)" --quiet >/dev/null
 fi
 
 pictures=(toe camber lateral increments)

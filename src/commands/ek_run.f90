@@ -7,7 +7,7 @@ module ek_run
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
    use ek_file, only: make_folder, join_path, base_name
-   use ek_suspension, only: suspension_t, body_name, add_travel_driver
+   use ek_suspension, only: suspension_t, body_name, add_travel_driver, load_number
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -140,7 +140,12 @@ contains
       end do
       model = suspension%title
       if (len(model) == 0) model = suspension%name
-      call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, elements=elements)
+      if (is_vertical(suspension, case)) then
+         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, elements=elements)
+      else
+         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', &
+            'factor of load '//case%load, elements)
+      end if
       do k = 1, size(figures)
          call write_figure(figures(k), folder, error)
          if (allocated(error)) return
@@ -154,6 +159,19 @@ contains
             ' ('//figures(1)%name//'.png …)')
       end if
    end subroutine draw
+
+   !> Whether a case moves the wheel up and down in the first place, so that its figures stand over the stroke.
+   pure logical function is_vertical(suspension, case)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer :: k
+
+      is_vertical = .true.
+      k = load_number(suspension, case%load)
+      if (k == 0) return
+      is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &
+         .and. norm2(suspension%loads(k)%moment) <= 0.0_wp
+   end function is_vertical
 
    !> The lines above the table.
    subroutine add_header(table, suspension, case, checksum)

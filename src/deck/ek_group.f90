@@ -7,15 +7,17 @@ module ek_group
    private
    public :: group_names, group_number, key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
-   public :: wheel_group, load_group, case_group
+   public :: wheel_group, load_group, case_group, last_deck_group, study_group, factor_group, response_group
+   public :: most_values
    public :: word_length, note_length, most_measures, largest_exponent
    public :: word, prose, number, whole, switch
 
    ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
-      bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10
-   character(*), parameter :: group_names(10) = [character(7) :: 'model', 'point', 'body', 'measure', 'joint', &
-      'bushing', 'spring', 'wheel', 'load', 'case']
+      bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
+      last_deck_group = 10, study_group = 11, factor_group = 12, response_group = 13
+   character(*), parameter :: group_names(13) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
+      'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response']
 
    ! types of value
    integer, parameter :: word = 1      !! quoted, at most word_length characters: names and choices
@@ -27,6 +29,7 @@ module ek_group
    integer, parameter :: word_length = 63      !! the longest name
    integer, parameter :: note_length = 2000    !! the longest title or note
    integer, parameter :: most_measures = 8     !! of one coupler
+   integer, parameter :: most_values = 200     !! of one factor, or step sizes of one study
    integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
 
    type :: key_t
@@ -120,7 +123,33 @@ module ek_group
       key_t(case_group, 'to', number, 1, 1, .true.), &
       key_t(case_group, 'increments', whole, 1, 1, .false.), &
       key_t(case_group, 'method', word, 1, 1, .false.), &
-      key_t(case_group, 'tolerance', number, 1, 1, .false.)]
+      key_t(case_group, 'tolerance', number, 1, 1, .false.), &
+      key_t(study_group, 'name', word, 1, 1, .true.), &
+      key_t(study_group, 'note', prose, 1, 1, .false.), &
+      key_t(study_group, 'title', prose, 1, 1, .false.), &
+      key_t(study_group, 'kind', word, 1, 1, .true.), &
+      key_t(study_group, 'deck', prose, 1, 1, .true.), &
+      key_t(study_group, 'case', word, 1, 1, .false.), &
+      key_t(study_group, 'plot', prose, 1, 1, .false.), &
+      key_t(study_group, 'end', word, 1, 1, .false.), &
+      key_t(study_group, 'methods', word, 1, 3, .false.), &
+      key_t(study_group, 'increments', whole, 1, most_values, .false.), &
+      key_t(study_group, 'columns', word, 1, 20, .false.), &
+      key_t(factor_group, 'name', word, 1, 1, .true.), &
+      key_t(factor_group, 'note', prose, 1, 1, .false.), &
+      key_t(factor_group, 'path', prose, 1, 1, .true.), &
+      key_t(factor_group, 'values', number, 1, most_values, .false.), &
+      key_t(factor_group, 'from', number, 1, 1, .false.), &
+      key_t(factor_group, 'to', number, 1, 1, .false.), &
+      key_t(factor_group, 'count', whole, 1, 1, .false.), &
+      key_t(factor_group, 'spacing', word, 1, 1, .false.), &
+      key_t(response_group, 'name', word, 1, 1, .true.), &
+      key_t(response_group, 'note', prose, 1, 1, .false.), &
+      key_t(response_group, 'column', word, 1, 1, .true.), &
+      key_t(response_group, 'of', word, 1, 1, .false.), &
+      key_t(response_group, 'at', number, 1, 1, .false.), &
+      key_t(response_group, 'over', word, 1, 1, .false.), &
+      key_t(response_group, 'window', number, 1, 1, .false.)]
 
 contains
 

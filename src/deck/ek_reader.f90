@@ -8,7 +8,8 @@ module ek_reader
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
    use ek_record, only: element, place_of
-   use ek_group, only: group_names, group_number, model_group, point_group, body_group, measure_group, joint_group, &
+   use ek_group, only: group_names, group_number, last_deck_group, model_group, point_group, body_group, &
+      measure_group, joint_group, &
       bushing_group, spring_group, word_length, note_length, record_head, did_you_mean
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t
@@ -78,12 +79,13 @@ contains
 
       associate (card => draft%cards(k), record => deck%records(k))
          card%group = group_number(record%group)
+         if (card%group > last_deck_group) card%group = 0     ! a study's
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
          if (card%group == 0) then
             call place_of(record, 0, deck%file, place, line)
             if (record%group /= '') call draft%complaints%add(line, place//': there is no group &'//record%group// &
-               did_you_mean(record%group, group_names))
+               did_you_mean(record%group, group_names(:last_deck_group)))
             return
          end if
          call check_record(record, card%group, record_head(card%group, trim(card%name)), deck%file, draft%complaints, &

@@ -4,7 +4,7 @@ module ek_setting
    use ek_error, only: error_t, fail, exit_usage
    use ek_record, only: record_t, entry_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
-   use ek_group, only: group_names, group_number, model_group, point_group, key_t, find_key, &
+   use ek_group, only: group_names, group_number, last_deck_group, model_group, point_group, key_t, find_key, &
       did_you_mean, unknown_key, word, prose, word_length
    use ek_namelist, only: value_fault
    implicit none(type, external)
@@ -160,8 +160,8 @@ contains
          return
       end if
       group = group_number(lower(path(:dot - 1)))
-      if (group == 0) then
-         message = 'there is no group '//quoted(path(:dot - 1))//did_you_mean(path(:dot - 1), group_names)
+      if (group == 0 .or. group > last_deck_group) then
+         message = 'there is no group '//quoted(path(:dot - 1))//did_you_mean(path(:dot - 1), group_names(:last_deck_group))
          return
       end if
       if (group == model_group .neqv. dot == last) then

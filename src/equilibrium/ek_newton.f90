@@ -53,7 +53,7 @@ contains
          if (iteration == 1) outcome%first = outcome%last
          if (.not. outcome%last <= largest) return      ! also when it is not a number
          if (outcome%last <= tolerance) exit
-         if (outcome%last > 2.0_wp*previous) return
+         if (0.5_wp*outcome%last > previous) return   ! not 2*previous: huge at first
          previous = outcome%last
          if (outcome%last < 0.01_wp*kkt%length) then
             call assemble(suspension, state, demand, residual_only, kkt)

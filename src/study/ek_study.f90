@@ -1,3 +1,239 @@
+!> What a study asks: read from its own namelist file, with the same scanner and the same messages.
+!>
+!> `&study` names the question, `&factor` what of the deck is varied, `&response` what is read from
+!> the results. Kinds so far: 'step_size' and 'sweep'; a new kind is a new file beside these.
 module ek_study
- implicit none
-end module
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: lower
+   use ek_record, only: element, place_of
+   use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, note_length, &
+      most_values, group_names, did_you_mean, last_deck_group
+   use ek_namelist, only: check_record
+   use ek_deck, only: deck_t, read_deck
+   use ek_draft, only: draft_t, complain, choice, has_key
+   implicit none(type, external)
+   private
+   public :: study_t, factor_t, response_t, read_study
+
+   !> A number of the deck that takes several values.
+   type :: factor_t
+      character(:), allocatable :: name, path     !! path as in --set
+      real(wp), allocatable :: values(:)          !! in the deck's units
+   end type factor_t
+
+   !> A number read from the table of a run.
+   type :: response_t
+      character(:), allocatable :: name, column
+      character(:), allocatable :: of             !! 'value', 'slope' or 'span'
+      real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
+      character(:), allocatable :: over           !! column the slope is taken over
+      real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
+   end type response_t
+
+   !> A study.
+   type :: study_t
+      character(:), allocatable :: name, title, kind, deck, case, plot
+      character(:), allocatable :: end            !! step_size: the end of the case that is compared, 'from' or 'to'
+      character(word_length), allocatable :: methods(:), columns(:)
+      integer, allocatable :: increments(:)
+      type(factor_t), allocatable :: factors(:)
+      type(response_t), allocatable :: responses(:)
+   end type study_t
+
+   integer, parameter :: unset = -huge(1)
+   real(wp), parameter :: unset_number = -huge(1.0_wp)
+
+contains
+
+   !> Reads a study file; all its mistakes in one error.
+   subroutine read_study(path, study, error)
+      character(*), intent(in) :: path
+      type(study_t), intent(out) :: study
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: file
+      type(draft_t) :: draft
+      character(:), allocatable :: place
+      integer :: k, line, studies
+
+      call read_deck(path, file, error)
+      if (allocated(error)) return
+      draft%complaints = file%complaints
+      allocate (draft%cards(file%used))
+      allocate (study%factors(0), study%responses(0))
+      studies = 0
+      do k = 1, file%used
+         associate (card => draft%cards(k), record => file%records(k))
+            card%group = group_number(record%group)
+            if (card%group <= last_deck_group) then
+               call place_of(record, 0, file%file, place, line)
+               call draft%complaints%add(line, place//': there is no group &'//record%group//' in a study'// &
+                  did_you_mean(record%group, group_names(last_deck_group + 1:)))
+               card%group = 0
+               cycle
+            end if
+            card%name = element(record, 'name', 1)
+            call check_record(record, card%group, record_head(card%group, trim(card%name)), file%file, draft%complaints, &
+               card%text, card%is_good)
+         end associate
+         select case (draft%cards(k)%group)
+         case (study_group)
+            studies = studies + 1
+            if (studies > 1) call complain(draft, file, k, '', 'a second &study; one file holds one')
+            call take_study(file, draft, k, study)
+         case (factor_group)
+            call take_factor(file, draft, k, study)
+         case (response_group)
+            call take_response(file, draft, k, study)
+         end select
+      end do
+      if (studies == 0) call draft%complaints%add(0, file%file//': there is no &study')
+      if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(file, draft, study)
+      if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
+   end subroutine read_study
+
+   !> &study
+   subroutine take_study(file, draft, k, study)
+      type(deck_t), intent(in) :: file
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: k
+      type(study_t), intent(inout) :: study
+      character(note_length) :: title, deck, plot
+      character(word_length) :: name, kind, case, end, methods(3), columns(20)
+      character(:), allocatable :: text
+      integer :: increments(most_values), status, c, m
+      namelist /study_nml/ name, title, kind, deck, case, plot, end, methods, columns, increments
+      character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
+
+      name = ''
+      title = ''
+      kind = ''
+      deck = ''
+      case = ''
+      plot = 'plot.gp'
+      end = 'to'
+      methods = ''
+      columns = ''
+      increments = unset
+      ! the namelist cannot be called `study`, which is the dummy argument
+      text = '&study_nml'//draft%cards(k)%text(len('&study') + 1:)
+      read (text, nml=study_nml, iostat=status)
+      if (status /= 0) call complain(draft, file, k, '', 'cannot be read')
+      call choice(draft, file, k, 'kind', trim(kind), [character(9) :: 'step_size', 'sweep'], c)
+      call choice(draft, file, k, 'end', trim(end), [character(4) :: 'from', 'to'], c)
+      do m = 1, 3
+         call choice(draft, file, k, 'methods', trim(methods(m)), method_names, c)
+      end do
+      if (all(methods == '')) methods = method_names
+      study%name = trim(name)
+      study%title = trim(title)
+      study%kind = lower(trim(kind))
+      study%deck = trim(deck)
+      study%case = trim(case)
+      study%plot = trim(plot)
+      study%end = lower(trim(end))
+      study%methods = pack(methods, methods /= '')
+      study%columns = pack(columns, columns /= '')
+      study%increments = pack(increments, increments /= unset)
+      if (any(study%increments < 1)) call complain(draft, file, k, 'increments', 'increments must be at least 1')
+   end subroutine take_study
+
+   !> &factor: values given one by one, or from, to, count and spacing.
+   subroutine take_factor(file, draft, k, study)
+      type(deck_t), intent(in) :: file
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: k
+      type(study_t), intent(inout) :: study
+      character(note_length) :: path
+      character(word_length) :: name, spacing
+      real(wp) :: values(most_values), from, to
+      integer :: count, status, c, j
+      namelist /factor/ name, path, values, from, to, count, spacing
+      type(factor_t) :: this
+
+      name = ''
+      path = ''
+      spacing = 'linear'
+      values = unset_number
+      from = 0.0_wp
+      to = 0.0_wp
+      count = unset
+      read (draft%cards(k)%text, nml=factor, iostat=status)
+      if (status /= 0) call complain(draft, file, k, '', 'cannot be read')
+      call choice(draft, file, k, 'spacing', trim(spacing), [character(6) :: 'linear', 'log'], c)
+      this%name = trim(name)
+      this%path = trim(path)
+      if (has_key(file, k, 'values')) then
+         this%values = pack(values, values > unset_number)
+         if (has_key(file, k, 'count') .or. has_key(file, k, 'from') .or. has_key(file, k, 'to')) &
+            call complain(draft, file, k, 'values', 'give values, or from, to and count, not both')
+      else if (has_key(file, k, 'count') .and. has_key(file, k, 'from') .and. has_key(file, k, 'to')) then
+         if (count < 2 .or. count > most_values) then
+            call complain(draft, file, k, 'count', 'count must be 2 to 200')
+            return
+         end if
+         if (lower(spacing) == 'log') then
+            if (.not. (from > 0.0_wp .and. to > 0.0_wp)) then
+               call complain(draft, file, k, 'spacing', 'spacing = ''log'' needs from and to above 0')
+               return
+            end if
+            this%values = [(from*(to/from)**(real(j, wp)/(count - 1)), j=0, count - 1)]
+         else
+            this%values = [(from + (to - from)*real(j, wp)/(count - 1), j=0, count - 1)]
+         end if
+      else
+         call complain(draft, file, k, '', 'needs values, or from, to and count')
+         return
+      end if
+      study%factors = [study%factors, this]
+   end subroutine take_factor
+
+   !> &response
+   subroutine take_response(file, draft, k, study)
+      type(deck_t), intent(in) :: file
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: k
+      type(study_t), intent(inout) :: study
+      character(word_length) :: name, column, of, over
+      real(wp) :: at, window
+      integer :: status, c
+      namelist /response/ name, column, of, over, at, window
+      type(response_t) :: this
+
+      name = ''
+      column = ''
+      of = 'value'
+      over = 'wheel_travel_mm'
+      at = 0.0_wp
+      window = 15.0_wp
+      read (draft%cards(k)%text, nml=response, iostat=status)
+      if (status /= 0) call complain(draft, file, k, '', 'cannot be read')
+      call choice(draft, file, k, 'of', trim(of), [character(5) :: 'value', 'slope', 'span'], c)
+      if (.not. window > 0.0_wp) call complain(draft, file, k, 'window', 'window must be above 0')
+      this%name = trim(name)
+      this%column = trim(column)
+      this%of = lower(trim(of))
+      this%over = trim(over)
+      this%at = at
+      this%window = window
+      study%responses = [study%responses, this]
+   end subroutine take_response
+
+   !> What the parts must be together.
+   subroutine check_whole(file, draft, study)
+      type(deck_t), intent(in) :: file
+      type(draft_t), intent(inout) :: draft
+      type(study_t), intent(in) :: study
+      integer :: k
+
+      do k = 1, file%used
+         if (draft%cards(k)%group == study_group) exit
+      end do
+      if (study%kind == 'step_size') then
+         if (size(study%increments) == 0) call complain(draft, file, k, '', 'kind = ''step_size'' needs increments = …')
+      else if (size(study%factors) < 1 .or. size(study%factors) > 2) then
+         call complain(draft, file, k, '', 'kind = ''sweep'' needs one or two &factor groups')
+      end if
+   end subroutine check_whole
+
+end module ek_study

@@ -16,7 +16,7 @@ set datafile separator comma
 set border 3 linecolor rgb '#808080'
 set tics out nomirror textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
-set lmargin at screen 0.115; set rmargin at screen 0.965
+set lmargin at screen 0.125; set rmargin at screen 0.965
 
 # Okabe and Ito's colours, which the colour-blind tell apart. The exact answer is a broad band; the
 # methods are drawn on top of it.
@@ -27,7 +27,12 @@ set style line 9 linetype 1 linecolor rgb '#909090' linewidth 1.2
 
 # The size of what lies furthest from zero, short enough to be read in passing: 0.012 or 3·10⁻⁶.
 largest(low, high) = high > -low ? high : -low
-short(x) = x == 0 ? '0' : x >= 1e-3 ? sprintf('%.2g', x) : gprintf('%.0t·10^{%T}', x)
+short(x) = x == 0 ? '0' : x >= 1e-3 ? sprintf('%.2g', x) : gprintf('%.0t·10⁻', x).raised(-int(gprintf('%T', x)))
+raised(n) = (n > 9 ? raised(n/10) : '').word('⁰ ¹ ² ³ ⁴ ⁵ ⁶ ⁷ ⁸ ⁹', n % 10 + 1)
+
+# A round step that makes some four tics of a range.
+step(range) = step_of(0.25*range, 10**floor(log10(0.25*range)))
+step_of(size, power) = power*(size < 1.5*power ? 1 : size < 3.5*power ? 2 : size < 7.5*power ? 5 : 10)
 
 # ---- three quantities over the wheel stroke ---------------------------------------------------
 
@@ -72,9 +77,9 @@ do for [k = 1:3] {
       xlow = GPVAL_X_MIN; xhigh = GPVAL_X_MAX
 
       unset label 1; unset label 2; unset key
-      set label 3 'Difference to the equilibrium at the same stroke' at screen 0.115, screen 0.356 \
+      set label 3 'Difference to equilibrium at the same stroke' at screen 0.125, screen 0.356 \
          font 'sans-serif:Bold,15' textcolor rgb '#202020'
-      set label 4 sprintf('recursive ≤ %s %s', short(recursive_most), word(units, k)) at screen 0.765, screen 0.356 right \
+      set label 4 sprintf('recursive ≤ %s %s', short(recursive_most), word(units, k)) at screen 0.76, screen 0.356 right \
          textcolor rgb '#B84F00'
       set label 5 sprintf('corrected ≤ %s %s', short(corrected_most), word(units, k)) at screen 0.965, screen 0.356 right \
          textcolor rgb '#202020'
@@ -84,11 +89,12 @@ do for [k = 1:3] {
       set ylabel sprintf('difference [%s]', word(units, k))
       unset xzeroaxis
       set xrange [xlow:xhigh]; set yrange [low - 0.12*(high - low) : high + 0.12*(high - low)]
+      set ytics step(high - low)
       plot 0 with lines linestyle 1, \
            difference('recursive', column) using 1:2 with lines linestyle 3, \
            difference('corrected', column) using 1:2 with lines linestyle 2
       unset label; unset xlabel
-      set xrange [*:*]; set yrange [*:*]
+      set xrange [*:*]; set yrange [*:*]; set ytics autofreq
       unset multiplot
       unset output
    }
@@ -114,11 +120,11 @@ do for [format in formats] {
 
    set label 1 'Error over the number of increments' at screen 0.03, screen 0.967 \
       font 'sans-serif:Bold,21' textcolor rgb '#202020'
-   set label 2 'McPherson strut at full rebound' at screen 0.03, screen 0.932 \
+   set label 2 'McPherson strut, vertical load 0 to −3000 N' at screen 0.03, screen 0.932 \
       font 'sans-serif,14' textcolor rgb '#606060'
    set key at screen 0.985, screen 0.985 right top vertical Left reverse samplen 4 width -1 spacing 1.05
    set label 3 'What the joints say:  |Φ|, how far they are from closed, equation (31)' \
-      at screen 0.115, screen 0.895 font 'sans-serif:Bold,15' textcolor rgb '#202020'
+      at screen 0.125, screen 0.895 font 'sans-serif:Bold,15' textcolor rgb '#202020'
    set tmargin at screen 0.868; set bmargin at screen 0.535
    set format x ''
    set ylabel '|Φ|   [m, rad]'
@@ -127,7 +133,7 @@ do for [format in formats] {
 
    unset label 1; unset label 2; unset key
    set label 3 'What the wheel says:  distance of toe from the equilibrium' \
-      at screen 0.115, screen 0.472 font 'sans-serif:Bold,15' textcolor rgb '#202020'
+      at screen 0.125, screen 0.472 font 'sans-serif:Bold,15' textcolor rgb '#202020'
    set tmargin at screen 0.445; set bmargin at screen 0.09
    set format x '%g'
    set xlabel 'number of increments'

@@ -1,0 +1,256 @@
+!> A sweep of one or two factors of a deck: the family of curves, and the responses of each design.
+module ek_factor_sweep
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_deck, message_list_t
+   use ek_text, only: str, quoted, nearest_name
+   use ek_deck, only: deck_t, set_value
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_kkt, only: kkt_t
+   use ek_path, only: path_t, sweep
+   use ek_sweep_table, only: sweep_table
+   use ek_table, only: table_t, new_table, column_index, name_length
+   use ek_study, only: study_t, response_t
+   use ek_subject, only: make_subject
+   implicit none(type, external)
+   private
+   public :: sweep_factors
+
+contains
+
+   !> Runs all designs. A design that cannot be built or solved is told in `troubles` and has no values.
+   subroutine sweep_factors(study, deck, curves, responses, troubles, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(table_t), intent(out) :: curves        !! design, factors, then the study's columns; one row a state
+      type(table_t), intent(out) :: responses     !! design, factors, responses, converged; one row a design
+      type(message_list_t), intent(out) :: troubles
+      type(error_t), allocatable, intent(out) :: error   !! the study itself is wrong (a path, a column)
+      type(table_t) :: table
+      type(error_t), allocatable :: trouble
+      real(wp), allocatable :: values(:), rows(:, :)
+      character(:), allocatable :: label
+      integer :: design, designs, first, second, i, j, f, n, used
+
+      n = size(study%factors)
+      first = size(study%factors(1)%values)
+      second = 1
+      if (n == 2) second = size(study%factors(2)%values)
+      designs = first*second
+      allocate (values(n), rows(0, 0))
+      used = 0
+      design = 0
+      do i = 1, first
+         do j = 1, second
+            design = design + 1
+            values(1) = study%factors(1)%values(i)
+            if (n == 2) values(2) = study%factors(2)%values(j)
+            label = ''
+            do f = 1, n
+               label = label//study%factors(f)%path//'='//str(values(f), 9)//' '
+            end do
+            call run_design(study, deck, values, table, trouble, error)
+            if (allocated(error)) return
+            if (design == 1) then
+               if (.not. allocated(trouble)) call check_columns(study, table, error)
+               if (allocated(trouble)) call move_alloc(trouble, error)   ! the first design must stand
+               if (allocated(error)) return
+               call start_tables(study, table, designs, curves, responses)
+               deallocate (rows)
+               allocate (rows(size(curves%columns), designs*size(table%values, 2)))
+            end if
+            responses%values(1, design) = design
+            responses%values(2:n + 1, design) = values
+            responses%values(size(responses%columns), design) = 0.0_wp
+            if (allocated(trouble)) then
+               call troubles%add(trim(label)//': '//trouble%message)
+               cycle
+            end if
+            call take_curves(study, table, design, values, rows, used)
+            call take_responses(study, table, n + 1, responses%values(:, design))
+         end do
+      end do
+      curves%values = rows(:, :used)
+   end subroutine sweep_factors
+
+   !> One design: its table, or why there is none. `error`: a path that no design can have.
+   subroutine run_design(study, deck, values, table, trouble, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      real(wp), intent(in) :: values(:)
+      type(table_t), intent(out) :: table
+      type(error_t), allocatable, intent(out) :: trouble, error
+      type(deck_t) :: changed
+      type(suspension_t) :: suspension
+      type(case_t) :: case
+      type(kkt_t) :: kkt
+      type(path_t) :: path
+      character(32) :: number
+      integer :: f, k
+
+      changed = deck
+      do f = 1, size(values)
+         write (number, '(es24.16)') values(f)
+         call set_value(changed, study%factors(f)%path, trim(adjustl(number)), error)
+         if (allocated(error)) return
+      end do
+      call make_subject(changed, study%case, suspension, case, kkt, trouble)
+      if (allocated(trouble)) return
+      call sweep(suspension, case, path, kkt)
+      call sweep_table(suspension, case, path, kkt, table)
+      do k = 1, 2
+         if (path%failure(k)%state > 0) call fail(trouble, exit_deck, 'state at factor '// &
+            str(path%value(path%failure(k)%state))//' was not found')
+      end do
+   end subroutine run_design
+
+   !> All columns named by the study must be in the table.
+   subroutine check_columns(study, table, error)
+      type(study_t), intent(in) :: study
+      type(table_t), intent(in) :: table
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: text
+      integer :: k
+
+      text = ''
+      do k = 1, size(study%columns)
+         call check(trim(study%columns(k)), '&study columns')
+      end do
+      do k = 1, size(study%responses)
+         call check(study%responses(k)%column, 'response '//quoted(study%responses(k)%name))
+         if (study%responses(k)%of == 'slope') call check(study%responses(k)%over, 'response '//quoted(study%responses(k)%name))
+      end do
+      if (len(text) > 0) call fail(error, exit_deck, text(:len(text) - 1))
+
+   contains
+
+      subroutine check(name, who)
+         character(*), intent(in) :: name, who
+         character(:), allocatable :: hint
+         if (column_index(table, name) > 0) return
+         hint = nearest_name(name, table%columns)
+         if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
+         text = text//who//': the results have no column '//quoted(name)//hint//new_line('a')
+      end subroutine check
+
+   end subroutine check_columns
+
+   !> Heads of both tables.
+   subroutine start_tables(study, table, designs, curves, responses)
+      type(study_t), intent(in) :: study
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: designs
+      type(table_t), intent(out) :: curves, responses
+      character(name_length), allocatable :: heads(:)
+      integer :: k, n
+
+      n = size(study%factors)
+      allocate (heads(n + 2 + size(study%columns)))
+      heads(1) = 'design'
+      do k = 1, n
+         heads(k + 1) = study%factors(k)%name
+      end do
+      heads(n + 2) = 'factor'
+      do k = 1, size(study%columns)
+         heads(n + 2 + k) = study%columns(k)
+      end do
+      curves = new_table(heads, size(table%values, 2))
+      curves%is_whole(1) = .true.
+      deallocate (heads)
+      allocate (heads(n + 2 + size(study%responses)))
+      heads(1) = 'design'
+      do k = 1, n
+         heads(k + 1) = study%factors(k)%name
+      end do
+      do k = 1, size(study%responses)
+         heads(n + 1 + k) = study%responses(k)%name
+      end do
+      heads(size(heads)) = 'converged'
+      responses = new_table(heads, designs)
+      responses%is_whole(1) = .true.
+   end subroutine start_tables
+
+   !> Appends the states of a design.
+   subroutine take_curves(study, table, design, values, rows, used)
+      type(study_t), intent(in) :: study
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: design
+      real(wp), intent(in) :: values(:)
+      real(wp), intent(inout) :: rows(:, :)
+      integer, intent(inout) :: used
+      integer :: k, r, n
+
+      n = size(values)
+      do r = 1, size(table%values, 2)
+         used = used + 1
+         rows(1, used) = design
+         rows(2:n + 1, used) = values
+         rows(n + 2, used) = table%values(2, r)
+         do k = 1, size(study%columns)
+            rows(n + 2 + k, used) = table%values(column_index(table, trim(study%columns(k))), r)
+         end do
+      end do
+   end subroutine take_curves
+
+   !> Evaluates the responses of a design.
+   subroutine take_responses(study, table, at, row)
+      type(study_t), intent(in) :: study
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: at                !! columns before the responses
+      real(wp), intent(inout) :: row(:)
+      integer :: k
+
+      do k = 1, size(study%responses)
+         row(at + k) = response_value(study%responses(k), table)
+      end do
+      row(size(row)) = minval(table%values(column_index(table, 'converged'), :))
+   end subroutine take_responses
+
+   !> A response of one table: the value at a factor (linear between states), the least-squares slope over a
+   !> window there, or the span over all states.
+   function response_value(response, table) result(value)
+      type(response_t), intent(in) :: response
+      type(table_t), intent(in) :: table
+      real(wp) :: value, centre, mean_x, mean_y
+      real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
+      logical :: is_near(size(table%values, 2))
+
+      y = table%values(column_index(table, response%column), :)
+      select case (response%of)
+      case ('value')
+         value = between(table%values(2, :), y, response%at)
+      case ('slope')
+         x = table%values(column_index(table, response%over), :)
+         centre = between(table%values(2, :), x, response%at)
+         is_near = abs(x - centre) <= response%window
+         value = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (count(is_near) < 2) return
+         mean_x = sum(x, mask=is_near)/count(is_near)
+         mean_y = sum(y, mask=is_near)/count(is_near)
+         value = sum((x - mean_x)*(y - mean_y), mask=is_near)/sum((x - mean_x)**2, mask=is_near)
+      case default
+         value = maxval(y) - minval(y)
+      end select
+   end function response_value
+
+   !> y at x = at, linear between the rows; not a number outside them.
+   pure real(wp) function between(x, y, at) result(value)
+      real(wp), intent(in) :: x(:), y(:), at
+      integer :: k
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      do k = 1, size(x)
+         if (abs(x(k) - at) <= 0.0_wp) then
+            value = y(k)
+            return
+         end if
+         if (k == size(x)) exit
+         if ((x(k) - at)*(x(k + 1) - at) < 0.0_wp) then
+            value = y(k) + (y(k + 1) - y(k))*(at - x(k))/(x(k + 1) - x(k))
+            return
+         end if
+      end do
+   end function between
+
+end module ek_factor_sweep

@@ -1,0 +1,140 @@
+!> Step-size convergence: error and time of each method against the number of increments.
+!>
+!> For every N the case is walked from design to one of its ends in N increments. Told are |Φ| of
+!> (31), which says how well the joints close, AND the distance to the equilibrium there, which (31)
+!> does not know of.
+module ek_step_size
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_convergence
+   use ek_units, only: degree, millimetre
+   use ek_text, only: quoted
+   use ek_clock, only: seconds
+   use ek_deck, only: deck_t
+   use ek_suspension, only: suspension_t, load_number, driver_row
+   use ek_case, only: case_t
+   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_path, only: path_t, new_path, walk
+   use ek_attitude, only: attitude_t
+   use ek_sweep_table, only: wheel_attitude
+   use ek_table, only: table_t, new_table
+   use ek_csv, only: csv_text
+   use ek_study, only: study_t
+   use ek_subject, only: make_subject
+   implicit none(type, external)
+   private
+   public :: step_size_text
+
+   character(*), parameter :: columns(10) = [character(20) :: 'increments', 'constraint_error', 'travel_error_mm', &
+      'toe_error_deg', 'camber_error_deg', 'seconds', 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'reached']
+   integer, parameter :: repeats = 5     !! a run is timed so often, the least counts
+
+contains
+
+   !> The whole study as CSV text: column `method`, then those above, one row for each method and N.
+   subroutine step_size_text(study, deck, text, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(:), allocatable, intent(out) :: text
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: suspension
+      type(case_t) :: case
+      type(kkt_t) :: kkt
+      type(table_t) :: table
+      type(attitude_t) :: exact, found
+      character(:), allocatable :: rows
+      real(wp) :: closure, time
+      logical :: is_reached
+      integer :: m, k, head
+
+      call make_subject(deck, study%case, suspension, case, kkt, error)
+      if (allocated(error)) return
+      if (study%end == 'from') case%to = case%from
+      case%from = 0.0_wp
+      case%method = 'equilibrium'
+      case%tolerance = 1.0e-13_wp      ! m; the reference is a thousand times closer than any result
+      case%increments = 100
+      call walk_once(suspension, case, kkt, exact, closure, time, is_reached)
+      if (.not. is_reached) then
+         call fail(error, exit_convergence, deck%file//': case '//quoted(case%name)//': no equilibrium at the end that is studied')
+         return
+      end if
+      case%tolerance = 1.0e-10_wp      ! m, the default of a deck
+
+      text = ''
+      do m = 1, size(study%methods)
+         case%method = trim(study%methods(m))
+         table = new_table(columns, size(study%increments))
+         table%is_whole(1) = .true.
+         table%is_whole(10) = .true.
+         do k = 1, size(study%increments)
+            case%increments = study%increments(k)
+            call walk_once(suspension, case, kkt, found, closure, time, is_reached)
+            table%values(1, k) = case%increments
+            table%values(10, k) = merge(1.0_wp, 0.0_wp, is_reached)
+            if (.not. is_reached) cycle
+            table%values(2, k) = closure
+            table%values(3, k) = (found%centre(3) - exact%centre(3))/millimetre
+            table%values(4, k) = (found%toe - exact%toe)/degree
+            table%values(5, k) = (found%camber - exact%camber)/degree
+            table%values(6, k) = time
+            table%values(7:9, k) = [found%centre(3)/millimetre, found%toe/degree, found%camber/degree]
+         end do
+         rows = csv_text(table)
+         head = index(rows, new_line('a'))
+         if (m == 1) text = 'method,'//rows(:head)
+         text = text//prefixed(rows(head + 1:), trim(study%methods(m))//',')
+      end do
+   end subroutine step_size_text
+
+   !> Walks a case to its end; attitude of the first wheel there, |Φ|, and the least time of a few walks.
+   subroutine walk_once(suspension, case, kkt, attitude, closure, time, is_reached)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(kkt_t), intent(inout) :: kkt
+      type(attitude_t), intent(out) :: attitude
+      real(wp), intent(out) :: closure, time
+      logical, intent(out) :: is_reached
+      type(path_t) :: path
+      type(state_t) :: state
+      type(demand_t) :: demand
+      real(wp) :: start
+      integer :: k
+
+      time = huge(time)
+      closure = 0.0_wp
+      do k = 1, repeats
+         call new_path(suspension, case, path)
+         start = seconds()
+         call walk(suspension, case, path, kkt)
+         time = min(time, seconds() - start)
+      end do
+      is_reached = path%is_reached(path%states)
+      if (.not. is_reached) return
+      state = design_state(suspension)
+      call unpack_state(path%packed(:, path%states), state)
+      attitude = wheel_attitude(suspension, state, 1)
+      demand%load = load_number(suspension, case%load)
+      demand%row = driver_row(suspension, case%drive)
+      demand%value = case%to
+      call assemble(suspension, state, demand, residual_only, kkt)
+      closure = norm2(kkt%values)
+   end subroutine walk_once
+
+   !> Every line with a text in front.
+   pure function prefixed(lines, front) result(text)
+      character(*), intent(in) :: lines, front
+      character(:), allocatable :: text
+      integer :: from, length
+
+      text = ''
+      from = 1
+      do while (from <= len(lines))
+         length = index(lines(from:), new_line('a'))
+         if (length == 0) exit
+         text = text//front//lines(from:from + length - 1)
+         from = from + length
+      end do
+   end function prefixed
+
+end module ek_step_size

@@ -1,0 +1,50 @@
+!> What is studied: one case of a deck, ready to be swept.
+module ek_subject
+   use ek_error, only: error_t, fail, exit_deck, exit_model
+   use ek_text, only: quoted
+   use ek_deck, only: deck_t
+   use ek_reader, only: build_model
+   use ek_suspension, only: suspension_t, add_travel_driver
+   use ek_case, only: case_t
+   use ek_state, only: design_state
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_balance, only: balance
+   use ek_diagnosis, only: diagnosis_t, diagnose
+   implicit none(type, external)
+   private
+   public :: make_subject
+
+contains
+
+   !> Builds the model of a deck for one case ('' is the first), its travel driver included, and examines it.
+   subroutine make_subject(deck, case_name, suspension, case, kkt, error)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: case_name
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), intent(out) :: case
+      type(kkt_t), intent(out) :: kkt
+      type(error_t), allocatable, intent(out) :: error
+      type(case_t), allocatable :: cases(:)
+      type(diagnosis_t) :: diagnosis
+      integer :: k
+
+      call build_model(deck, suspension, cases, error)
+      if (allocated(error)) return
+      do k = 1, size(cases)
+         if (len(case_name) == 0 .or. cases(k)%name == case_name) exit
+      end do
+      if (k > size(cases)) then
+         call fail(error, exit_deck, deck%file//': there is no case '//quoted(case_name))
+         return
+      end if
+      case = cases(k)
+      call balance(suspension, case%tolerance, error)
+      if (allocated(error)) return
+      if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+      kkt = new_kkt(suspension)
+      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      if (.not. diagnosis%is_solvable()) call fail(error, exit_model, deck%file//': the model cannot be solved'// &
+         new_line('a')//diagnosis%words())
+   end subroutine make_subject
+
+end module ek_subject
