@@ -11,6 +11,7 @@
 # Results and pictures: out/demo. What is up to date is not made again.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+export LC_ALL=C.UTF-8     # a decimal point in every number, and no complaint of gnuplot about letters
 
 elastokin=build/release/bin/elastokin
 deck=input/mcpherson/mcpherson.nml

@@ -6,7 +6,7 @@ module funit
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use, intrinsic :: iso_fortran_env, only: real64
   use funit_equal, only: assertEqual
-  use funit_failures, only: SourceLocation, throw, anyExceptions
+  use funit_failures, only: SourceLocation, throw, anyExceptions, suspend_traps, restore_traps
   use funit_text, only: to_text, where_text
   implicit none(type, external)
   private
@@ -35,8 +35,11 @@ contains
     real(real64), intent(in) :: lhs, rhs
     character(len=*), intent(in), optional :: message
     type(SourceLocation), intent(in), optional :: location
+    logical :: saved
 
+    call suspend_traps(saved)
     if (.not. lhs < rhs) call throw('expected ' // to_text(lhs) // ' < ' // to_text(rhs), message, location)
+    call restore_traps(saved)
   end subroutine less_real
 
   subroutine less_integer(lhs, rhs, message, location)
@@ -51,8 +54,11 @@ contains
     real(real64), intent(in) :: lhs, rhs
     character(len=*), intent(in), optional :: message
     type(SourceLocation), intent(in), optional :: location
+    logical :: saved
 
+    call suspend_traps(saved)
     if (.not. lhs <= rhs) call throw('expected ' // to_text(lhs) // ' <= ' // to_text(rhs), message, location)
+    call restore_traps(saved)
   end subroutine less_or_equal_real
 
   subroutine less_or_equal_integer(lhs, rhs, message, location)
@@ -67,8 +73,11 @@ contains
     real(real64), intent(in) :: lhs, rhs
     character(len=*), intent(in), optional :: message
     type(SourceLocation), intent(in), optional :: location
+    logical :: saved
 
+    call suspend_traps(saved)
     if (.not. lhs > rhs) call throw('expected ' // to_text(lhs) // ' > ' // to_text(rhs), message, location)
+    call restore_traps(saved)
   end subroutine greater_real
 
   subroutine greater_integer(lhs, rhs, message, location)

@@ -2,7 +2,7 @@
 module funit_equal
   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use, intrinsic :: iso_fortran_env, only: real64
-  use funit_failures, only: SourceLocation, throw
+  use funit_failures, only: SourceLocation, throw, suspend_traps, restore_traps
   use funit_text, only: index_text, to_text, where_text
   implicit none(type, external)
   private
@@ -25,7 +25,7 @@ contains
     type(SourceLocation), intent(in), optional :: location
 
     real(real64) :: e(size(actual)), a(size(actual)), difference(size(actual)), allowed
-    logical :: is_wrong(size(actual))
+    logical :: is_wrong(size(actual)), saved
     integer :: worst
 
     if (.not. are_conformable(shape(expected), shape(actual), message, location)) return
@@ -35,15 +35,17 @@ contains
     e = flat_real(expected, size(a))
 
     ! Not "difference > allowed": NaN must fail. Equality by the two orders, since Inf - Inf is NaN.
+    call suspend_traps(saved)
     difference = abs(a - e)
     is_wrong = .not. ((a <= e .and. a >= e) .or. difference <= allowed)
-    if (.not. any(is_wrong)) return
-
-    worst = findloc(is_wrong .and. ieee_is_nan(difference), .true., 1)
-    if (worst == 0) worst = maxloc(difference, 1, mask=is_wrong)
-    call throw('expected ' // to_text(e(worst)) // ', found ' // to_text(a(worst)) // &
-      ', difference ' // to_text(a(worst) - e(worst)) // ', tolerance ' // to_text(allowed) // &
-      where_text('worst', worst, shape(actual), is_wrong), message, location)
+    if (any(is_wrong)) then
+      worst = findloc(is_wrong .and. ieee_is_nan(difference), .true., 1)
+      if (worst == 0) worst = maxloc(difference, 1, mask=is_wrong)
+      call throw('expected ' // to_text(e(worst)) // ', found ' // to_text(a(worst)) // &
+        ', difference ' // to_text(a(worst) - e(worst)) // ', tolerance ' // to_text(allowed) // &
+        where_text('worst', worst, shape(actual), is_wrong), message, location)
+    end if
+    call restore_traps(saved)
   end subroutine equal_real
 
   subroutine equal_integer(expected, actual, message, location)

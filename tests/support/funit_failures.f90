@@ -3,10 +3,11 @@
 !> The one place of the stand-in with module state: an assertion inside a helper has no argument
 !> through which it could tell the runner. A test program is one process and runs its tests in turn.
 module funit_failures
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_invalid, ieee_set_flag, ieee_set_halting_mode
   implicit none(type, external)
   private
 
-  public :: SourceLocation, throw, anyExceptions, next_failure
+  public :: SourceLocation, throw, anyExceptions, next_failure, suspend_traps, restore_traps
 
   !> Where an assertion stands; the name and the order of the components are pFUnit's.
   type :: SourceLocation
@@ -22,6 +23,20 @@ module funit_failures
   type(failure_t), allocatable :: failures(:)
 
 contains
+
+  !> An assertion compares NaN too: where the program traps invalid operations, it must not end there.
+  subroutine suspend_traps(saved)
+    logical, intent(out) :: saved
+    call ieee_get_halting_mode(ieee_invalid, saved)
+    call ieee_set_halting_mode(ieee_invalid, .false.)
+  end subroutine suspend_traps
+
+  !> Back to what suspend_traps found.
+  subroutine restore_traps(saved)
+    logical, intent(in) :: saved
+    call ieee_set_flag(ieee_invalid, .false.)
+    call ieee_set_halting_mode(ieee_invalid, saved)
+  end subroutine restore_traps
 
   !> Note one failure. `message` is the user's, `text` says what was expected and found.
   subroutine throw(text, message, location)
