@@ -77,11 +77,11 @@ do for [k = 1:3] {
       xlow = GPVAL_X_MIN; xhigh = GPVAL_X_MAX
 
       unset label 1; unset label 2; unset key
-      set label 3 'Difference to equilibrium at the same stroke' at screen 0.125, screen 0.356 \
+      set label 3 'Distance to equilibrium at equal stroke, at most' at screen 0.125, screen 0.356 \
          font 'sans-serif:Bold,15' textcolor rgb '#202020'
-      set label 4 sprintf('recursive max %s %s', short(recursive_most), word(units, k)) at screen 0.76, screen 0.356 right \
+      set label 4 sprintf('recursive %s %s', short(recursive_most), word(units, k)) at screen 0.775, screen 0.356 right \
          textcolor rgb '#B84F00'
-      set label 5 sprintf('corrected max %s %s', short(corrected_most), word(units, k)) at screen 0.965, screen 0.356 right \
+      set label 5 sprintf('corrected %s %s', short(corrected_most), word(units, k)) at screen 0.965, screen 0.356 right \
          textcolor rgb '#202020'
       set tmargin at screen 0.33; set bmargin at screen 0.09
       set format x '%g'

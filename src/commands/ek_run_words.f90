@@ -1,0 +1,158 @@
+!> What `run` has to say besides its results: settling, preloads, drift, stability, and why a sweep ended.
+module ek_run_words
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   use ek_text, only: str, quoted, plural
+   use ek_suspension, only: suspension_t, body_name
+   use ek_case, only: case_t
+   use ek_state, only: state_t, design_state, unpack_state
+   use ek_kkt, only: kkt_t
+   use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_path, only: path_t, failure_t
+   use ek_attitude, only: attitude_t
+   use ek_sweep_table, only: wheel_attitude, factor_unit
+   use ek_drift, only: drift_t, drift_at
+   use ek_arguments, only: arguments_t
+   use ek_words, only: say, warn
+   implicit none(type, external)
+   private
+   public :: say_settled, say_preloads, warn_of_drift, warn_of_instability, failure_words
+
+contains
+
+   !> By how much the wheels moved under the constant loads.
+   subroutine say_settled(arguments, suspension, case, path)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(state_t) :: state
+      type(attitude_t) :: attitude
+      real(wp), parameter :: noticeable = 1.0e-8_wp      ! m
+      integer :: k
+
+      if (case%method == 'recursive') return
+      if (count(path%is_reached) == 0) return
+      state = design_state(suspension)
+      call unpack_state(path%settled, state)
+      do k = 1, size(suspension%wheels)
+         attitude = wheel_attitude(suspension, state, k)
+         if (norm2(attitude%centre) <= noticeable) cycle
+         call say(arguments%quiet, 'case '//quoted(case%name)//': under the constant loads wheel '// &
+            quoted(suspension%wheels(k)%name)//' settles by '//str(attitude%centre(3)/millimetre, 4)//' mm (toe '// &
+            str((attitude%toe)/degree, 4)//' deg, camber '//str(attitude%camber/degree, 4)//' deg there)')
+      end do
+   end subroutine say_settled
+
+   !> What balance has found.
+   subroutine say_preloads(arguments, suspension)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(in) :: suspension
+      integer :: k
+
+      if (suspension%balance == 'none') return
+      do k = 1, size(suspension%springs)
+         call say(arguments%quiet, 'balance: preload of spring '//quoted(suspension%springs(k)%name)//' = '// &
+            str(suspension%springs(k)%preload, 9)//' N (compression)')
+      end do
+   end subroutine say_preloads
+
+   !> The linear methods against one equilibrium solution at either end of the sweep.
+   subroutine warn_of_drift(suspension, case, path, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt
+      type(drift_t) :: drift
+      real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
+      real(wp), parameter :: much_angle = 1.0e-3_wp*degree
+      integer :: k, ends(2), n
+
+      if (case%method == 'equilibrium') return
+      ends = [1, path%states]
+      do n = 1, 2
+         k = ends(n)
+         if (.not. path%is_reached(k) .or. k == path%start) cycle
+         call drift_at(suspension, case, path, k, kkt, drift)
+         if (.not. drift%is_known) then
+            call warn('case '//quoted(case%name)//', method '//case%method// &
+               ': no equilibrium was found near the state at factor '// &
+               str(path%value(k)/factor_unit(suspension, case))//'; do not trust it')
+         else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
+            call warn('case '//quoted(case%name)//', method '//case%method//': at factor '// &
+               str(path%value(k)/factor_unit(suspension, case))//' the state is off equilibrium by '// &
+               str(drift%travel/millimetre, 3)//' mm travel, '//str(drift%toe/degree, 3)//' deg toe, '// &
+               str(drift%camber/degree, 3)//' deg camber'//advice(case))
+         end if
+      end do
+   end subroutine warn_of_drift
+
+   !> What to do about drift.
+   pure function advice(case) result(text)
+      type(case_t), intent(in) :: case
+      character(:), allocatable :: text
+      text = '; more increments make it smaller'
+      if (case%method == 'recursive') text = ' (the bias of this method, which more increments do not remove; '// &
+         'method = ''equilibrium'' has none)'
+   end function advice
+
+   !> States that a real suspension would leave at once, and matrices that are nearly singular.
+   subroutine warn_of_instability(suspension, case, path)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      real(wp), parameter :: nearly_singular = 1.0e-12_wp    ! of the largest pivot: four digits are left
+      integer :: unstable, first
+
+      first = minloc(path%pivot_ratio, dim=1, mask=path%is_reached)
+      if (first > 0) then
+         if (path%pivot_ratio(first) < nearly_singular) call warn('case '//quoted(case%name)// &
+            ': the matrix is nearly singular (least over largest pivot '//str(path%pivot_ratio(first), 2)//') at factor '// &
+            str(path%value(first)/factor_unit(suspension, case))//'; see elastokin check')
+      end if
+      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness to tell by
+      unstable = count(path%is_reached .and. .not. path%is_stable)
+      if (unstable == 0) return
+      first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
+      call warn('case '//quoted(case%name)//': '//plural(unstable, 'state is', 'states are')// &
+         ' unstable (negative stiffness: over centre or buckled), the first at factor '// &
+         str(path%value(first)/factor_unit(suspension, case)))
+   end subroutine warn_of_instability
+
+   !> Where a sweep stopped, which body moved most in the attempt, which joint is furthest off.
+   function failure_words(suspension, case, path, failure, kkt) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(failure_t), intent(in) :: failure
+      type(kkt_t), intent(inout) :: kkt          !! work space
+      character(:), allocatable :: text
+      type(state_t) :: state
+      type(diagnosis_t) :: diagnosis
+      real(wp) :: unit
+      integer :: last
+
+      unit = factor_unit(suspension, case)
+      if (count(path%is_reached) == 0) then
+         text = 'case '//quoted(case%name)//': no equilibrium under the constant loads'
+      else
+         text = 'case '//quoted(case%name)//': state '//str(failure%state - 1)//' (factor '// &
+            str(path%value(failure%state)/unit)//') was not found; equilibrium is lost between factor '// &
+            str(failure%reached/unit, 8)//' and '//str(failure%value/unit, 8)
+      end if
+      if (failure%is_singular) text = text//'; the matrix is singular there'
+      if (failure%body > 0) text = text//'; body '//quoted(body_name(suspension, failure%body))// &
+         ' moved most in the last attempt ('//str(failure%moved/millimetre, 3)//' mm)'
+      if (failure%row > 0) text = text//'; joint '//quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)// &
+         ' is furthest from closing'
+      if (.not. failure%is_singular .or. count(path%is_reached) == 0) return
+      last = merge(failure%state - 1, failure%state + 1, failure%state > max(path%start, 1))
+      if (last < 1 .or. last > path%states) return
+      if (.not. path%is_reached(last)) return
+      state = design_state(suspension)
+      call unpack_state(path%packed(:, last), state)
+      call diagnose(suspension, state, kkt, diagnosis)
+      if (.not. diagnosis%is_solvable()) text = text//new_line('a')//diagnosis%words()
+   end function failure_words
+
+end module ek_run_words
