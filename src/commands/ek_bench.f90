@@ -10,7 +10,8 @@ module ek_bench
    use ek_text, only: str, quoted
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
-   use ek_suspension, only: suspension_t, add_travel_driver, load_number, driver_row
+   use ek_suspension, only: suspension_t, load_number, driver_row
+   use ek_builder, only: add_travel_driver
    use ek_case, only: case_t, method_names
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent

@@ -3,7 +3,8 @@ module ek_check
    use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_error, only: error_t, fail, exit_model
    use ek_text, only: str, quoted, plural
-   use ek_suspension, only: suspension_t, add_travel_driver
+   use ek_suspension, only: suspension_t
+   use ek_builder, only: add_travel_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt

@@ -7,7 +7,8 @@ module ek_run
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
    use ek_file, only: make_folder, join_path, base_name
-   use ek_suspension, only: suspension_t, add_travel_driver, load_number
+   use ek_suspension, only: suspension_t, load_number
+   use ek_builder, only: add_travel_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt

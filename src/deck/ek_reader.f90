@@ -17,7 +17,8 @@ module ek_reader
    use ek_reader_joints, only: read_measures, read_joints
    use ek_reader_elements, only: read_bushings, read_springs, read_loads
    use ek_reader_wheels, only: read_wheels, read_cases
-   use ek_suspension, only: suspension_t, add_point, add_body, complete
+   use ek_suspension, only: suspension_t
+   use ek_builder, only: add_point, add_body, complete
    use ek_case, only: case_t
    implicit none(type, external)
    private

@@ -4,7 +4,8 @@ module ek_reader_elements
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: cross, perpendicular, unit_vector
    use ek_elastic, only: bushing_t
-   use ek_suspension, only: suspension_t, load_t, add_bushing, add_spring, add_load
+   use ek_suspension, only: suspension_t, load_t
+   use ek_builder, only: add_bushing, add_spring, add_load
    use ek_group, only: bushing_group, spring_group, load_group, word_length
    use ek_deck, only: deck_t
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_body, find_bodies, &

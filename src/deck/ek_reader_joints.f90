@@ -4,7 +4,8 @@ module ek_reader_joints
    use ek_text, only: str, lower, quoted
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
    use ek_joint, only: joint_geometry_t, joint_kinds, needs_axis, needs_second_axis
-   use ek_suspension, only: suspension_t, readout_t, add_readout, add_joint, add_driver, add_coupler
+   use ek_suspension, only: suspension_t, readout_t
+   use ek_builder, only: add_readout, add_joint, add_driver, add_coupler
    use ek_group, only: measure_group, joint_group, word_length, most_measures
    use ek_deck, only: deck_t
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, look_up, find_point, find_bodies, &

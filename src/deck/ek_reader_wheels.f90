@@ -3,7 +3,8 @@ module ek_reader_wheels
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: unit_vector
-   use ek_suspension, only: suspension_t, wheel_t, add_wheel
+   use ek_suspension, only: suspension_t, wheel_t
+   use ek_builder, only: add_wheel
    use ek_case, only: case_t, method_names
    use ek_record, only: element
    use ek_group, only: wheel_group, case_group, load_group, joint_group, word_length, did_you_mean

@@ -7,7 +7,8 @@ module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model, exit_convergence
    use ek_text, only: str
-   use ek_measure, only: view_t, look, rotated
+   use ek_measure, only: view_t, look
+   use ek_block, only: rotated
    use ek_elastic, only: set_bushing_axes
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t

@@ -10,8 +10,9 @@
 !> forces by a characteristic stiffness, so that all its blocks are of the order of one.
 module ek_kkt
    use ek_kinds, only: wp
-   use ek_measure, only: pose_t, view_t, look, add_measure_hessian, add_diagonal_block, add_block, &
-      add_link_stiffness, s_matrix, rotated, axis_axis, rotation
+   use ek_measure, only: view_t, look, add_measure_hessian, axis_axis, rotation
+   use ek_turn, only: pose_t
+   use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated
    use ek_elastic, only: bushing_view_t, spring_tension, add_spring_tangent, look_bushing, bushing_pull, &
       add_bushing_tangent, add_bushing_material
    use ek_rotation, only: cross, skew

@@ -1,7 +1,7 @@
 !> A state of a suspension (where the bodies are, what the joints take) and what is demanded of it.
 module ek_state
    use ek_kinds, only: wp
-   use ek_measure, only: pose_t
+   use ek_turn, only: pose_t
    use ek_rotation, only: cross, rotate_quaternion, rotation_matrix
    use ek_suspension, only: suspension_t, design_poses
    implicit none(type, external)

@@ -3,7 +3,8 @@
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 module ek_attitude
    use ek_kinds, only: wp
-   use ek_measure, only: pose_t, rotated
+   use ek_turn, only: pose_t
+   use ek_block, only: rotated
    use ek_suspension, only: wheel_t
    implicit none(type, external)
    private

@@ -4,7 +4,8 @@
 module ek_sweep_table
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
-   use ek_measure, only: measure_value, rotated, axis_axis, rotation
+   use ek_measure, only: measure_value, axis_axis, rotation
+   use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
    use ek_suspension, only: suspension_t, load_number, driver_row

@@ -7,9 +7,9 @@
 !> "Pull" below means the gradient of the energy, dV/dz: the force ON the bodies is minus that.
 module ek_elastic
    use ek_kinds, only: wp
-   use ek_measure, only: pose_t, measure_t, view_t, turn_t, look, relative_turn, turn_gradient, &
-      turn_jacobian, add_turn_hessian, add_gap_hessian, add_link_stiffness, add_diagonal_block, &
-      add_block, s_matrix, rotated
+   use ek_measure, only: measure_t, view_t, look
+   use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
+   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, s_matrix, rotated
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private

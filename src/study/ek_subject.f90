@@ -4,7 +4,8 @@ module ek_subject
    use ek_text, only: quoted
    use ek_deck, only: deck_t
    use ek_reader, only: build_model
-   use ek_suspension, only: suspension_t, add_travel_driver
+   use ek_suspension, only: suspension_t
+   use ek_builder, only: add_travel_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt

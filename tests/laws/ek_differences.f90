@@ -5,7 +5,7 @@
 !> the rounding are near 1e-12 of a gradient, with 5e-3 near 1e-10 of a Hessian.
 module ek_differences
    use ek_kinds, only: wp
-   use ek_measure, only: pose_t
+   use ek_turn, only: pose_t
    use ek_rotation, only: rotate_quaternion, rotation_matrix
    implicit none(type, external)
    private

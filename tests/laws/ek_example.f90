@@ -7,8 +7,8 @@ module ek_example
    use ek_elastic, only: bushing_t
    use ek_joint, only: joint_geometry_t
    use ek_rotation, only: identity3
-   use ek_suspension, only: suspension_t, load_t, wheel_t, add_body, add_joint, add_bushing, add_spring, add_load, &
-      add_wheel
+   use ek_suspension, only: suspension_t, load_t, wheel_t
+   use ek_builder, only: add_body, add_joint, add_bushing, add_spring, add_load, add_wheel
    implicit none(type, external)
    private
    public :: mcpherson_model, double_wishbone_model, load_case, drive_case, new_bushing, geometry

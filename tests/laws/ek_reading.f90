@@ -3,7 +3,8 @@ module ek_reading
    use ek_kinds, only: wp
    use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
    use ek_kkt, only: kkt_t, assemble, residual_only
-   use ek_measure, only: pose_t, measure_value, measure_gradient
+   use ek_measure, only: measure_value, measure_gradient
+   use ek_turn, only: pose_t
    use ek_path, only: path_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_suspension, only: suspension_t

@@ -1,0 +1,159 @@
+!> Adding 3×3 blocks to the lower triangle of a matrix of bodies, six unknowns each: [Δr Δπ].
+!>
+!> `at` counts the unknowns before a block, `at_i` those before body i; negative: the chassis, which has none.
+!> Diagonal blocks are added whole, for the sake of straight code; what lies above the diagonal is never read.
+module ek_block
+   use ek_kinds, only: wp
+   use ek_rotation, only: cross
+   implicit none(type, external)
+   private
+   public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian
+   public :: s_matrix, rotated, dyad, dyad_rest
+
+contains
+
+   !> A v
+   pure function rotated(a, v) result(w)
+      real(wp), intent(in) :: a(3, 3), v(3)
+      real(wp) :: w(3)
+      w(1) = a(1, 1)*v(1) + a(1, 2)*v(2) + a(1, 3)*v(3)
+      w(2) = a(2, 1)*v(1) + a(2, 2)*v(2) + a(2, 3)*v(3)
+      w(3) = a(3, 1)*v(1) + a(3, 2)*v(2) + a(3, 3)*v(3)
+   end function rotated
+
+   !> S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I
+   pure function s_matrix(p, g) result(s)
+      real(wp), intent(in) :: p(3), g(3)
+      real(wp) :: s(3, 3), x, y, z
+
+      x = p(1)*g(1); y = p(2)*g(2); z = p(3)*g(3)
+      s(1, 1) = -y - z
+      s(2, 2) = -x - z
+      s(3, 3) = -x - y
+      s(2, 1) = 0.5_wp*(p(1)*g(2) + p(2)*g(1)); s(1, 2) = s(2, 1)
+      s(3, 1) = 0.5_wp*(p(1)*g(3) + p(3)*g(1)); s(1, 3) = s(3, 1)
+      s(3, 2) = 0.5_wp*(p(2)*g(3) + p(3)*g(2)); s(2, 3) = s(3, 2)
+   end function s_matrix
+
+   !> Adds Jᵀ M J, J = [−I, ã, I, −b̃]: a symmetric stiffness M between two points.
+   pure subroutine add_link_stiffness(m, a, b, at_i, at_j, ld, matrix)
+      real(wp), intent(in) :: m(3, 3)       !! symmetric, global axes [N/m]
+      real(wp), intent(in) :: a(3), b(3)    !! arms, global axes [m]
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: ma(3, 3), mb(3, 3), x(3, 3)   ! M ã, M b̃
+      integer :: k
+
+      if (at_j >= 0) then
+         do k = 1, 3
+            mb(k, :) = cross(m(:, k), b)
+         end do
+         do k = 1, 3
+            x(:, k) = cross(mb(:, k), b)
+         end do
+         call add_diagonal_block(m, at_j, at_j, ld, matrix)
+         call add_diagonal_block(x, at_j + 3, at_j, ld, matrix)
+         call add_block(-mb, at_j, at_j + 3, ld, matrix)
+      end if
+      if (at_i >= 0) then
+         do k = 1, 3
+            ma(k, :) = cross(m(:, k), a)
+         end do
+         do k = 1, 3
+            x(:, k) = cross(ma(:, k), a)
+         end do
+         call add_diagonal_block(m, at_i, at_i, ld, matrix)
+         call add_diagonal_block(x, at_i + 3, at_i, ld, matrix)
+         call add_block(-ma, at_i, at_i + 3, ld, matrix)
+      end if
+      if (at_i >= 0 .and. at_j >= 0) then
+         do k = 1, 3
+            x(:, k) = cross(a, mb(:, k))
+         end do
+         call add_block(-m, at_i, at_j, ld, matrix)
+         call add_block(mb, at_i, at_j + 3, ld, matrix)
+         call add_block(transpose(ma), at_i + 3, at_j, ld, matrix)
+         call add_block(x, at_i + 3, at_j + 3, ld, matrix)
+      end if
+   end subroutine add_link_stiffness
+
+   !> Adds the Hessian of f·d, f fixed in body i (any length: the measure is linear in f).
+   !>
+   !> π_iπ_i: S(a+d,f);  π_jπ_j: S(b,f);  π_i r_j = f̃ = −π_i r_i;  π_iπ_j = (f·b)I − b fᵀ
+   pure subroutine add_gap_hessian(f, a, b, d, at_i, at_j, ld, matrix)
+      real(wp), intent(in) :: f(3), a(3), b(3), d(3)   !! global axes
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: skew_f(3, 3)
+
+      call add_diagonal_block(s_matrix(b, f), at_j + 3, at_j, ld, matrix)
+      if (at_i < 0) return
+      call add_diagonal_block(s_matrix(a + d, f), at_i + 3, at_i, ld, matrix)
+      skew_f(:, 1) = [0.0_wp, f(3), -f(2)]
+      skew_f(:, 2) = [-f(3), 0.0_wp, f(1)]
+      skew_f(:, 3) = [f(2), -f(1), 0.0_wp]
+      call add_block(-skew_f, at_i + 3, at_i, ld, matrix)
+      if (at_j < 0) return
+      call add_block(skew_f, at_i + 3, at_j, ld, matrix)
+      call add_block(dyad_rest(b, f), at_i + 3, at_j + 3, ld, matrix)
+   end subroutine add_gap_hessian
+
+   !> matrix(at+1:at+3, at+1:at+3) += block, nothing when the body has no unknowns.
+   pure subroutine add_diagonal_block(block, at, body_at, ld, matrix)
+      real(wp), intent(in) :: block(3, 3)
+      integer, intent(in) :: at, body_at, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      integer :: l
+
+      if (body_at < 0) return
+      do l = 1, 3
+         matrix(at + 1, at + l) = matrix(at + 1, at + l) + block(1, l)
+         matrix(at + 2, at + l) = matrix(at + 2, at + l) + block(2, l)
+         matrix(at + 3, at + l) = matrix(at + 3, at + l) + block(3, l)
+      end do
+   end subroutine add_diagonal_block
+
+   !> Adds an off-diagonal block at (row, column) to the lower triangle, transposed if it
+   !> belongs above the diagonal.
+   pure subroutine add_block(block, row, column, ld, matrix)
+      real(wp), intent(in) :: block(3, 3)
+      integer, intent(in) :: row, column, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      integer :: l
+
+      if (row > column) then
+         do l = 1, 3
+            matrix(row + 1, column + l) = matrix(row + 1, column + l) + block(1, l)
+            matrix(row + 2, column + l) = matrix(row + 2, column + l) + block(2, l)
+            matrix(row + 3, column + l) = matrix(row + 3, column + l) + block(3, l)
+         end do
+      else
+         do l = 1, 3
+            matrix(column + 1, row + l) = matrix(column + 1, row + l) + block(l, 1)
+            matrix(column + 2, row + l) = matrix(column + 2, row + l) + block(l, 2)
+            matrix(column + 3, row + l) = matrix(column + 3, row + l) + block(l, 3)
+         end do
+      end if
+   end subroutine add_block
+
+   !> x yᵀ
+   pure function dyad(x, y) result(m)
+      real(wp), intent(in) :: x(3), y(3)
+      real(wp) :: m(3, 3)
+      m(:, 1) = x*y(1)
+      m(:, 2) = x*y(2)
+      m(:, 3) = x*y(3)
+   end function dyad
+
+   !> (x·y) I − x yᵀ
+   pure function dyad_rest(x, y) result(m)
+      real(wp), intent(in) :: x(3), y(3)
+      real(wp) :: m(3, 3), c
+      c = dot_product(x, y)
+      m = -dyad(x, y)
+      m(1, 1) = m(1, 1) + c
+      m(2, 2) = m(2, 2) + c
+      m(3, 3) = m(3, 3) + c
+   end function dyad_rest
+
+end module ek_block

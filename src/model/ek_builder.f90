@@ -1,0 +1,330 @@
+!> Makes a suspension: the `add_*` procedures in any order (measures before the joints that use them), then
+!> `complete`. Points are design positions, global, SI; `complete` turns them into arms.
+module ek_builder
+   use ek_kinds, only: wp
+   use ek_turn, only: pose_t
+   use ek_measure, only: measure_t, measure_value, distance, axis_axis, rotation, global_gap
+   use ek_joint, only: joint_t, row_t, term_t, joint_geometry_t, joint_terms, max_terms
+   use ek_elastic, only: spring_t, bushing_t, set_bushing_axes
+   use ek_suspension, only: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, design_poses
+   implicit none(type, external)
+   private
+   public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_bushing
+   public :: add_travel_driver, add_load, add_wheel, add_readout, complete
+
+contains
+
+   !> A body; without `origin` its reference point will be the mean of its attachment points.
+   pure subroutine add_body(self, name, where, origin)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where
+      real(wp), intent(in), optional :: origin(3)
+      type(body_t) :: body
+
+      body%name = name
+      body%where = where
+      body%has_origin = present(origin)
+      if (present(origin)) body%origin = origin
+      if (.not. allocated(self%bodies)) allocate (self%bodies(0))
+      self%bodies = [self%bodies, body]
+   end subroutine add_body
+
+   pure subroutine add_point(self, name, where, at, is_used)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where
+      real(wp), intent(in) :: at(3)
+      logical, intent(in) :: is_used
+      type(point_t) :: point
+
+      point%name = name
+      point%where = where
+      point%at = at
+      point%is_used = is_used
+      if (.not. allocated(self%points)) allocate (self%points(0))
+      self%points = [self%points, point]
+   end subroutine add_point
+
+   !> Any joint that is made from geometry (all but driver and coupler).
+   subroutine add_joint(self, name, where, kind, geometry)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where, kind
+      type(joint_geometry_t), intent(in) :: geometry
+      type(term_t) :: terms(max_terms)
+      integer :: terms_of_row(max_terms), rows
+
+      call joint_terms(kind, geometry, terms, terms_of_row, rows)
+      call append_joint(self, name, where, kind, terms(:sum(terms_of_row(:rows))), terms_of_row(:rows), .false.)
+      self%joints(size(self%joints))%arm_j = geometry%point_j
+   end subroutine add_joint
+
+   !> A driver: readout number `readout` = its design value + what the case prescribes.
+   pure subroutine add_driver(self, name, where, readout)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: readout
+      type(term_t) :: term
+
+      term%measure = self%readouts(readout)%measure
+      call append_joint(self, name, where, 'driver', [term], [1], .true.)
+      self%joints(size(self%joints))%arm_j = term%measure%arm_j
+   end subroutine add_driver
+
+   !> A coupler: Σ ratio × readout = its design value.
+   pure subroutine add_coupler(self, name, where, readouts, ratios)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: readouts(:)
+      real(wp), intent(in) :: ratios(:)
+      type(term_t) :: terms(size(readouts))
+      integer :: k
+
+      do k = 1, size(readouts)
+         terms(k)%measure = self%readouts(readouts(k))%measure
+         terms(k)%coefficient = ratios(k)
+      end do
+      call append_joint(self, name, where, 'coupler', terms, [size(terms)], .false.)
+      self%joints(size(self%joints))%arm_j = terms(1)%measure%arm_j
+   end subroutine add_coupler
+
+   !> A driver of the height of a wheel's centre against the body, joint name 'wheel_travel'; on a
+   !> completed model. Its value is the wheel travel [m].
+   pure subroutine add_travel_driver(self, wheel)
+      type(suspension_t), intent(inout) :: self
+      integer, intent(in) :: wheel
+      type(term_t) :: term
+
+      associate (w => self%wheels(wheel))
+         term%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=[0.0_wp, 0.0_wp, 1.0_wp], &
+            arm_i=self%bodies(w%body)%origin + w%centre, arm_j=w%centre)
+         call append_joint(self, 'wheel_travel', w%where, 'driver', [term], [1], .true.)
+         self%joints(size(self%joints))%arm_j = w%centre
+      end associate
+   end subroutine add_travel_driver
+
+   pure subroutine append_joint(self, name, where, kind, terms, terms_of_row, is_driver)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where, kind
+      type(term_t), intent(in) :: terms(:)
+      integer, intent(in) :: terms_of_row(:)
+      logical, intent(in) :: is_driver
+      type(joint_t) :: joint
+      type(row_t) :: row
+      integer :: k
+
+      if (.not. allocated(self%joints)) allocate (self%joints(0))
+      if (.not. allocated(self%rows)) allocate (self%rows(0))
+      if (.not. allocated(self%terms)) allocate (self%terms(0))
+      joint%name = name
+      joint%where = where
+      joint%kind = kind
+      joint%body_i = terms(1)%measure%body_i
+      joint%body_j = terms(1)%measure%body_j
+      joint%first_row = size(self%rows) + 1
+      joint%rows = size(terms_of_row)
+      row%first = size(self%terms) + 1
+      do k = 1, size(terms_of_row)
+         row%terms = terms_of_row(k)
+         row%joint = size(self%joints) + 1
+         row%is_driver = is_driver
+         self%rows = [self%rows, row]
+         row%first = row%first + row%terms
+      end do
+      self%terms = [self%terms, terms]
+      self%joints = [self%joints, joint]
+   end subroutine append_joint
+
+   !> A spring between two design points (global; `complete` makes them arms).
+   !> free_length > 0 sets the preload from the design length.
+   pure subroutine add_spring(self, name, where, body_i, body_j, point_i, point_j, rate, preload, free_length)
+      type(suspension_t), intent(inout) :: self
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: body_i, body_j
+      real(wp), intent(in) :: point_i(3), point_j(3)      !! m
+      real(wp), intent(in) :: rate                        !! N/m
+      real(wp), intent(in), optional :: preload           !! N, compression at design
+      real(wp), intent(in), optional :: free_length       !! m
+      type(spring_t) :: spring
+
+      spring%name = name
+      spring%where = where
+      spring%measure = measure_t(kind=distance, body_i=body_i, body_j=body_j, arm_i=point_i, arm_j=point_j)
+      spring%rate = rate
+      spring%design_length = norm2(point_j - point_i)
+      if (present(preload)) spring%preload = preload
+      if (present(free_length)) spring%preload = rate*(free_length - spring%design_length)
+      if (.not. allocated(self%springs)) allocate (self%springs(0))
+      self%springs = [self%springs, spring]
+   end subroutine add_spring
+
+   !> A bushing: everything set by the caller but the derived parts; arms as design points.
+   pure subroutine add_bushing(self, bushing)
+      type(suspension_t), intent(inout) :: self
+      type(bushing_t), intent(in) :: bushing
+
+      if (.not. allocated(self%bushings)) allocate (self%bushings(0))
+      self%bushings = [self%bushings, bushing]
+   end subroutine add_bushing
+
+   !> A load; arm as design point.
+   pure subroutine add_load(self, load)
+      type(suspension_t), intent(inout) :: self
+      type(load_t), intent(in) :: load
+
+      if (.not. allocated(self%loads)) allocate (self%loads(0))
+      self%loads = [self%loads, load]
+   end subroutine add_load
+
+   !> A wheel; centre, contact and steer axis as design points.
+   pure subroutine add_wheel(self, wheel)
+      type(suspension_t), intent(inout) :: self
+      type(wheel_t), intent(in) :: wheel
+
+      if (.not. allocated(self%wheels)) allocate (self%wheels(0))
+      self%wheels = [self%wheels, wheel]
+   end subroutine add_wheel
+
+   !> A named measure; arms as design points. Before the drivers and couplers that use it.
+   pure subroutine add_readout(self, readout)
+      type(suspension_t), intent(inout) :: self
+      type(readout_t), intent(in) :: readout
+
+      if (.not. allocated(self%readouts)) allocate (self%readouts(0))
+      self%readouts = [self%readouts, readout]
+   end subroutine add_readout
+
+   !> Settles reference points, turns design points into arms, and computes design values.
+   !> To be called once, after the last add.
+   subroutine complete(self)
+      type(suspension_t), intent(inout) :: self
+      type(pose_t), allocatable :: poses(:)
+      integer :: k, t
+
+      call ensure_allocated(self)
+      call settle_origins(self)
+      do k = 1, size(self%terms)
+         call subtract_origins(self, self%terms(k)%measure)
+      end do
+      do k = 1, size(self%readouts)
+         call subtract_origins(self, self%readouts(k)%measure)
+      end do
+      do k = 1, size(self%springs)
+         call subtract_origins(self, self%springs(k)%measure)
+      end do
+      do k = 1, size(self%joints)
+         self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
+      end do
+      do k = 1, size(self%bushings)
+         associate (b => self%bushings(k))
+            b%gap0 = b%arm_j - b%arm_i
+            b%arm_i = b%arm_i - origin_of(self, b%body_i)
+            b%arm_j = b%arm_j - origin_of(self, b%body_j)
+         end associate
+         call set_bushing_axes(self%bushings(k))
+      end do
+      do k = 1, size(self%loads)
+         self%loads(k)%arm = self%loads(k)%arm - origin_of(self, self%loads(k)%body)
+      end do
+      do k = 1, size(self%wheels)
+         associate (w => self%wheels(k))
+            w%centre = w%centre - origin_of(self, w%body)
+            w%contact = w%contact - origin_of(self, w%body)
+            w%steer_axis(:, 1) = w%steer_axis(:, 1) - origin_of(self, w%body)
+            w%steer_axis(:, 2) = w%steer_axis(:, 2) - origin_of(self, w%body)
+         end associate
+      end do
+
+      poses = design_poses(self)
+      do k = 1, size(self%rows)
+         self%rows(k)%target = 0.0_wp
+         do t = self%rows(k)%first, self%rows(k)%first + self%rows(k)%terms - 1
+            associate (m => self%terms(t)%measure)
+               self%rows(k)%target = self%rows(k)%target + self%terms(t)%coefficient* &
+                  measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1))
+            end associate
+         end do
+      end do
+      do k = 1, size(self%readouts)
+         associate (m => self%readouts(k)%measure)
+            self%readouts(k)%design_value = measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1))
+         end associate
+      end do
+   end subroutine complete
+
+   !> The reference point of each body that has none: the mean of the points it is held by.
+   subroutine settle_origins(self)
+      type(suspension_t), intent(inout) :: self
+      real(wp) :: total(3, 0:size(self%bodies))
+      integer :: count(0:size(self%bodies)), k, t
+
+      total = 0.0_wp
+      count = 0
+      do k = 1, size(self%joints)
+         t = self%rows(self%joints(k)%first_row)%first
+         select case (self%joints(k)%kind)
+         case ('parallel', 'perpendicular', 'driver', 'coupler')
+            ! angles are measured nowhere: they say nothing about where a body is
+            if (any(self%terms(t)%measure%kind == [axis_axis, rotation])) cycle
+         end select
+         call include_measure(self%terms(t)%measure)
+      end do
+      do k = 1, size(self%springs)
+         call include_measure(self%springs(k)%measure)
+      end do
+      do k = 1, size(self%bushings)
+         call include_point(self%bushings(k)%body_i, self%bushings(k)%arm_i)
+         call include_point(self%bushings(k)%body_j, self%bushings(k)%arm_j)
+      end do
+      do k = 1, size(self%bodies)
+         if (self%bodies(k)%has_origin .or. count(k) == 0) cycle
+         self%bodies(k)%origin = total(:, k)/count(k)
+      end do
+
+   contains
+
+      subroutine include_measure(m)
+         type(measure_t), intent(in) :: m
+         call include_point(m%body_i, m%arm_i)
+         call include_point(m%body_j, m%arm_j)
+      end subroutine include_measure
+
+      subroutine include_point(body, point)
+         integer, intent(in) :: body
+         real(wp), intent(in) :: point(3)
+         total(:, body) = total(:, body) + point
+         count(body) = count(body) + 1
+      end subroutine include_point
+
+   end subroutine settle_origins
+
+   pure subroutine subtract_origins(self, measure)
+      type(suspension_t), intent(in) :: self
+      type(measure_t), intent(inout) :: measure
+      measure%arm_i = measure%arm_i - origin_of(self, measure%body_i)
+      measure%arm_j = measure%arm_j - origin_of(self, measure%body_j)
+   end subroutine subtract_origins
+
+   pure function origin_of(self, body) result(origin)
+      type(suspension_t), intent(in) :: self
+      integer, intent(in) :: body
+      real(wp) :: origin(3)
+      origin = 0.0_wp
+      if (body > 0) origin = self%bodies(body)%origin
+   end function origin_of
+
+   pure subroutine ensure_allocated(self)
+      type(suspension_t), intent(inout) :: self
+      if (.not. allocated(self%bodies)) allocate (self%bodies(0))
+      if (.not. allocated(self%points)) allocate (self%points(0))
+      if (.not. allocated(self%joints)) allocate (self%joints(0))
+      if (.not. allocated(self%rows)) allocate (self%rows(0))
+      if (.not. allocated(self%terms)) allocate (self%terms(0))
+      if (.not. allocated(self%springs)) allocate (self%springs(0))
+      if (.not. allocated(self%bushings)) allocate (self%bushings(0))
+      if (.not. allocated(self%loads)) allocate (self%loads(0))
+      if (.not. allocated(self%wheels)) allocate (self%wheels(0))
+      if (.not. allocated(self%readouts)) allocate (self%readouts(0))
+      if (.not. allocated(self%balance)) self%balance = 'none'
+      if (.not. allocated(self%title)) self%title = ''
+   end subroutine ensure_allocated
+
+end module ek_builder

@@ -1,0 +1,141 @@
+!> Poses of bodies, and the relative rotation of two of them with its derivatives.
+!>
+!> θ = log(A_iᵀ A_j) in the axes of body i. With (q0, qv) the unit quaternion of A_iᵀ A_j: p = 2 qv, t = pᵀp, θ = α(t) p,
+!> α(t) = asin(√t/2)/(√t/2). δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) is the change of the relative rotation.
+module ek_turn
+   use ek_kinds, only: wp
+   use ek_rotation, only: cross, identity3
+   use ek_block, only: add_block, add_diagonal_block, rotated
+   implicit none(type, external)
+   private
+   public :: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
+
+   !> Where a body is. Kept together, 128 bytes, because every measure reads all of it.
+   type :: pose_t
+      real(wp) :: r(3) = 0.0_wp                          !! reference point, global [m]
+      real(wp) :: q(4) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]  !! unit quaternion of a
+      real(wp) :: a(3, 3) = identity3                    !! body axes → global axes
+   end type pose_t
+
+   !> The relative rotation of two bodies: θ = α(t) p, p = 2 qv, t = pᵀp, in the axes of body i.
+   type :: turn_t
+      real(wp) :: q0 = 1.0_wp, qv(3) = 0.0_wp   !! quaternion of A_iᵀ A_j, q0 ≥ 0
+      real(wp) :: p(3) = 0.0_wp
+      real(wp) :: alpha = 1.0_wp, alpha1 = 0.0_wp, alpha2 = 0.0_wp   !! α, dα/dt, d²α/dt²
+      real(wp) :: theta(3) = 0.0_wp             !! rotation vector [rad]
+   end type turn_t
+
+contains
+
+   !> The relative rotation of body j seen from body i.
+   pure subroutine relative_turn(pose_i, pose_j, turn)
+      type(pose_t), intent(in) :: pose_i, pose_j
+      type(turn_t), intent(out) :: turn
+      real(wp) :: i0, iv(3), j0, jv(3), half, s
+
+      i0 = pose_i%q(1); iv = pose_i%q(2:4)
+      j0 = pose_j%q(1); jv = pose_j%q(2:4)
+      turn%q0 = i0*j0 + dot_product(iv, jv)
+      turn%qv = i0*jv - j0*iv - cross(iv, jv)
+      if (turn%q0 < 0.0_wp) then
+         turn%q0 = -turn%q0
+         turn%qv = -turn%qv
+      end if
+      turn%p = 2.0_wp*turn%qv
+      s = dot_product(turn%qv, turn%qv)
+      if (s < 1.0e-3_wp) then
+         ! asin(x)/x and its derivatives in t = 4 x²; s = x². Terms left out are below 1e-17 of α
+         turn%alpha = 1.0_wp + s*(1.0_wp/6 + s*(3.0_wp/40 + s*(5.0_wp/112 + s*(35.0_wp/1152 + s*63.0_wp/2816))))
+         turn%alpha1 = 0.25_wp*(1.0_wp/6 + s*(3.0_wp/20 + s*(15.0_wp/112 + s*(35.0_wp/288 + s*(315.0_wp/2816 &
+            + s*231.0_wp*6/13312)))))
+         turn%alpha2 = 0.0625_wp*(3.0_wp/20 + s*(15.0_wp/56 + s*(35.0_wp/96 + s*(315.0_wp/704 &
+            + s*231.0_wp*30/13312))))
+      else
+         s = sqrt(s)
+         half = atan2(s, turn%q0)
+         turn%alpha = half/s
+         ! q0 = cos(half angle): zero only at exactly half a turn, where θ itself jumps
+         turn%alpha1 = (1.0_wp/turn%q0 - turn%alpha)/(8.0_wp*s*s)
+         turn%alpha2 = (0.125_wp/turn%q0**3 - 3.0_wp*turn%alpha1)/(8.0_wp*s*s)
+      end if
+      turn%theta = turn%alpha*turn%p
+   end subroutine relative_turn
+
+   !> g = Pᵀ w, the gradient of m·θ in δ, with P = q0 I − q̃v and w = (αI + 2α' p pᵀ) m.
+   pure function turn_gradient(turn, m) result(g)
+      type(turn_t), intent(in) :: turn
+      real(wp), intent(in) :: m(3)
+      real(wp) :: g(3), w(3)
+      w = turn%alpha*m + (2.0_wp*turn%alpha1*dot_product(turn%p, m))*turn%p
+      g = turn%q0*w + cross(turn%qv, w)
+   end function turn_gradient
+
+   !> G = ∂θ/∂δ = (αI + 2α' p pᵀ)(q0 I − q̃v), δ = A_iᵀ(π_j − π_i).
+   pure function turn_jacobian(turn) result(jacobian)
+      type(turn_t), intent(in) :: turn
+      real(wp) :: jacobian(3, 3), w(3)
+      integer :: k
+
+      do k = 1, 3
+         w = (2.0_wp*turn%alpha1*turn%p(k))*turn%p
+         w(k) = w(k) + turn%alpha
+         jacobian(k, :) = turn%q0*w + cross(turn%qv, w)
+      end do
+   end function turn_jacobian
+
+   !> Adds the Hessian of m·θ to the rotation blocks of i and j, and `inner`, a symmetric
+   !> 3×3 stiffness in δ (body-i axes), with the same chain rule.
+   !>
+   !> In δ: Pᵀ[2α'(m pᵀ + p mᵀ) + 2α'(m·p)I + 4α''(m·p) p pᵀ]P − ½(w·qv) I; then
+   !> δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) brings the block π_iπ_j += ½ [A_i g]~.
+   pure subroutine add_turn_hessian(turn, m, inner, a_i, at_i, at_j, ld, matrix)
+      type(turn_t), intent(in) :: turn
+      real(wp), intent(in) :: m(3)           !! body-i axes
+      real(wp), intent(in) :: inner(3, 3)
+      real(wp), intent(in) :: a_i(3, 3)      !! rotation of body i
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: h(3, 3), w(3), mp, c1, c2, core(3, 3), left(3, 3), g(3), b(3, 3), half_wq
+      integer :: k
+
+      mp = dot_product(m, turn%p)
+      c1 = 2.0_wp*turn%alpha1
+      c2 = 4.0_wp*turn%alpha2*mp
+      do k = 1, 3
+         core(:, k) = c1*(m*turn%p(k) + turn%p*m(k)) + (c2*turn%p(k))*turn%p
+         core(k, k) = core(k, k) + c1*mp
+      end do
+      do k = 1, 3   ! left = Pᵀ core, Pᵀ x = q0 x + qv × x
+         left(:, k) = turn%q0*core(:, k) + cross(turn%qv, core(:, k))
+      end do
+      do k = 1, 3   ! h = left P, row by row: (Pᵀ leftᵀ)ᵀ
+         h(k, :) = turn%q0*left(k, :) + cross(turn%qv, left(k, :))
+      end do
+      w = turn%alpha*m + (c1*mp)*turn%p
+      half_wq = 0.5_wp*dot_product(w, turn%qv)
+      h = h + inner
+      do k = 1, 3
+         h(k, k) = h(k, k) - half_wq
+      end do
+      if (at_i < 0) then      ! the chassis never turns: a_i is the unit matrix
+         call add_diagonal_block(h, at_j + 3, at_j, ld, matrix)
+         return
+      end if
+      do k = 1, 3
+         left(:, k) = rotated(a_i, h(:, k))
+      end do
+      do k = 1, 3
+         b(k, :) = rotated(a_i, left(k, :))
+      end do
+      call add_diagonal_block(b, at_i + 3, at_i, ld, matrix)
+      if (at_j < 0) return
+      call add_diagonal_block(b, at_j + 3, at_j, ld, matrix)
+      g = 0.5_wp*rotated(a_i, turn%q0*w + cross(turn%qv, w))
+      b = -b
+      b(2, 1) = b(2, 1) + g(3); b(3, 1) = b(3, 1) - g(2)
+      b(1, 2) = b(1, 2) - g(3); b(3, 2) = b(3, 2) + g(1)
+      b(1, 3) = b(1, 3) + g(2); b(2, 3) = b(2, 3) - g(1)
+      call add_block(b, at_i + 3, at_j + 3, ld, matrix)
+   end subroutine add_turn_hessian
+
+end module ek_turn
