@@ -2,7 +2,7 @@
 module ek_run
    use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model, exit_convergence
+   use ek_error, only: error_t, fail, exit_usage, exit_model, exit_convergence
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
@@ -48,6 +48,11 @@ contains
       if (allocated(error)) return
       folder = arguments%out
       if (len(folder) == 0) folder = 'out'
+      if (folder == '-' .and. size(chosen) > 1) then
+         call fail(error, exit_usage, '--out - writes one table, but '//arguments%file//' has '//str(size(chosen))// &
+            ' cases; name one with --case')
+         return
+      end if
       if (folder /= '-') then
          call make_folder(folder, error)
          if (allocated(error)) return
