@@ -10,7 +10,7 @@ module ek_load_deck
    use ek_arguments, only: arguments_t
    implicit none(type, external)
    private
-   public :: load_deck, chosen_cases
+   public :: load_deck, apply_settings, chosen_cases
 
 contains
 
@@ -22,21 +22,31 @@ contains
       character(:), allocatable, intent(out) :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
-      character(:), allocatable :: path, value
-      integer :: k
 
       call read_deck(arguments%file, deck, error)
       if (allocated(error)) return
+      call apply_settings(arguments, deck, error)
+      if (allocated(error)) return
+      call build_model(deck, suspension, cases, error)
+      if (allocated(error)) return
+      checksum = deck_checksum(deck)
+   end subroutine load_deck
+
+   !> --set path=value, one after the other.
+   subroutine apply_settings(arguments, deck, error)
+      type(arguments_t), intent(in) :: arguments
+      type(deck_t), intent(inout) :: deck
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: path, value
+      integer :: k
+
       do k = 1, size(arguments%settings)
          call split_setting(arguments%settings(k)%text, path, value, error)
          if (allocated(error)) return
          call set_value(deck, path, value, error)
          if (allocated(error)) return
       end do
-      call build_model(deck, suspension, cases, error)
-      if (allocated(error)) return
-      checksum = deck_checksum(deck)
-   end subroutine load_deck
+   end subroutine apply_settings
 
    !> The cases to run, with --case, --method and --increments applied.
    subroutine chosen_cases(arguments, cases, chosen, error)

@@ -8,7 +8,8 @@ module ek_run_words
    use ek_state, only: state_t, design_state, unpack_state
    use ek_kkt, only: kkt_t
    use ek_diagnosis, only: diagnosis_t, diagnose
-   use ek_path, only: path_t, failure_t
+   use ek_path, only: path_t
+   use ek_reach, only: failure_t
    use ek_attitude, only: attitude_t
    use ek_sweep_table, only: wheel_attitude, factor_unit
    use ek_drift, only: drift_t, drift_at

@@ -1,17 +1,17 @@
 !> elastokin study: runs a study, writes its tables, draws its figures.
 module ek_study_command
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use ek_error, only: error_t, fail, exit_file, exit_convergence, message_list_t
+   use ek_error, only: error_t, fail, exit_convergence, message_list_t
    use ek_text, only: plural, quoted
    use ek_file, only: write_whole, make_folder, join_path, folder_name, file_exists, program_exists
-   use ek_deck, only: deck_t, read_deck, set_value
-   use ek_setting, only: split_setting
+   use ek_deck, only: deck_t, read_deck
    use ek_table, only: table_t
    use ek_csv, only: csv_text
    use ek_study, only: study_t, read_study
    use ek_step_size, only: step_size_text
    use ek_factor_sweep, only: sweep_factors
    use ek_arguments, only: arguments_t
+   use ek_load_deck, only: apply_settings
    use ek_words, only: say, warn
    implicit none(type, external)
    private
@@ -26,8 +26,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(study_t) :: study
       type(deck_t) :: deck
-      character(:), allocatable :: home, out, path, value
-      integer :: k
+      character(:), allocatable :: home, out, path
 
       call read_study(arguments%file, study, error)
       if (allocated(error)) return
@@ -38,12 +37,8 @@ contains
       if (path(1:1) /= '/') path = join_path(home, path)
       call read_deck(path, deck, error)
       if (allocated(error)) return
-      do k = 1, size(arguments%settings)
-         call split_setting(arguments%settings(k)%text, path, value, error)
-         if (allocated(error)) return
-         call set_value(deck, path, value, error)
-         if (allocated(error)) return
-      end do
+      call apply_settings(arguments, deck, error)
+      if (allocated(error)) return
       call make_folder(out, error)
       if (allocated(error)) return
 

@@ -14,7 +14,7 @@ module ek_balance
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
-   use ek_path, only: settle, failure_t
+   use ek_reach, only: settle, failure_t
    use ek_lapack, only: dgelsd
    implicit none(type, external)
    private

@@ -7,15 +7,13 @@ module ek_path
    use ek_case, only: case_t
    use ek_suspension, only: suspension_t, driver_row, load_number
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
-   use ek_kkt, only: kkt_t, assemble, residual_only
-   use ek_newton, only: outcome_t, find_equilibrium
+   use ek_kkt, only: kkt_t
+   use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
-   use ek_predictor, only: predictor_t, new_predictor, remember, predict, forget, depth
+   use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
    implicit none(type, external)
    private
-   public :: path_t, sweep, new_path, walk, settle, failure_t, progress_procedure
-
-   integer, parameter :: most_halvings = 12   !! an increment is cut to 1/4096 before a state is given up
+   public :: path_t, sweep, new_path, walk, progress_procedure
 
    abstract interface
       !> Told now and then how many states of how many are there.
@@ -23,18 +21,6 @@ module ek_path
          integer, intent(in) :: done, total
       end subroutine progress_procedure
    end interface
-
-   !> Where and how a sweep stopped.
-   type :: failure_t
-      integer :: state = 0                 !! index of the state that was not found, 0: all were
-      real(wp) :: value = 0.0_wp           !! demand that was last tried
-      real(wp) :: reached = 0.0_wp         !! demand of the last equilibrium
-      logical :: is_singular = .false.
-      integer :: body = 0                  !! which moved most in the failed attempt
-      real(wp) :: moved = 0.0_wp           !! how far [m]
-      integer :: row = 0                   !! constraint furthest from its value
-      real(wp) :: gap = 0.0_wp             !! by how much [m, - or rad]
-   end type failure_t
 
    !> All states of a sweep, in order from…to.
    type :: path_t
@@ -267,148 +253,5 @@ contains
       failure%value = value
       failure%reached = before
    end subroutine check_increment
-
-   !> Reaches equilibrium at a demand from the states remembered, halving the way when needed.
-   !>
-   !> On failure `state` is the last equilibrium.
-   subroutine reach(suspension, target, tolerance, predictor, state, kkt, iterations, failure)
-      type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: target       !! the place on the path is its value, or 1 − relief
-      real(wp), intent(in) :: tolerance          !! m
-      type(predictor_t), intent(inout) :: predictor
-      type(state_t), intent(inout) :: state
-      type(kkt_t), intent(inout) :: kkt
-      integer, intent(inout) :: iterations
-      type(failure_t), intent(inout) :: failure
-      type(demand_t) :: demand
-      type(outcome_t) :: outcome
-      real(wp) :: goal, here, trial
-      integer :: halvings, points
-
-      demand = target
-      goal = target%value
-      here = predictor%abscissa(predictor%newest)
-      iterations = 0
-      halvings = 0
-      points = depth
-      do
-         trial = here + (goal - here)*0.5_wp**halvings
-         if (halvings == 0) trial = goal
-         demand%value = trial
-         call guess(predictor, trial, points, state)
-         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
-         iterations = iterations + outcome%factorisations
-         if (outcome%is_converged) then
-            call store(predictor, trial, state)
-            here = trial
-            if (halvings == 0) return
-            halvings = halvings - 1
-         else
-            if (halvings == 0) points = 2     ! a bold guess may itself be the trouble
-            halvings = halvings + 1
-            if (halvings > most_halvings) exit
-         end if
-      end do
-      call blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
-   end subroutine reach
-
-   !> The predictor's state as a guess.
-   pure subroutine guess(predictor, abscissa, points, state)
-      type(predictor_t), intent(inout) :: predictor
-      real(wp), intent(in) :: abscissa
-      integer, intent(in) :: points
-      type(state_t), intent(inout) :: state
-
-      call predict(predictor, abscissa, points)
-      call unpack_state(predictor%guess, state)
-   end subroutine guess
-
-   !> Hands an equilibrium to the predictor.
-   pure subroutine store(predictor, abscissa, state)
-      type(predictor_t), intent(inout) :: predictor
-      real(wp), intent(in) :: abscissa
-      type(state_t), intent(in) :: state
-
-      call pack_state(state, predictor%guess)
-      call remember(predictor, abscissa, predictor%guess)
-   end subroutine store
-
-   !> Says which body moved most in a failed attempt, and which constraint is furthest off.
-   subroutine blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
-      type(suspension_t), intent(in) :: suspension
-      type(predictor_t), intent(in) :: predictor
-      type(demand_t), intent(in) :: demand
-      type(outcome_t), intent(in) :: outcome
-      real(wp), intent(in) :: here
-      type(state_t), intent(inout) :: state
-      type(kkt_t), intent(inout) :: kkt
-      type(failure_t), intent(inout) :: failure
-      type(state_t) :: before
-      real(wp) :: moved
-      integer :: k
-
-      before = state
-      call unpack_state(predictor%packed(:, predictor%newest), before)
-      failure%state = 1
-      failure%value = demand%value
-      failure%reached = here
-      failure%is_singular = outcome%is_singular
-      do k = 2, size(state%poses)
-         moved = norm2(state%poses(k)%r - before%poses(k)%r) &
-            + kkt%length*norm2(state%poses(k)%a - before%poses(k)%a)/sqrt(2.0_wp)
-         if (moved > failure%moved) then
-            failure%moved = moved
-            failure%body = k - 1
-         end if
-      end do
-      call assemble(suspension, state, demand, residual_only, kkt)
-      do k = 1, kkt%nc
-         if (abs(kkt%values(k)) > abs(failure%gap)) then
-            failure%gap = kkt%values(k)
-            failure%row = k
-         end if
-      end do
-      state = before
-   end subroutine blame
-
-   !> From design to equilibrium under the constant loads and preloads alone.
-   !>
-   !> Tried at once; if that fails the imbalance of the design position is let in little by little.
-   subroutine settle(suspension, tolerance, state, kkt, failure)
-      type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: tolerance          !! m
-      type(state_t), intent(inout) :: state      !! design → equilibrium
-      type(kkt_t), intent(inout) :: kkt
-      type(failure_t), intent(inout) :: failure
-      type(predictor_t) :: predictor
-      type(demand_t) :: demand
-      type(outcome_t) :: outcome
-      real(wp) :: here, share
-      integer :: halvings
-
-      call assemble(suspension, state, demand, residual_only, kkt)
-      kkt%imbalance = kkt%rhs(:kkt%nq)
-      predictor = new_predictor(coordinates(suspension))
-      call store(predictor, 0.0_wp, state)
-      here = 0.0_wp
-      halvings = 0
-      do
-         share = here + (1.0_wp - here)*0.5_wp**halvings
-         if (halvings == 0) share = 1.0_wp
-         demand%relief = 1.0_wp - share
-         call guess(predictor, share, 2, state)
-         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
-         if (outcome%is_converged) then
-            call store(predictor, share, state)
-            here = share
-            if (halvings == 0) return
-            halvings = halvings - 1
-         else
-            halvings = halvings + 1
-            if (halvings > most_halvings) exit
-         end if
-      end do
-      call blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
-   end subroutine settle
 
 end module ek_path
