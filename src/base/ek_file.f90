@@ -3,13 +3,14 @@
 !> What Fortran does not offer (rename, mkdir, isatty, why something failed) is asked of the C
 !> library; `__errno_location` is the name glibc and musl give to errno.
 module ek_file
+   use, intrinsic :: iso_fortran_env, only: output_unit
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_size_t, &
       c_associated, c_f_pointer
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file
    implicit none(type, external)
    private
-   public :: write_whole, read_whole, make_folder, remove_file
+   public :: write_whole, write_standard_output, read_whole, make_folder, remove_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
@@ -28,6 +29,12 @@ module ek_file
          integer(c_size_t), value :: size, count
          type(c_ptr), value :: stream
       end function c_fwrite
+      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
+         import :: c_int, c_char, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+      end function c_write
       integer(c_int) function c_fclose(stream) bind(c, name='fclose')
          import :: c_int, c_ptr
          type(c_ptr), value :: stream
@@ -102,6 +109,25 @@ contains
       if (.not. is_device) ignored = c_remove(temporary//c_null_char)
       call fail(error, exit_file, "cannot write '"//path//"': "//reason)
    end subroutine write_whole
+
+   !> Write bytes to standard output, after what Fortran has put there. Unlike a Fortran `write` it tells
+   !> when the disk is full.
+   subroutine write_standard_output(text, error)
+      character(*), intent(in) :: text                       !! bytes, written as they are
+      type(error_t), allocatable, intent(out) :: error       !! exit_file, with the reason
+      integer(c_size_t) :: done, now
+
+      flush (output_unit)
+      done = 0
+      do while (done < len(text, c_size_t))
+         now = c_write(1_c_int, text(done + 1:), len(text, c_size_t) - done)
+         if (now < 1) then                                   ! a ssize_t: negative on failure
+            call fail(error, exit_file, 'cannot write to standard output: '//system_reason())
+            return
+         end if
+         done = done + now
+      end do
+   end subroutine write_standard_output
 
    !> Write bytes through the C library: gfortran's flush and close do not tell that a disk is full.
    subroutine put_bytes(path, text, reason)

@@ -56,6 +56,10 @@ contains
                has_value = .true.
             end if
          end if
+         if (has_value .and. any(word == [character(9) :: '--plot', '--quiet', '--help', '--version'])) then
+            call fail(error, exit_usage, word//' takes no value, found '//quoted(value))
+            return
+         end if
          select case (word)
          case ('--plot')
             arguments%plot = .true.
@@ -114,8 +118,37 @@ contains
          call fail(error, exit_usage, 'no command: expected run, check, study or bench')
       else if (len(arguments%file) == 0) then
          call fail(error, exit_usage, arguments%command//' needs a file: elastokin '//arguments%command//' FILE')
+      else
+         call refuse_unused(arguments, error)
       end if
    end subroutine read_arguments
+
+   !> Options that the command has no use for are mistakes, not decoration.
+   subroutine refuse_unused(arguments, error)
+      type(arguments_t), intent(in) :: arguments
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: unused
+
+      unused = ''
+      if (arguments%command /= 'run') then
+         if (arguments%plot) unused = '--plot'
+         if (len(arguments%method) > 0) unused = '--method'
+         if (len(arguments%out) > 0 .and. arguments%command /= 'study') unused = '--out'
+      end if
+      if (arguments%command == 'study') then
+         if (len(arguments%case) > 0) unused = '--case'
+         if (arguments%increments > 0) unused = '--increments'
+      end if
+      if (arguments%command == 'check') then
+         if (arguments%quiet) unused = '--quiet'
+         if (arguments%increments > 0) unused = '--increments'
+      end if
+      if (len(unused) > 0) then
+         call fail(error, exit_usage, arguments%command//' takes no '//unused)
+      else if (arguments%plot .and. arguments%out == '-') then
+         call fail(error, exit_usage, '--plot needs a folder, and --out - is none')
+      end if
+   end subroutine refuse_unused
 
    !> '; did you mean …?' or nothing.
    function suggestion(word, names) result(text)

@@ -72,9 +72,9 @@ contains
       end do
       if (size(chosen) == 0) then
          hint = nearest_name(arguments%case, names)
-         if (len(hint) > 0) hint = '; did you mean '//quoted(hint)//'?'
+         if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
          do k = 1, size(names)
-            if (k == 1) hint = hint//' The deck has'
+            if (k == 1) hint = hint//'; it has'
             hint = hint//' '//quoted(names(k))
          end do
          call fail(error, exit_usage, '--case: no case '//quoted(arguments%case)//' in '//arguments%file//hint)

@@ -6,7 +6,7 @@ module ek_run
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
-   use ek_file, only: make_folder, join_path, base_name
+   use ek_file, only: make_folder, write_standard_output, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
    use ek_builder, only: add_travel_driver
    use ek_case, only: case_t
@@ -89,7 +89,7 @@ contains
       type(diagnosis_t) :: diagnosis
       type(path_t) :: path
       type(table_t) :: table
-      character(:), allocatable :: name
+      character(:), allocatable :: name, words, lost
       integer :: side
 
       suspension = base
@@ -103,18 +103,24 @@ contains
 
       call sweep(suspension, case, path, kkt, show_progress)
       if (path%states > 1000) call clear_progress()
+      words = ''
       do side = 1, 2
-         if (path%failure(side)%state > 0 .and. .not. allocated(error)) &
-            call fail(error, exit_convergence, failure_words(suspension, case, path, path%failure(side), kkt))
+         if (path%failure(side)%state == 0) cycle
+         if (len(words) > 0) words = words//new_line('a')
+         words = words//failure_words(suspension, case, path, path%failure(side), kkt)
       end do
       call say_settled(arguments, suspension, case, path)
-      call warn_of_drift(suspension, case, path, kkt)
+      call warn_of_drift(suspension, case, path, kkt, lost)
       call warn_of_instability(suspension, case, path)
+      if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
+      words = words//lost
+      if (len(words) > 0) call fail(error, exit_convergence, words)
 
       call sweep_table(suspension, case, path, kkt, table)
       call add_header(table, suspension, case, checksum)
       if (folder == '-') then
-         write (output_unit, '(a)', advance='no') csv_text(table)
+         call write_standard_output(csv_text(table), trouble)
+         if (allocated(trouble)) call move_alloc(trouble, error)
          return
       end if
       name = join_path(folder, suspension%name//'_'//case%name//'.csv')

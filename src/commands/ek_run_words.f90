@@ -59,16 +59,20 @@ contains
    end subroutine say_preloads
 
    !> The linear methods against one equilibrium solution at either end of the sweep.
-   subroutine warn_of_drift(suspension, case, path, kkt)
+   !>
+   !> `lost` says where no equilibrium is near: the states before it are not to be trusted.
+   subroutine warn_of_drift(suspension, case, path, kkt, lost)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(kkt_t), intent(inout) :: kkt
+      character(:), allocatable, intent(out) :: lost    !! '' where all is well
       type(drift_t) :: drift
       real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
       real(wp), parameter :: much_angle = 1.0e-3_wp*degree
       integer :: k, ends(2), n
 
+      lost = ''
       if (case%method == 'equilibrium') return
       ends = [1, path%states]
       do n = 1, 2
@@ -76,9 +80,10 @@ contains
          if (.not. path%is_reached(k) .or. k == path%start) cycle
          call drift_at(suspension, case, path, k, kkt, drift)
          if (.not. drift%is_known) then
-            call warn('case '//quoted(case%name)//', method '//case%method// &
+            if (len(lost) > 0) lost = lost//new_line('a')
+            lost = lost//'case '//quoted(case%name)//', method '//case%method// &
                ': no equilibrium was found near the state at factor '// &
-               str(path%value(k)/factor_unit(suspension, case))//'; do not trust it')
+               str(path%value(k)/factor_unit(suspension, case))//'; the method has run past what the suspension can reach'
          else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
             call warn('case '//quoted(case%name)//', method '//case%method//': at factor '// &
                str(path%value(k)/factor_unit(suspension, case))//' the state is off equilibrium by '// &

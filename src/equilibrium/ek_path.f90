@@ -61,7 +61,9 @@ contains
 
       n = case%increments
       if (case%from*case%to <= 0.0_wp) then
-         before = nint(n*abs(case%from)/(abs(case%from) + abs(case%to)))
+         ! the half is rounded on the same side of design whichever way the case is walked
+         before = nint(n*abs(min(case%from, case%to))/(abs(case%from) + abs(case%to)))
+         if (case%from > case%to) before = n - before
          if (abs(case%from) > 0.0_wp) before = max(before, 1)
          if (abs(case%to) > 0.0_wp) then
             n = max(n, before + merge(1, 0, abs(case%from) > 0.0_wp .and. n == 1))

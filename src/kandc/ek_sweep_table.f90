@@ -19,6 +19,8 @@ module ek_sweep_table
    private
    public :: sweep_table, wheel_attitude, factor_unit, reached_rows
 
+   real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is none
+
    !> Column names, gathered one by one.
    type :: names_t
       character(name_length), allocatable :: list(:)
@@ -60,6 +62,7 @@ contains
          call assemble(suspension, state, demand, residual_only, kkt)
          call fill_row(suspension, state, kkt, table%values(3:names%used - 3, row))
          table%values(names%used, row) = norm2(kkt%values)
+         if (norm2(kkt%values) > open_joints) table%values(names%used - 2, row) = 0.0_wp
       end do
    end subroutine sweep_table
 

@@ -72,8 +72,9 @@ contains
          end do
          call add_block(-m, at_i, at_j, ld, matrix)
          call add_block(mb, at_i, at_j + 3, ld, matrix)
-         call add_block(transpose(ma), at_i + 3, at_j, ld, matrix)
          call add_block(x, at_i + 3, at_j + 3, ld, matrix)
+         x = transpose(ma)      ! handed over as an expression, gfortran would put it on the heap
+         call add_block(x, at_i + 3, at_j, ld, matrix)
       end if
    end subroutine add_link_stiffness
 
