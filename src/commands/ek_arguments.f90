@@ -86,7 +86,7 @@ contains
             case ('--case')
                arguments%case = value
             case ('--set')
-               arguments%settings = [arguments%settings, setting_t(value)]
+               call add_setting(arguments%settings, value)
             case ('--increments')
                read (value, *, iostat=status) arguments%increments
                if (status /= 0 .or. verify(value, '0123456789') /= 0 .or. arguments%increments < 1) then
@@ -149,6 +149,18 @@ contains
          call fail(error, exit_usage, '--plot needs a folder, and --out - is none')
       end if
    end subroutine refuse_unused
+
+   !> Appends a text. (gfortran leaks the component of a constructor within an array constructor.)
+   subroutine add_setting(settings, text)
+      type(setting_t), allocatable, intent(inout) :: settings(:)
+      character(*), intent(in) :: text
+      type(setting_t), allocatable :: more(:)
+
+      allocate (more(size(settings) + 1))
+      more(:size(settings)) = settings
+      more(size(more))%text = text
+      call move_alloc(more, settings)
+   end subroutine add_setting
 
    !> '; did you mean …?' or nothing.
    function suggestion(word, names) result(text)
