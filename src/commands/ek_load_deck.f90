@@ -1,12 +1,12 @@
 !> From a path and settings to a model: what every command begins with.
 module ek_load_deck
    use ek_error, only: error_t, fail, exit_usage
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, method_names
+   use ek_case, only: case_t, method_names, most_increments
    use ek_arguments, only: arguments_t
    implicit none(type, external)
    private
@@ -82,6 +82,10 @@ contains
       end if
       if (len(arguments%method) > 0 .and. .not. any(method_names == arguments%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(arguments%method))
+         return
+      end if
+      if (arguments%increments > most_increments) then
+         call fail(error, exit_usage, '--increments: expected 1 to '//str(most_increments)//', found '//str(arguments%increments))
          return
       end if
       do k = 1, size(chosen)

@@ -5,7 +5,7 @@ module ek_reader_wheels
    use ek_rotation, only: unit_vector
    use ek_suspension, only: suspension_t, wheel_t
    use ek_builder, only: add_wheel
-   use ek_case, only: case_t, method_names
+   use ek_case, only: case_t, method_names, most_increments
    use ek_record, only: element
    use ek_group, only: wheel_group, case_group, load_group, joint_group, word_length, did_you_mean
    use ek_deck, only: deck_t
@@ -14,8 +14,6 @@ module ek_reader_wheels
    implicit none(type, external)
    private
    public :: read_wheels, read_cases
-
-   integer, parameter :: most_increments = 10000000
 
 contains
 

@@ -3,9 +3,10 @@ module ek_case
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: case_t, method_names, default_tolerance
+   public :: case_t, method_names, default_tolerance, most_increments
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
+   integer, parameter :: most_increments = 1000000   !! a state takes about 3 kB on its way to the file
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
 
    !> Exactly one of `load` and `drive` is not empty.
