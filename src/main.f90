@@ -5,6 +5,7 @@ program elastokin
    use ek_arguments, only: arguments_t, read_arguments
    use ek_help, only: help_text
    use ek_version, only: version
+   use ek_threads, only: use_one_thread
    use ek_words, only: complain
    use ek_run, only: run
    use ek_check, only: check
@@ -14,6 +15,7 @@ program elastokin
    type(arguments_t) :: arguments
    type(error_t), allocatable :: error
 
+   call use_one_thread()
    call read_arguments(arguments, error)
    if (.not. allocated(error)) then
       if (arguments%version) then
