@@ -142,7 +142,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(figure_t), allocatable :: figures(:)
       character(64), allocatable :: elements(:)
-      character(:), allocatable :: model, message
+      character(:), allocatable :: model, message, label
       integer :: k
 
       allocate (elements(size(suspension%bushings)))
@@ -154,8 +154,9 @@ contains
       if (is_vertical(suspension, case)) then
          call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, elements=elements)
       else
-         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', &
-            'factor of load '//case%load, elements)
+         label = 'factor of load '//case%load
+         if (len(case%load) == 0) label = 'change of '//case%drive//' ['//trim(factor_name(suspension, case))//']'
+         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', label, elements)
       end if
       do k = 1, size(figures)
          call write_figure(figures(k), folder, error)
@@ -177,7 +178,7 @@ contains
       type(case_t), intent(in) :: case
       integer :: k
 
-      is_vertical = .true.
+      is_vertical = case%drive == 'wheel_travel'
       k = load_number(suspension, case%load)
       if (k == 0) return
       is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &

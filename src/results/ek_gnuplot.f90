@@ -109,7 +109,7 @@ contains
          call script%add('set key at screen 0.975, screen 0.965 right top horizontal Right noreverse samplen 2.5')
       end if
       if (is_single) then
-         call script%add('set lmargin at screen 0.10; set rmargin at screen '//str(right))
+         call script%add('set lmargin at screen 0.115; set rmargin at screen '//str(right))
          call script%add('set tmargin at screen 0.88; set bmargin at screen 0.115')
          call add_axes(script, figure%panels(1), '')
       end if
