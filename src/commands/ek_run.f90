@@ -23,7 +23,8 @@ module ek_run
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
-   use ek_run_words, only: say_settled, say_preloads, warn_of_drift, warn_of_instability, failure_words
+   use ek_run_words, only: say_settled, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel, &
+      failure_words
    use ek_words, only: say, complain, show_progress, clear_progress
    implicit none(type, external)
    private
@@ -112,6 +113,7 @@ contains
       call say_settled(arguments, suspension, case, path)
       call warn_of_drift(suspension, case, path, kkt, lost)
       call warn_of_instability(suspension, case, path)
+      call warn_of_travel(suspension, case, path)
       if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
       words = words//lost
       if (len(words) > 0) call fail(error, exit_convergence, words)

@@ -17,7 +17,7 @@ module ek_run_words
    use ek_words, only: say, warn
    implicit none(type, external)
    private
-   public :: say_settled, say_preloads, warn_of_drift, warn_of_instability, failure_words
+   public :: say_settled, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel, failure_words
 
 contains
 
@@ -124,6 +124,36 @@ contains
          ' unstable (negative stiffness: over centre or buckled), the first at factor '// &
          str(path%value(first)/factor_unit(suspension, case)))
    end subroutine warn_of_instability
+
+   !> A load that moves a wheel further than any suspension goes: a rate is missing or has the wrong unit.
+   subroutine warn_of_travel(suspension, case, path)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(state_t) :: state
+      type(attitude_t) :: attitude
+      character(:), allocatable :: advice
+      real(wp), parameter :: far = 0.25_wp      ! m: half as much again as the travel of an off-road car
+      integer :: k, w, ends(2), n
+
+      if (len(case%load) == 0) return           ! a driven wheel goes where the deck says
+      advice = '; are the rates, and their units, as meant?'
+      if (size(suspension%springs) == 0) advice = '; the deck has no spring'
+      ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
+      state = design_state(suspension)
+      do n = 1, 2
+         k = ends(n)
+         if (k == 0) return
+         call unpack_state(path%packed(:, k), state)
+         do w = 1, size(suspension%wheels)
+            attitude = wheel_attitude(suspension, state, w)
+            if (.not. norm2(attitude%centre) > far) cycle
+            call warn('case '//quoted(case%name)//': at factor '//str(path%value(k))//' wheel '// &
+               quoted(suspension%wheels(w)%name)//' has moved by '//str(norm2(attitude%centre)/millimetre, 3)//' mm'//advice)
+            return
+         end do
+      end do
+   end subroutine warn_of_travel
 
    !> Where a sweep stopped, which body moved most in the attempt, which joint is furthest off.
    function failure_words(suspension, case, path, failure, kkt) result(text)
