@@ -73,7 +73,7 @@ contains
       integer :: k, ends(2), n
 
       lost = ''
-      if (case%method == 'equilibrium') return
+      if (case%method == 'equilibrium' .or. size(suspension%wheels) == 0) return
       ends = [1, path%states]
       do n = 1, 2
          k = ends(n)

@@ -5,7 +5,7 @@
 !> does not know of.
 module ek_step_size
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_convergence
+   use ek_error, only: error_t, fail, exit_deck, exit_convergence
    use ek_units, only: degree, millimetre
    use ek_text, only: quoted
    use ek_clock, only: seconds
@@ -49,7 +49,15 @@ contains
 
       call make_subject(deck, study%case, suspension, case, kkt, error)
       if (allocated(error)) return
+      if (size(suspension%wheels) == 0) then
+         call fail(error, exit_deck, deck%file//': a step-size study compares a wheel, and the deck has none')
+         return
+      end if
       if (study%end == 'from') case%to = case%from
+      if (.not. abs(case%to) > 0.0_wp) then
+         call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' begins at the end that is studied; take the other')
+         return
+      end if
       case%from = 0.0_wp
       case%method = 'equilibrium'
       case%tolerance = 1.0e-13_wp      ! m; the reference is a thousand times closer than any result
