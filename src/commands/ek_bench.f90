@@ -11,7 +11,7 @@ module ek_bench
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
    use ek_suspension, only: suspension_t, load_number, driver_row
-   use ek_builder, only: add_travel_driver
+   use ek_builder, only: add_case_driver
    use ek_case, only: case_t, method_names
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent
@@ -52,7 +52,7 @@ contains
       case = chosen(1)
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
-      if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+      call add_case_driver(suspension, case)
       kkt = new_kkt(suspension)
       case%method = 'equilibrium'
       call sweep(suspension, case, path, kkt)
@@ -188,7 +188,9 @@ contains
       if (allocated(error)) return
       call chosen_cases(arguments, cases, chosen, error)
       if (allocated(error)) return
-      if (chosen(1)%drive == 'wheel_travel') call add_travel_driver(suspension, chosen(1)%wheel)
+      call balance(suspension, chosen(1)%tolerance, error)
+      if (allocated(error)) return
+      call add_case_driver(suspension, chosen(1))
       kkt = new_kkt(suspension)
       marks(2) = seconds()
       call sweep(suspension, chosen(1), path, kkt)

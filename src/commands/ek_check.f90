@@ -4,7 +4,7 @@ module ek_check
    use ek_error, only: error_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_travel_driver
+   use ek_builder, only: add_case_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -44,14 +44,9 @@ contains
       found = ''
       do k = 1, size(chosen)
          suspension = base
-         if (chosen(k)%drive == 'wheel_travel') then
-            call add_travel_driver(suspension, chosen(k)%wheel)
-            kkt = new_kkt(suspension)
-            call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-         else
-            kkt = new_kkt(base)
-            call diagnose(base, design_state(base), kkt, diagnosis)
-         end if
+         call add_case_driver(suspension, chosen(k))
+         kkt = new_kkt(suspension)
+         call diagnose(suspension, design_state(suspension), kkt, diagnosis)
          call tell_case(chosen(k), diagnosis)
          if (diagnosis%is_solvable()) cycle
          ! the same defect seen under two drives differs in a last digit
@@ -60,10 +55,8 @@ contains
       end do
       if (size(chosen) == 0) then
          if (.not. diagnosis%is_solvable()) found = diagnosis%words()//new_line('a')
-         call tell('warnings', diagnosis%warnings%text())
-      else
-         call tell('warnings', diagnosis%warnings%text())
       end if
+      call tell('warnings', diagnosis%warnings%text())
       if (len(found) > 0) then
          call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found(:len(found) - 1))
          return

@@ -8,7 +8,7 @@ module ek_run
    use ek_version, only: version
    use ek_file, only: make_folder, write_standard_output, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
-   use ek_builder, only: add_travel_driver
+   use ek_builder, only: add_case_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -94,7 +94,7 @@ contains
       integer :: side
 
       suspension = base
-      if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+      call add_case_driver(suspension, case)
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) then

@@ -7,6 +7,7 @@ module ek_sweep_table
    use ek_measure, only: measure_value, axis_axis, rotation
    use ek_block, only: rotated
    use ek_rotation, only: cross
+   use ek_joint, only: joint_t
    use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
    use ek_suspension, only: suspension_t, load_number, driver_row
    use ek_case, only: case_t
@@ -113,15 +114,19 @@ contains
       end select
    end function measure_unit
 
-   !> Whether a joint's reaction holds a moment about its own point.
-   pure logical function has_moment(kind)
-      character(*), intent(in) :: kind
-      select case (kind)
-      case ('spherical', 'distance', 'in_plane', 'in_line', 'driver', 'coupler')
-         has_moment = .false.
-      case default
-         has_moment = .true.
-      end select
+   !> Whether a joint's reaction holds a moment about its own point: only rows between directions make one.
+   pure logical function has_moment(suspension, joint)
+      type(suspension_t), intent(in) :: suspension
+      type(joint_t), intent(in) :: joint
+      integer :: r
+
+      has_moment = .false.
+      do r = joint%first_row, joint%first_row + joint%rows - 1
+         select case (suspension%terms(suspension%rows(r)%first)%measure%kind)
+         case (axis_axis, rotation)
+            has_moment = .true.
+         end select
+      end do
    end function has_moment
 
    !> All names, in the order in which fill_row gives the values.
@@ -174,11 +179,11 @@ contains
       end do
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
-            if (joint%kind == 'driver' .or. joint%kind == 'coupler') then
+            if (joint%is_of_measures) then
                call add(joint%name//'_reaction_'//reaction_unit(suspension, joint%first_row))
             else
                call add_three(joint%name//'_f', 'n')
-               if (has_moment(joint%kind)) call add_three(joint%name//'_m', 'nm')
+               if (has_moment(suspension, joint)) call add_three(joint%name//'_m', 'nm')
             end if
          end associate
       end do
@@ -279,7 +284,7 @@ contains
       end do
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
-            if (joint%kind == 'driver' .or. joint%kind == 'coupler') then
+            if (joint%is_of_measures) then
                at = at + 1
                row(at) = -state%reaction(joint%first_row)
                cycle
@@ -291,7 +296,7 @@ contains
             end do
             row(at + 1:at + 3) = frame*force
             at = at + 3
-            if (.not. has_moment(joint%kind)) cycle
+            if (.not. has_moment(suspension, joint)) cycle
             arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
             row(at + 1:at + 3) = frame*(moment - cross(arm, force))
             at = at + 3

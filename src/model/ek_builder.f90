@@ -6,11 +6,12 @@ module ek_builder
    use ek_measure, only: measure_t, measure_value, distance, axis_axis, rotation, global_gap
    use ek_joint, only: joint_t, row_t, term_t, joint_geometry_t, joint_terms, max_terms
    use ek_elastic, only: spring_t, bushing_t, set_bushing_axes
+   use ek_case, only: case_t
    use ek_suspension, only: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, design_poses
    implicit none(type, external)
    private
    public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_bushing
-   public :: add_travel_driver, add_load, add_wheel, add_readout, complete
+   public :: add_travel_driver, add_case_driver, add_load, add_wheel, add_readout, complete
 
 contains
 
@@ -67,6 +68,7 @@ contains
       term%measure = self%readouts(readout)%measure
       call append_joint(self, name, where, 'driver', [term], [1], .true.)
       self%joints(size(self%joints))%arm_j = term%measure%arm_j
+      self%joints(size(self%joints))%is_of_measures = .true.
    end subroutine add_driver
 
    !> A coupler: Σ ratio × readout = its design value.
@@ -84,6 +86,7 @@ contains
       end do
       call append_joint(self, name, where, 'coupler', terms, [size(terms)], .false.)
       self%joints(size(self%joints))%arm_j = terms(1)%measure%arm_j
+      self%joints(size(self%joints))%is_of_measures = .true.
    end subroutine add_coupler
 
    !> A driver of the height of a wheel's centre against the body, joint name 'wheel_travel'; on a
@@ -98,8 +101,16 @@ contains
             arm_i=self%bodies(w%body)%origin + w%centre, arm_j=w%centre)
          call append_joint(self, 'wheel_travel', w%where, 'driver', [term], [1], .true.)
          self%joints(size(self%joints))%arm_j = w%centre
+         self%joints(size(self%joints))%is_of_measures = .true.
       end associate
    end subroutine add_travel_driver
+
+   !> What a case drives beyond the joints of the deck: the height of a wheel. On a completed model.
+   pure subroutine add_case_driver(self, case)
+      type(suspension_t), intent(inout) :: self
+      type(case_t), intent(in) :: case
+      if (case%drive == 'wheel_travel') call add_travel_driver(self, case%wheel)
+   end subroutine add_case_driver
 
    pure subroutine append_joint(self, name, where, kind, terms, terms_of_row, is_driver)
       type(suspension_t), intent(inout) :: self

@@ -42,6 +42,7 @@ module ek_joint
       integer :: body_i = 0, body_j = 0
       real(wp) :: arm_j(3) = 0.0_wp          !! where its force acts on body j, body axes [m]
       integer :: first_row = 0, rows = 0
+      logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
    end type joint_t
 
    !> coefficient × measure

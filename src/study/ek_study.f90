@@ -6,6 +6,7 @@ module ek_study
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: lower
+   use ek_case, only: method_names
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, note_length, &
       most_values, group_names, did_you_mean, last_deck_group
@@ -103,7 +104,6 @@ contains
       character(:), allocatable :: text
       integer :: increments(most_values), status, c, m
       namelist /study_nml/ name, title, kind, deck, case, plot, end, methods, columns, increments
-      character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
 
       name = ''
       title = ''

@@ -5,7 +5,7 @@ module ek_subject
    use ek_deck, only: deck_t
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_travel_driver
+   use ek_builder, only: add_case_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -41,7 +41,7 @@ contains
       case = cases(k)
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
-      if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+      call add_case_driver(suspension, case)
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) call fail(error, exit_model, deck%file//': the model cannot be solved'// &
