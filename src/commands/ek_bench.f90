@@ -10,13 +10,14 @@ module ek_bench
    use ek_text, only: str, quoted
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
-   use ek_suspension, only: suspension_t, load_number, driver_row
-   use ek_builder, only: add_case_driver
+   use ek_suspension, only: suspension_t
    use ek_case, only: case_t, method_names
    use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent
    use ek_balance, only: balance
    use ek_path, only: path_t, new_path, walk, sweep
+   use ek_rig, only: mount
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t
    use ek_csv, only: csv_text
@@ -52,7 +53,8 @@ contains
       case = chosen(1)
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
-      call add_case_driver(suspension, case)
+      call mount(suspension, case, error)
+      if (allocated(error)) return
       kkt = new_kkt(suspension)
       case%method = 'equilibrium'
       call sweep(suspension, case, path, kkt)
@@ -108,17 +110,17 @@ contains
       type(kkt_t), intent(inout) :: kkt
       real(wp), allocatable, intent(out) :: matrices(:, :, :)
       type(state_t) :: state
+      type(schedule_t) :: schedule
       type(demand_t) :: demand
       integer :: count, k, state_number, j
 
       count = min(most_matrices, path%states)
       allocate (matrices(kkt%n, kkt%n, count), source=0.0_wp)
       state = design_state(suspension)
-      demand%load = load_number(suspension, case%load)
-      demand%row = driver_row(suspension, case%drive)
+      schedule = new_schedule(suspension, case)
       do k = 1, count
          state_number = 1 + ((k - 1)*(path%states - 1))/max(count - 1, 1)
-         demand%value = path%value(state_number)
+         call demand_at(schedule, path%value(state_number), demand)
          call unpack_state(path%packed(:, state_number), state)
          call assemble(suspension, state, demand, whole_tangent, kkt)
          do j = 1, kkt%n
@@ -190,7 +192,8 @@ contains
       if (allocated(error)) return
       call balance(suspension, chosen(1)%tolerance, error)
       if (allocated(error)) return
-      call add_case_driver(suspension, chosen(1))
+      call mount(suspension, chosen(1), error)
+      if (allocated(error)) return
       kkt = new_kkt(suspension)
       marks(2) = seconds()
       call sweep(suspension, chosen(1), path, kkt)

@@ -4,7 +4,7 @@ module ek_check
    use ek_error, only: error_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_case_driver
+   use ek_rig, only: mount
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -44,7 +44,8 @@ contains
       found = ''
       do k = 1, size(chosen)
          suspension = base
-         call add_case_driver(suspension, chosen(k))
+         call mount(suspension, chosen(k), error)
+         if (allocated(error)) return
          kkt = new_kkt(suspension)
          call diagnose(suspension, design_state(suspension), kkt, diagnosis)
          call tell_case(chosen(k), diagnosis)
@@ -110,7 +111,9 @@ contains
       type(diagnosis_t), intent(in) :: diagnosis
       character(:), allocatable :: text
 
-      if (len(case%load) > 0) then
+      if (len(case%test) > 0) then
+         text = 'test '//case%test
+      else if (len(case%load) > 0) then
          text = 'load '//quoted(case%load)
       else
          text = 'drive '//quoted(case%drive)

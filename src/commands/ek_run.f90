@@ -3,19 +3,19 @@ module ek_run
    use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage, exit_model, exit_convergence
-   use ek_units, only: degree, millimetre
+   use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
    use ek_file, only: make_folder, write_standard_output, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
-   use ek_builder, only: add_case_driver
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t, sweep
-   use ek_sweep_table, only: sweep_table, factor_unit
+   use ek_rig, only: mount
+   use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t
    use ek_csv, only: write_csv, csv_text
    use ek_figure, only: figure_t
@@ -78,14 +78,15 @@ contains
    end subroutine run
 
    !> One case: examine, sweep, tell, write, draw.
-   subroutine run_case(arguments, base, case, folder, checksum, error)
+   subroutine run_case(arguments, base, wanted, folder, checksum, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: base
-      type(case_t), intent(in) :: case
+      type(case_t), intent(in) :: wanted
       character(*), intent(in) :: folder, checksum
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble
       type(suspension_t) :: suspension
+      type(case_t) :: case
       type(kkt_t) :: kkt
       type(diagnosis_t) :: diagnosis
       type(path_t) :: path
@@ -94,7 +95,9 @@ contains
       integer :: side
 
       suspension = base
-      call add_case_driver(suspension, case)
+      case = wanted
+      call mount(suspension, case, error)
+      if (allocated(error)) return
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) then
@@ -156,8 +159,7 @@ contains
       if (is_vertical(suspension, case)) then
          call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, elements=elements)
       else
-         label = 'factor of load '//case%load
-         if (len(case%load) == 0) label = 'change of '//case%drive//' ['//trim(factor_name(suspension, case))//']'
+         label = case%place_name//' ['//case%unit_name//']'
          call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', label, elements)
       end if
       do k = 1, size(figures)
@@ -178,9 +180,10 @@ contains
    pure logical function is_vertical(suspension, case)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
+      character(*), parameter :: vertical_tests(3) = [character(15) :: 'parallel_travel', 'single_travel', 'vertical_force']
       integer :: k
 
-      is_vertical = case%drive == 'wheel_travel'
+      is_vertical = case%drive == 'wheel_travel' .or. any(case%test == vertical_tests)
       k = load_number(suspension, case%load)
       if (k == 0) return
       is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &
@@ -196,27 +199,16 @@ contains
 
       call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
          ', tolerance '//str(case%tolerance/millimetre)//' mm')
-      if (len(case%load) > 0) then
+      if (len(case%test) > 0) then
+         call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
+      else if (len(case%load) > 0) then
          call table%header%add('factor: of load '//quoted(case%load))
       else
-         call table%header%add('factor: change of '//case%drive//' ['//trim(factor_name(suspension, case))//']')
+         call table%header%add('factor: '//case%place_name//' ['//case%unit_name//']')
       end if
       call table%header%add('elastokin '//version//', deck checksum '//checksum)
       call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &
          'marker. Joint force and moment: on its second body, at its point, frame of the deck')
    end subroutine add_header
-
-   !> 'mm', 'deg' or '-'
-   function factor_name(suspension, case) result(name)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      character(3) :: name
-      real(wp) :: unit
-
-      unit = factor_unit(suspension, case)
-      name = '-'
-      if (abs(unit - millimetre) <= 0.0_wp) name = 'mm'
-      if (abs(unit - degree) <= 0.0_wp) name = 'deg'
-   end function factor_name
 
 end module ek_run

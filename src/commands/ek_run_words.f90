@@ -136,7 +136,13 @@ contains
       real(wp), parameter :: far = 0.25_wp      ! m: half as much again as the travel of an off-road car
       integer :: k, w, ends(2), n
 
-      if (len(case%load) == 0) return           ! a driven wheel goes where the deck says
+      if (len(case%drive) > 0) return           ! a driven wheel goes where the deck says
+      if (allocated(case%courses)) then
+         do k = 1, size(case%courses)
+            if (len(case%courses(k)%load) > 0) exit
+         end do
+         if (k > size(case%courses)) return
+      end if
       advice = '; are the rates, and their units, as meant?'
       if (size(suspension%springs) == 0) advice = '; the deck has no spring'
       ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
@@ -148,7 +154,7 @@ contains
          do w = 1, size(suspension%wheels)
             attitude = wheel_attitude(suspension, state, w)
             if (.not. norm2(attitude%centre) > far) cycle
-            call warn('case '//quoted(case%name)//': at factor '//str(path%value(k))//' wheel '// &
+            call warn('case '//quoted(case%name)//': at factor '//str(path%value(k)/factor_unit(suspension, case))//' wheel '// &
                quoted(suspension%wheels(w)%name)//' has moved by '//str(norm2(attitude%centre)/millimetre, 3)//' mm'//advice)
             return
          end do

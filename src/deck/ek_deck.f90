@@ -8,8 +8,8 @@ module ek_deck
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_deck, exit_usage
    use ek_file, only: read_whole
-   use ek_text, only: str
-   use ek_record, only: record_t, complaints_t
+   use ek_text, only: str, lower
+   use ek_record, only: record_t, entry_t, complaints_t, element, is_given, add_value, add_entry
    use ek_scanner, only: scan_text
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
@@ -51,9 +51,30 @@ contains
 
       deck%file = trim(name)
       call scan_text(text, deck%file, deck%records, deck%used, deck%complaints)
+      call name_tests(deck)
       if (deck%used == 0 .and. deck%complaints%count() == 0) &
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
+
+   !> A case of the rig without a name is called like its test: parallel_travel, aligning_torque_anti.
+   subroutine name_tests(deck)
+      type(deck_t), intent(inout) :: deck
+      type(entry_t) :: name
+      character(:), allocatable :: text
+      integer :: k
+
+      do k = 1, deck%used
+         if (deck%records(k)%group /= 'case' .or. is_given(deck%records(k), 'name')) cycle
+         text = lower(element(deck%records(k), 'test', 1))
+         if (text == '') cycle
+         if (lower(element(deck%records(k), 'phase', 1)) == 'anti') text = text//'_anti'
+         name%key = 'name'
+         name%first = 1
+         name%line = deck%records(k)%line
+         call add_value(name, text, .true., .false.)
+         call add_entry(deck%records(k), name)
+      end do
+   end subroutine name_tests
 
    !> Sets one value, as `--set path=value` does: `point.lower_ball_joint.z`, `bushing.top_mount.kt(1)`,
    !> `spring.coil.rate`, `model.length`. A key that the record lacks is added. Ranges are checked

@@ -8,7 +8,7 @@ module ek_group
    public :: group_names, group_number, key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, last_deck_group, study_group, factor_group, response_group
-   public :: most_values
+   public :: most_values, most_loads
    public :: word_length, note_length, most_measures, largest_exponent
    public :: word, prose, number, whole, switch
 
@@ -30,6 +30,7 @@ module ek_group
    integer, parameter :: note_length = 2000    !! the longest title or note
    integer, parameter :: most_measures = 8     !! of one coupler
    integer, parameter :: most_values = 200     !! of one factor, or step sizes of one study
+   integer, parameter :: most_loads = 12       !! scaled together by one case
    integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
 
    type :: key_t
@@ -116,11 +117,18 @@ module ek_group
       key_t(load_group, 'factor', word, 1, 1, .false.), &
       key_t(case_group, 'name', word, 1, 1, .true.), &
       key_t(case_group, 'note', prose, 1, 1, .false.), &
-      key_t(case_group, 'load', word, 1, 1, .false.), &
+      key_t(case_group, 'load', word, 1, most_loads, .false.), &
       key_t(case_group, 'drive', word, 1, 1, .false.), &
       key_t(case_group, 'wheel', word, 1, 1, .false.), &
-      key_t(case_group, 'from', number, 1, 1, .true.), &
-      key_t(case_group, 'to', number, 1, 1, .true.), &
+      key_t(case_group, 'test', word, 1, 1, .false.), &
+      key_t(case_group, 'vertical', word, 1, 1, .false.), &
+      key_t(case_group, 'phase', word, 1, 1, .false.), &
+      key_t(case_group, 'offset', number, 1, 1, .false.), &
+      key_t(case_group, 'file', prose, 1, 1, .false.), &
+      key_t(case_group, 'target', prose, 1, 1, .false.), &
+      key_t(case_group, 'quantities', word, 1, 1, .false.), &
+      key_t(case_group, 'from', number, 1, 1, .false.), &
+      key_t(case_group, 'to', number, 1, 1, .false.), &
       key_t(case_group, 'increments', whole, 1, 1, .false.), &
       key_t(case_group, 'method', word, 1, 1, .false.), &
       key_t(case_group, 'tolerance', number, 1, 1, .false.), &

@@ -16,7 +16,8 @@ module ek_reader
    use ek_draft, only: draft_t, complain, where_of, find_point, to_internal, choice
    use ek_reader_joints, only: read_measures, read_joints
    use ek_reader_elements, only: read_bushings, read_springs, read_loads
-   use ek_reader_wheels, only: read_wheels, read_cases
+   use ek_reader_wheels, only: read_wheels
+   use ek_reader_cases, only: read_cases
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_point, add_body, complete
    use ek_case, only: case_t
@@ -95,7 +96,7 @@ contains
 
          if (verify(lower(name), letters//'0123456789_') > 0 .or. verify(lower(name(1:1)), letters) > 0) then
             call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
-         else if (any(reserved_names == lower(name))) then
+         else if (any(reserved_names == lower(name)) .or. index(lower(name), 'rig_') == 1) then
             call complain(draft, deck, k, 'name', 'the name is reserved')
          else if (has_results(card%group) .and. any(reserved_results == lower(name))) then
             call complain(draft, deck, k, 'name', 'the name is reserved for a column of the results')

@@ -1,19 +1,16 @@
-!> &wheel and &case: what is looked at, and what is done.
+!> &wheel: what is looked at.
 module ek_reader_wheels
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, quoted
    use ek_rotation, only: unit_vector
    use ek_suspension, only: suspension_t, wheel_t
    use ek_builder, only: add_wheel
-   use ek_case, only: case_t, method_names, most_increments
-   use ek_record, only: element
-   use ek_group, only: wheel_group, case_group, load_group, joint_group, word_length, did_you_mean
+   use ek_group, only: wheel_group, word_length
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, look_up, find_point, find_body, find_card, &
-      find_direction, to_internal
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_body, to_internal
    implicit none(type, external)
    private
-   public :: read_wheels, read_cases
+   public :: read_wheels
 
 contains
 
@@ -112,109 +109,5 @@ contains
       end subroutine find_spin
 
    end subroutine read_wheels
-
-   !> &case.
-   subroutine read_cases(deck, draft, cases)
-      type(deck_t), intent(in) :: deck
-      type(draft_t), intent(inout) :: draft
-      type(case_t), allocatable, intent(out) :: cases(:)
-      character(word_length) :: name, load, drive, wheel, method
-      real(wp) :: from, to, tolerance
-      integer :: increments
-      namelist /case/ name, load, drive, wheel, from, to, increments, method, tolerance
-      real(wp) :: factor
-      integer :: k, c, found, used, status
-
-      allocate (cases(count(draft%cards%group == case_group)))
-      used = 0
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= case_group) cycle
-         used = used + 1
-         name = ''
-         load = ''
-         drive = ''
-         wheel = ''
-         method = 'equilibrium'
-         from = 0.0_wp
-         to = 0.0_wp
-         tolerance = cases(used)%tolerance/draft%units%length
-         increments = cases(used)%increments
-         read (draft%cards(k)%text, nml=case, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-
-         factor = 1.0_wp
-         if (has_key(deck, k, 'load') .and. has_key(deck, k, 'drive')) then
-            call complain(draft, deck, k, 'drive', 'give either load or drive, not both')
-         else if (.not. (has_key(deck, k, 'load') .or. has_key(deck, k, 'drive'))) then
-            call complain(draft, deck, k, '', "'load' or 'drive' is missing")
-         end if
-         call find_load()
-         call find_drive()
-         cases(used)%wheel = 1
-         if (wheel /= '') then
-            call look_up(draft, deck, k, 'wheel', wheel_group, trim(wheel), found)
-            if (found > 0) cases(used)%wheel = draft%cards(found)%index
-            if (drive /= 'wheel_travel') call complain(draft, deck, k, 'wheel', &
-               "wheel: only a case with drive = 'wheel_travel' has one")
-         end if
-         if (draft%cards(k)%is_good .and. .not. abs(to - from) > 0.0_wp) &
-            call complain(draft, deck, k, 'to', 'from and to must differ, found '//str(from)//' twice')
-         if (increments < 1 .or. increments > most_increments) &
-            call complain(draft, deck, k, 'increments', 'increments must be 1 to '//str(most_increments)//', found '// &
-               str(increments))
-         call choice(draft, deck, k, 'method', trim(method), method_names, c)
-         if (.not. tolerance > 0.0_wp) &
-            call complain(draft, deck, k, 'tolerance', 'tolerance must be above 0, found '//str(tolerance))
-
-         cases(used)%name = trim(name)
-         cases(used)%where = where_of(deck, k)
-         cases(used)%load = trim(load)
-         cases(used)%drive = trim(drive)
-         cases(used)%from = from*factor
-         cases(used)%to = to*factor
-         cases(used)%increments = increments
-         cases(used)%method = lower(trim(method))
-         if (has_key(deck, k, 'tolerance')) cases(used)%tolerance = tolerance*draft%units%length
-      end do
-
-   contains
-
-      subroutine find_load()
-         call look_up(draft, deck, k, 'load', load_group, trim(load), found)
-         if (found == 0) return
-         if (.not. draft%cards(found)%is_used) call complain(draft, deck, k, 'load', 'load '//quoted(load)//' in line '// &
-            str(deck%records(found)%line)//" is constant; a case scales loads with factor = 'case'")
-      end subroutine find_load
-
-      subroutine find_drive()
-         character(word_length), allocatable :: names(:)
-         integer :: j
-
-         if (drive == '') return
-         if (lower(drive) == 'wheel_travel') then
-            drive = 'wheel_travel'
-            factor = draft%units%length
-            if (.not. any(draft%cards%group == wheel_group)) &
-               call complain(draft, deck, k, 'drive', "drive is 'wheel_travel', but there is no &wheel")
-            return
-         end if
-         found = find_card(draft, joint_group, drive)
-         if (found > 0) then
-            factor = draft%cards(found)%factor
-            if (lower(element(deck%records(found), 'type', 1)) /= 'driver') call complain(draft, deck, k, 'drive', &
-               'drive: the joint '//quoted(drive)//' in line '//str(deck%records(found)%line)//' is not a driver')
-            return
-         end if
-         allocate (names(deck%used + 1))
-         names = ''
-         names(1) = 'wheel_travel'
-         do j = 1, deck%used
-            if (draft%cards(j)%group /= joint_group) cycle
-            if (lower(element(deck%records(j), 'type', 1)) == 'driver') names(j + 1) = draft%cards(j)%name
-         end do
-         call complain(draft, deck, k, 'drive', 'drive: there is no driver joint '//quoted(drive)//did_you_mean(drive, names))
-      end subroutine find_drive
-
-   end subroutine read_cases
 
 end module ek_reader_wheels

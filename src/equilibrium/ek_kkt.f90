@@ -21,7 +21,7 @@ module ek_kkt
    use ek_lapack, only: dsytrf, dsytrs, dsycon
    implicit none(type, external)
    private
-   public :: kkt_t, new_kkt, assemble, factorise, solve, condition, wrench
+   public :: kkt_t, new_kkt, assemble, factorise, solve, condition, wrench, load_factor
    public :: whole_tangent, material_only, residual_only
 
    integer, parameter :: whole_tangent = 1   !! T with geometric stiffness: corrected, equilibrium
@@ -176,7 +176,7 @@ contains
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
       type(view_t) :: view
       type(bushing_view_t) :: bushing_view
-      real(wp) :: tension, slope, pull(12), value, target, force(3), moment(3), arm(3)
+      real(wp) :: tension, slope, pull(12), value, force(3), moment(3), arm(3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
@@ -191,7 +191,7 @@ contains
 
       do k = 1, size(suspension%loads)
          value = 1.0_wp
-         if (suspension%loads(k)%is_case) value = merge(demand%value, 0.0_wp, k == demand%load)
+         if (suspension%loads(k)%is_case) value = load_factor(demand, k)
          if (abs(value) <= 0.0_wp) cycle
          j = suspension%loads(k)%body
          at_j = 6*(j - 1)
@@ -265,9 +265,12 @@ contains
                end if
             end associate
          end do
-         target = suspension%rows(k)%target
-         if (k == demand%row) target = target + demand%value
-         values(k) = value - target
+         values(k) = value - suspension%rows(k)%target
+      end do
+      do k = 1, demand%rows
+         values(demand%row(k)) = values(demand%row(k)) - demand%change(k)
+      end do
+      do k = 1, size(suspension%rows)
          rhs(nq + k) = -values(k)
       end do
 
@@ -278,6 +281,18 @@ contains
          end do
       end if
    end subroutine assemble_into
+
+   !> What a case load is scaled by: 0 where the demand does not name it.
+   pure real(wp) function load_factor(demand, load)
+      type(demand_t), intent(in) :: demand
+      integer, intent(in) :: load      !! number of the load
+      integer :: k
+
+      load_factor = 0.0_wp
+      do k = 1, demand%loads
+         if (demand%load(k) == load) load_factor = load_factor + demand%factor(k)
+      end do
+   end function load_factor
 
    !> Adds a generalised force on both bodies to the right-hand side.
    pure subroutine push(force, at_i, at_j, rhs)

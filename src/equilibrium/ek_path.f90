@@ -5,8 +5,9 @@
 module ek_path
    use ek_kinds, only: wp
    use ek_case, only: case_t
-   use ek_suspension, only: suspension_t, driver_row, load_number
+   use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
@@ -26,7 +27,7 @@ module ek_path
    type :: path_t
       integer :: states = 0
       integer :: start = 0                        !! index of the design state, 0 if the range leaves it out
-      real(wp), allocatable :: value(:)           !! demand: factor, or change of the driven value [m, rad]
+      real(wp), allocatable :: value(:)           !! place: factor, or change of the driven value [m, rad]
       real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
       logical, allocatable :: is_reached(:)
       logical, allocatable :: is_stable(:)        !! no negative stiffness
@@ -98,11 +99,14 @@ contains
       type(state_t) :: state
       type(carry_t) :: carry
       type(predictor_t) :: predictor
+      type(schedule_t) :: schedule
       type(demand_t) :: demand
+      real(wp) :: here                   ! the place of `state`
       integer :: done
 
-      demand%load = load_number(suspension, case%load)
-      demand%row = driver_row(suspension, case%drive)
+      schedule = new_schedule(suspension, case)
+      here = 0.0_wp
+      call demand_at(schedule, here, demand)
       predictor = new_predictor(size(path%settled))
       state = design_state(suspension)
       path%failure = failure_t()
@@ -175,10 +179,11 @@ contains
          end do
       end subroutine walk_branch
 
-      !> Back to the settled state, at demand 0.
+      !> Back to the settled state, at place 0.
       subroutine restart()
          call unpack_state(path%settled, state)
-         demand%value = 0.0_wp
+         here = 0.0_wp
+         call demand_at(schedule, here, demand)
          if (case%method == 'recursive') call start_recursion(suspension, state, kkt, carry)
          call forget(predictor)
          call remember(predictor, 0.0_wp, path%settled)
@@ -208,22 +213,22 @@ contains
          type(failure_t), intent(inout) :: failure
          type(demand_t) :: next
 
-         next = demand
-         next%value = value
+         call demand_at(schedule, value, next)
          select case (case%method)
          case ('recursive')
             call recursive_increment(suspension, demand, next, state, kkt, carry)
             path%iterations(k) = 1
-            call check_increment(kkt, k, demand%value, value, failure)
+            call check_increment(kkt, k, here, value, failure)
          case ('corrected')
             call corrected_increment(suspension, next, state, kkt)
             path%iterations(k) = 1
-            call check_increment(kkt, k, demand%value, value, failure)
+            call check_increment(kkt, k, here, value, failure)
          case default
-            call reach(suspension, next, case%tolerance, predictor, state, kkt, path%iterations(k), failure)
+            call reach(suspension, schedule, value, case%tolerance, predictor, state, kkt, path%iterations(k), failure)
             if (failure%state > 0) failure%state = k
          end select
-         demand%value = value
+         demand = next
+         here = value
       end subroutine advance
 
    end subroutine walk
@@ -232,7 +237,7 @@ contains
    subroutine check_increment(kkt, state_number, before, value, failure)
       type(kkt_t), intent(in) :: kkt
       integer, intent(in) :: state_number
-      real(wp), intent(in) :: before, value      !! demand at either end of the increment
+      real(wp), intent(in) :: before, value      !! place at either end of the increment
       type(failure_t), intent(inout) :: failure
       real(wp), parameter :: far = 100.0_wp      ! m: no suspension moves that far
       real(wp) :: moved

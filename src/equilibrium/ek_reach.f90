@@ -4,6 +4,7 @@ module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, coordinates, pack_state, unpack_state
+   use ek_schedule, only: schedule_t, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_predictor, only: predictor_t, new_predictor, remember, predict, depth
@@ -16,8 +17,8 @@ module ek_reach
    !> Where and how a sweep stopped.
    type :: failure_t
       integer :: state = 0                 !! index of the state that was not found, 0: all were
-      real(wp) :: value = 0.0_wp           !! demand that was last tried
-      real(wp) :: reached = 0.0_wp         !! demand of the last equilibrium
+      real(wp) :: value = 0.0_wp           !! place that was last tried
+      real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
       logical :: is_singular = .false.
       integer :: body = 0                  !! which moved most in the failed attempt
       real(wp) :: moved = 0.0_wp           !! how far [m]
@@ -27,12 +28,13 @@ module ek_reach
 
 contains
 
-   !> Reaches equilibrium at target%value from the states remembered, halving the way when needed.
+   !> Reaches equilibrium at a place of the path from the states remembered, halving the way when needed.
    !>
    !> On failure `state` is the last equilibrium.
-   subroutine reach(suspension, target, tolerance, predictor, state, kkt, iterations, failure)
+   subroutine reach(suspension, schedule, goal, tolerance, predictor, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: target
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: goal               !! place
       real(wp), intent(in) :: tolerance          !! m
       type(predictor_t), intent(inout) :: predictor
       type(state_t), intent(inout) :: state
@@ -40,7 +42,7 @@ contains
       integer, intent(out) :: iterations         !! factorisations spent
       type(failure_t), intent(inout) :: failure
 
-      call follow(suspension, target, target%value, .false., tolerance, predictor, state, kkt, iterations, failure)
+      call follow(suspension, schedule, goal, .false., tolerance, predictor, state, kkt, iterations, failure)
    end subroutine reach
 
    !> From design to equilibrium under the constant loads and preloads alone.
@@ -60,15 +62,15 @@ contains
       kkt%imbalance = kkt%rhs(:kkt%nq)
       predictor = new_predictor(coordinates(suspension))
       call store(predictor, 0.0_wp, state)
-      call follow(suspension, demand_t(), 1.0_wp, .true., tolerance, predictor, state, kkt, iterations, failure)
+      call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, state, kkt, iterations, failure)
    end subroutine settle
 
    !> Walks from the newest state remembered to the place `goal` of a path.
-   subroutine follow(suspension, target, goal, is_settling, tolerance, predictor, state, kkt, iterations, failure)
+   subroutine follow(suspension, schedule, goal, is_settling, tolerance, predictor, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: target
+      type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal
-      logical, intent(in) :: is_settling         !! the place is the share of the imbalance, else the demand's value
+      logical, intent(in) :: is_settling         !! the place is the share of the imbalance, else that of the schedule
       real(wp), intent(in) :: tolerance
       type(predictor_t), intent(inout) :: predictor
       type(state_t), intent(inout) :: state
@@ -80,7 +82,6 @@ contains
       real(wp) :: here, place
       integer :: halvings, points
 
-      demand = target
       here = predictor%abscissa(predictor%newest)
       iterations = 0
       halvings = 0
@@ -91,7 +92,7 @@ contains
          if (is_settling) then
             demand%relief = 1.0_wp - place
          else
-            demand%value = place
+            call demand_at(schedule, place, demand)
          end if
          call predict(predictor, place, points)
          call unpack_state(predictor%guess, state)
@@ -108,7 +109,7 @@ contains
             if (halvings > most_halvings) exit
          end if
       end do
-      call blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
+      call blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
    end subroutine follow
 
    !> Hands an equilibrium to the predictor.
@@ -123,12 +124,12 @@ contains
 
    !> Says which body moved most in a failed attempt, and which constraint is furthest off; `state` goes back to
    !> the last equilibrium.
-   subroutine blame(suspension, predictor, demand, outcome, here, state, kkt, failure)
+   subroutine blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor
       type(demand_t), intent(in) :: demand
       type(outcome_t), intent(in) :: outcome
-      real(wp), intent(in) :: here
+      real(wp), intent(in) :: here, place        !! of the last equilibrium, and of the failed attempt
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
@@ -139,7 +140,7 @@ contains
       before = state
       call unpack_state(predictor%packed(:, predictor%newest), before)
       failure%state = 1
-      failure%value = demand%value
+      failure%value = place
       failure%reached = here
       failure%is_singular = outcome%is_singular
       do k = 2, size(state%poses)

@@ -42,24 +42,28 @@ contains
    !> It never looks at the elastic force or at Φ(q) where the bodies are now; its bias is the paper's.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, carry)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: before, after     !! the demand at either end of the increment
+      type(demand_t), intent(in) :: before, after     !! the demand at either end, the same things in the same order
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(carry_t), intent(inout) :: carry
       real(wp) :: force(3), moment(3), arm(3), change
-      integer :: at
+      integer :: at, k
 
       call assemble(suspension, state, before, material_only, kkt)
       kkt%rhs(:kkt%nq) = carry%pull
       kkt%rhs(kkt%nq + 1:) = 0.0_wp
-      change = after%value - before%value
-      if (after%load > 0) then
-         at = 6*(suspension%loads(after%load)%body - 1)
-         call wrench(suspension%loads(after%load), state%poses(suspension%loads(after%load)%body + 1), force, moment, arm)
-         kkt%rhs(at + 1:at + 3) = kkt%rhs(at + 1:at + 3) + change*force
-         kkt%rhs(at + 4:at + 6) = kkt%rhs(at + 4:at + 6) + change*moment
-      end if
-      if (after%row > 0) kkt%rhs(kkt%nq + after%row) = change
+      do k = 1, after%loads
+         associate (load => suspension%loads(after%load(k)))
+            change = after%factor(k) - before%factor(k)
+            at = 6*(load%body - 1)
+            call wrench(load, state%poses(load%body + 1), force, moment, arm)
+            kkt%rhs(at + 1:at + 3) = kkt%rhs(at + 1:at + 3) + change*force
+            kkt%rhs(at + 4:at + 6) = kkt%rhs(at + 4:at + 6) + change*moment
+         end associate
+      end do
+      do k = 1, after%rows
+         kkt%rhs(kkt%nq + after%row(k)) = kkt%rhs(kkt%nq + after%row(k)) + (after%change(k) - before%change(k))
+      end do
       call factorise(kkt)
       if (kkt%is_singular) return
       call solve(kkt)

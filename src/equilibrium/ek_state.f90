@@ -6,7 +6,9 @@ module ek_state
    use ek_suspension, only: suspension_t, design_poses
    implicit none(type, external)
    private
-   public :: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+   public :: state_t, demand_t, most_driven, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+
+   integer, parameter :: most_driven = 16   !! things that one case may drive: six loads a wheel, two heights, two more
 
    !> Poses of bodies 0 … n (index 1 is the chassis, which never moves) and the reactions λ.
    type :: state_t
@@ -14,11 +16,14 @@ module ek_state
       real(wp), allocatable :: reaction(:)   !! λ, one a constraint row [N, or N m for a row without length]
    end type state_t
 
-   !> What the surroundings ask for: one scaled load, or one prescribed value, besides the constant loads.
+   !> What the surroundings ask for at one state: scaled loads and prescribed values, besides the constant
+   !> loads. Of fixed size, so that handing it on costs no memory.
    type :: demand_t
-      integer :: load = 0               !! number of the scaled load, 0 none
-      integer :: row = 0                !! number of the driven constraint row, 0 none
-      real(wp) :: value = 0.0_wp        !! factor of the load [-], or change of the row's value [m, rad]
+      integer :: loads = 0, rows = 0               !! how many of each
+      integer :: load(most_driven) = 0             !! numbers of the scaled loads
+      integer :: row(most_driven) = 0              !! numbers of the driven constraint rows
+      real(wp) :: factor(most_driven) = 0.0_wp     !! of each load [-]
+      real(wp) :: change(most_driven) = 0.0_wp     !! of each row's value [m, rad]
       real(wp) :: relief = 0.0_wp       !! share of the design imbalance taken away, 1 at design, 0 in truth
    end type demand_t
 

@@ -1,9 +1,10 @@
 !> How far the ends of a sweep are from equilibrium: what a linear method has lost on the way.
 module ek_drift
    use ek_kinds, only: wp
-   use ek_suspension, only: suspension_t, load_number, driver_row
+   use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
    use ek_newton, only: outcome_t, find_equilibrium
@@ -40,9 +41,7 @@ contains
       if (size(suspension%wheels) == 0) return
       state = design_state(suspension)
       call unpack_state(path%packed(:, k), state)
-      demand%load = load_number(suspension, case%load)
-      demand%row = driver_row(suspension, case%drive)
-      demand%value = path%value(k)
+      call demand_at(new_schedule(suspension, case), path%value(k), demand)
       before = wheel_attitude(suspension, state, 1)
       call find_equilibrium(suspension, demand, min(case%tolerance, default_tolerance), state, kkt, outcome)
       drift%is_known = outcome%is_converged

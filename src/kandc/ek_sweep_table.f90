@@ -9,9 +9,10 @@ module ek_sweep_table
    use ek_rotation, only: cross
    use ek_joint, only: joint_t
    use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
-   use ek_suspension, only: suspension_t, load_number, driver_row
+   use ek_suspension, only: suspension_t, driver_row
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
    use ek_attitude, only: attitude_t, attitude_of
@@ -39,6 +40,7 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(table_t), intent(out) :: table
       type(state_t) :: state
+      type(schedule_t) :: schedule
       type(demand_t) :: demand
       type(names_t) :: names
       real(wp) :: unit
@@ -48,12 +50,11 @@ contains
       call reached_rows(path, first, last)
       table = new_table(names%list(:names%used), last - first + 1)
       state = design_state(suspension)
-      demand%load = load_number(suspension, case%load)
-      demand%row = driver_row(suspension, case%drive)
+      schedule = new_schedule(suspension, case)
       unit = factor_unit(suspension, case)
       do k = first, last
          row = k - first + 1
-         demand%value = path%value(k)
+         call demand_at(schedule, path%value(k), demand)
          table%values(1, row) = k - 1
          table%values(2, row) = path%value(k)/unit
          table%values(names%used - 2, row) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
@@ -95,7 +96,8 @@ contains
       type(case_t), intent(in) :: case
       integer :: row
 
-      unit = 1.0_wp
+      unit = case%unit
+      if (allocated(case%courses)) return
       row = driver_row(suspension, case%drive)
       if (row == 0) return
       unit = measure_unit(suspension%terms(suspension%rows(row)%first)%measure%kind)

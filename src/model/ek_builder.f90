@@ -6,12 +6,11 @@ module ek_builder
    use ek_measure, only: measure_t, measure_value, distance, axis_axis, rotation, global_gap
    use ek_joint, only: joint_t, row_t, term_t, joint_geometry_t, joint_terms, max_terms
    use ek_elastic, only: spring_t, bushing_t, set_bushing_axes
-   use ek_case, only: case_t
    use ek_suspension, only: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, design_poses
    implicit none(type, external)
    private
    public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_bushing
-   public :: add_travel_driver, add_case_driver, add_load, add_wheel, add_readout, complete
+   public :: add_travel_driver, add_height_driver, add_load, add_wheel, add_readout, complete
 
 contains
 
@@ -94,23 +93,38 @@ contains
    pure subroutine add_travel_driver(self, wheel)
       type(suspension_t), intent(inout) :: self
       integer, intent(in) :: wheel
-      type(term_t) :: term
 
-      associate (w => self%wheels(wheel))
-         term%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=[0.0_wp, 0.0_wp, 1.0_wp], &
-            arm_i=self%bodies(w%body)%origin + w%centre, arm_j=w%centre)
-         call append_joint(self, 'wheel_travel', w%where, 'driver', [term], [1], .true.)
-         self%joints(size(self%joints))%arm_j = w%centre
-         self%joints(size(self%joints))%is_of_measures = .true.
-      end associate
+      call add_height_driver(self, 'wheel_travel', self%wheels(wheel)%where, [wheel], [1.0_wp], .false.)
    end subroutine add_travel_driver
 
-   !> What a case drives beyond the joints of the deck: the height of a wheel. On a completed model.
-   pure subroutine add_case_driver(self, case)
+   !> A driver of Σ sign × height against the body, of wheel centres or of contact patches; on a completed
+   !> model. Its value is the change from design [m]. It belongs to the rig, not to the suspension.
+   pure subroutine add_height_driver(self, name, where, wheels, signs, is_at_patch)
       type(suspension_t), intent(inout) :: self
-      type(case_t), intent(in) :: case
-      if (case%drive == 'wheel_travel') call add_travel_driver(self, case%wheel)
-   end subroutine add_case_driver
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: wheels(:)
+      real(wp), intent(in) :: signs(:)         !! one a wheel
+      logical, intent(in) :: is_at_patch
+      type(term_t) :: terms(size(wheels))
+      real(wp) :: arm(3)
+      integer :: k
+
+      do k = 1, size(wheels)
+         associate (w => self%wheels(wheels(k)))
+            arm = w%centre
+            if (is_at_patch) arm = w%contact
+            terms(k)%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=[0.0_wp, 0.0_wp, 1.0_wp], &
+               arm_i=self%bodies(w%body)%origin + arm, arm_j=arm)
+            terms(k)%coefficient = signs(k)
+         end associate
+      end do
+      call append_joint(self, name, where, 'driver', terms, [size(terms)], .true.)
+      associate (joint => self%joints(size(self%joints)))
+         joint%arm_j = terms(1)%measure%arm_j
+         joint%is_of_measures = .true.
+         joint%is_rig = .true.
+      end associate
+   end subroutine add_height_driver
 
    pure subroutine append_joint(self, name, where, kind, terms, terms_of_row, is_driver)
       type(suspension_t), intent(inout) :: self

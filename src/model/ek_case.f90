@@ -1,24 +1,50 @@
-!> A load case: one driving thing that goes from one value to another in increments.
+!> A load case: something is driven from one place to another in increments.
 module ek_case
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: case_t, method_names, default_tolerance, most_increments
+   public :: case_t, course_t, method_names, default_tolerance, most_increments
+   public :: follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    integer, parameter :: most_increments = 1000000   !! a state takes about 3 kB on its way to the file
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
 
-   !> Exactly one of `load` and `drive` is not empty.
+   integer, parameter :: follows_place = 1     !! share × place
+   integer, parameter :: follows_tangent = 2   !! share × tan(place): heights of an axle that rolls
+   integer, parameter :: follows_table = 3     !! the value in row `place` of a table
+
+   !> How one load or one driver follows the place on the path. One of `load` and `drive` is empty.
+   type :: course_t
+      character(:), allocatable :: load       !! name of the load that is scaled
+      character(:), allocatable :: drive      !! name of the driver joint
+      integer :: law = follows_place
+      real(wp) :: share = 1.0_wp
+      real(wp), allocatable :: values(:)      !! of follows_table, SI
+   end type course_t
+
+   !> What the deck says of a case, SI. Without a `test` either `load` or `drive` is not empty.
    type :: case_t
       character(:), allocatable :: name, where
       character(:), allocatable :: load     !! name of the load scaled by the case
       character(:), allocatable :: drive    !! 'wheel_travel', or the name of a driver joint
       integer :: wheel = 1                  !! whose travel is driven
-      real(wp) :: from = 0.0_wp, to = 0.0_wp   !! factor of the load [-], or change of the driven value [m, rad]
+      real(wp) :: from = 0.0_wp, to = 0.0_wp   !! places: factor of the load [-], or change of the driven value [m, rad]
       integer :: increments = 100
       character(:), allocatable :: method   !! one of method_names
       real(wp) :: tolerance = default_tolerance   !! last Newton correction of a state, at most [m]
+      ! a test of the rig, see ek_rig
+      character(:), allocatable :: test     !! its name; not allocated or empty: none
+      character(:), allocatable :: vertical !! what holds the wheels: 'centre', 'patch', 'force', or '' for the test's own
+      logical :: is_anti = .false.          !! the right wheel is loaded the other way
+      real(wp) :: offset = 0.0_wp           !! trail of a lateral force behind the patch [m]
+      character(:), allocatable :: file     !! of a table of loads
+      character(:), allocatable :: target   !! 'column=value', '' for none
+      logical :: has_all = .false.          !! the compliance matrix and all it gives, at every state
+      ! what the case drives, once it stands on the rig; not allocated: `load` or `drive` alone
+      type(course_t), allocatable :: courses(:)
+      real(wp) :: unit = 1.0_wp             !! SI value of a place's unit
+      character(:), allocatable :: unit_name, place_name   !! 'mm', 'wheel travel'
    end type case_t
 
 end module ek_case

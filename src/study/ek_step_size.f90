@@ -10,7 +10,8 @@ module ek_step_size
    use ek_text, only: quoted
    use ek_clock, only: seconds
    use ek_deck, only: deck_t
-   use ek_suspension, only: suspension_t, load_number, driver_row
+   use ek_suspension, only: suspension_t
+   use ek_schedule, only: new_schedule, demand_at
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, assemble, residual_only
@@ -122,9 +123,7 @@ contains
       state = design_state(suspension)
       call unpack_state(path%packed(:, path%states), state)
       attitude = wheel_attitude(suspension, state, 1)
-      demand%load = load_number(suspension, case%load)
-      demand%row = driver_row(suspension, case%drive)
-      demand%value = case%to
+      call demand_at(new_schedule(suspension, case), case%to, demand)
       call assemble(suspension, state, demand, residual_only, kkt)
       closure = norm2(kkt%values)
    end subroutine walk_once

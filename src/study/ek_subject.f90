@@ -5,7 +5,7 @@ module ek_subject
    use ek_deck, only: deck_t
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_case_driver
+   use ek_rig, only: mount
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -17,7 +17,7 @@ module ek_subject
 
 contains
 
-   !> Builds the model of a deck for one case ('' is the first), its travel driver included, and examines it.
+   !> Builds the model of a deck for one case ('' is the first), puts it on the rig, and examines it.
    subroutine make_subject(deck, case_name, suspension, case, kkt, error)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name
@@ -41,7 +41,8 @@ contains
       case = cases(k)
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
-      call add_case_driver(suspension, case)
+      call mount(suspension, case, error)
+      if (allocated(error)) return
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) call fail(error, exit_model, deck%file//': the model cannot be solved'// &

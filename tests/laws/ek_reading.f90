@@ -12,6 +12,7 @@ module ek_reading
    implicit none(type, external)
    private
    public :: phi, phi_gradient, attitude_t, attitude, state_of, joint_force, bushing_force, tension, closure
+   public :: load_demand, row_demand
 
    !> Where a left wheel is.
    type :: attitude_t
@@ -137,6 +138,24 @@ contains
             state%poses(s%measure%body_j + 1)), tension, slope)
       end associate
    end function tension
+
+   !> One load, scaled.
+   pure type(demand_t) function load_demand(load, factor) result(demand)
+      integer, intent(in) :: load
+      real(wp), intent(in) :: factor
+      demand%loads = 1
+      demand%load(1) = load
+      demand%factor(1) = factor
+   end function load_demand
+
+   !> One row, driven.
+   pure type(demand_t) function row_demand(row, change) result(demand)
+      integer, intent(in) :: row
+      real(wp), intent(in) :: change
+      demand%rows = 1
+      demand%row(1) = row
+      demand%change(1) = change
+   end function row_demand
 
    !> |Φ(q) − c| of (31) at a state under a demand [SI].
    real(wp) function closure(suspension, state, demand, kkt)

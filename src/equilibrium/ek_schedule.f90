@@ -1,0 +1,104 @@
+!> What a case asks for at every place of its path: which loads and which rows, and how far.
+!>
+!> A place is one number: the factor of a load, the travel of a wheel, the roll angle, or the row of a
+!> table. Everything a case drives follows it by a law of its own.
+module ek_schedule
+   use ek_kinds, only: wp
+   use ek_case, only: case_t, course_t, follows_tangent, follows_table
+   use ek_suspension, only: suspension_t, driver_row, load_number
+   use ek_state, only: demand_t, most_driven
+   implicit none(type, external)
+   private
+   public :: schedule_t, new_schedule, demand_at
+
+   !> The courses of a case with their names looked up.
+   type :: schedule_t
+      integer :: loads = 0, rows = 0
+      integer :: load(most_driven) = 0, row(most_driven) = 0     !! numbers in the suspension
+      type(course_t), allocatable :: load_course(:), row_course(:)
+   end type schedule_t
+
+contains
+
+   !> Looks up what a case drives. The suspension holds all its loads and rows already (see ek_rig).
+   function new_schedule(suspension, case) result(schedule)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(schedule_t) :: schedule
+      type(course_t) :: course
+      integer :: k
+
+      allocate (schedule%load_course(most_driven), schedule%row_course(most_driven))
+      if (allocated(case%courses)) then
+         do k = 1, size(case%courses)
+            call include(case%courses(k))
+         end do
+      else
+         course%load = case%load
+         course%drive = case%drive
+         call include(course)
+      end if
+
+   contains
+
+      subroutine include(this)
+         type(course_t), intent(in) :: this
+         integer :: number
+
+         number = load_number(suspension, this%load)
+         if (number > 0 .and. schedule%loads < most_driven) then
+            schedule%loads = schedule%loads + 1
+            schedule%load(schedule%loads) = number
+            schedule%load_course(schedule%loads) = this
+         end if
+         number = driver_row(suspension, this%drive)
+         if (number > 0 .and. schedule%rows < most_driven) then
+            schedule%rows = schedule%rows + 1
+            schedule%row(schedule%rows) = number
+            schedule%row_course(schedule%rows) = this
+         end if
+      end subroutine include
+
+   end function new_schedule
+
+   !> The demand at a place.
+   pure subroutine demand_at(schedule, place, demand)
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: place
+      type(demand_t), intent(out) :: demand
+      integer :: k
+
+      demand%loads = schedule%loads
+      demand%load = schedule%load
+      do k = 1, schedule%loads
+         demand%factor(k) = value_at(schedule%load_course(k), place)
+      end do
+      demand%rows = schedule%rows
+      demand%row = schedule%row
+      do k = 1, schedule%rows
+         demand%change(k) = value_at(schedule%row_course(k), place)
+      end do
+   end subroutine demand_at
+
+   !> share × place, share × tan(place), or the table's value there: linear between its rows, and from 0 at
+   !> place 0 to the first row at place 1.
+   pure real(wp) function value_at(course, place) result(value)
+      type(course_t), intent(in) :: course
+      real(wp), intent(in) :: place
+      real(wp) :: before
+      integer :: k
+
+      select case (course%law)
+      case (follows_tangent)
+         value = course%share*tan(place)
+      case (follows_table)
+         k = min(max(int(place), 0), size(course%values) - 1)
+         before = 0.0_wp
+         if (k > 0) before = course%values(k)
+         value = before + (place - k)*(course%values(k + 1) - before)
+      case default
+         value = course%share*place
+      end select
+   end function value_at
+
+end module ek_schedule

@@ -1,0 +1,265 @@
+!> The test rig: what a case of the deck does to the wheels.
+!>
+!> `mount` puts a suspension on the rig for one case: it adds the loads and the drivers of the test, and
+!> tells by courses how each follows the place on the path.
+!>
+!> | test            | place           | left, right wheel                      | wheels held by   |
+!> |-----------------|-----------------|----------------------------------------|------------------|
+!> | parallel_travel | travel          | both up                                | height, driven   |
+!> | opposite_travel | travel          | left up, right down                    | height, driven   |
+!> | single_travel   | travel          | one up, the other stays                | height, driven   |
+!> | roll            | axle roll       | height(left) − height(right) = t tan φ | difference only: |
+!> |                 |                 |                                        | axle load stays  |
+!> | steering        | rack travel     | heights stay                           | height           |
+!> | lateral_force   | force           | +y at the patch, moment force × trail  | vertical force   |
+!> | braking         | force           | rearward at the patch                  | vertical force   |
+!> | traction        | force           | forward at the wheel centre            | vertical force   |
+!> | aligning_torque | moment          | about z, counterclockwise from above   | vertical force   |
+!> | vertical_force  | force           | upward at the patch                    | vertical force   |
+!> | table           | row of the file | its columns                            | vertical force   |
+!>
+!> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); held by vertical
+!> force it is free, and keeps the load it has. In anti phase the right wheel gets the opposite. The wheel
+!> is fixed to its carrier, which is a locked brake; a force at the wheel centre is what a free wheel
+!> passes on. Where the drive torque ends in a solid axle, traction acts at the patch.
+module ek_rig
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: quoted
+   use ek_units, only: degree, millimetre
+   use ek_measure, only: rotation, axis_axis
+   use ek_suspension, only: suspension_t, load_t, driver_row
+   use ek_builder, only: add_travel_driver, add_height_driver, add_load
+   use ek_case, only: case_t, course_t, follows_place, follows_tangent
+   use ek_load_table, only: mount_table
+   implicit none(type, external)
+   private
+   public :: mount, left_and_right
+
+contains
+
+   !> Puts a completed suspension on the rig for a case. Cases without a test drive what they name.
+   subroutine mount(suspension, case, error)
+      type(suspension_t), intent(inout) :: suspension
+      type(case_t), intent(inout) :: case
+      type(error_t), allocatable, intent(out) :: error      !! exit_deck: the test does not fit the model; exit_file
+      integer :: wheels(2), row
+      real(wp) :: track
+
+      if (.not. allocated(case%test)) case%test = ''
+      if (len(case%test) == 0) then
+         if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+         call name_place()
+         return
+      end if
+      call left_and_right(suspension, wheels)
+      if (allocated(case%courses)) deallocate (case%courses)
+      allocate (case%courses(0))
+      case%unit = 1.0_wp
+      case%unit_name = 'N'
+
+      select case (case%test)
+      case ('parallel_travel')
+         call drive_heights([1.0_wp, 1.0_wp], 'wheel travel')
+      case ('opposite_travel')
+         call drive_heights([1.0_wp, -1.0_wp], 'travel of the left wheel, right opposite')
+      case ('single_travel')
+         row = merge(1, 2, case%wheel == wheels(1))
+         call drive_heights(merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], row == 1), 'travel of the '// &
+            trim(merge('left ', 'right', row == 1))//' wheel')
+      case ('roll')
+         track = abs(suspension%bodies(suspension%wheels(wheels(2))%body)%origin(2) + suspension%wheels(wheels(2))%contact(2) &
+            - suspension%bodies(suspension%wheels(wheels(1))%body)%origin(2) - suspension%wheels(wheels(1))%contact(2))
+         call add_height_driver(suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
+         call add_course('', 'rig_roll', track, follows_tangent)
+         case%unit = degree
+         case%unit_name = 'deg'
+         case%place_name = 'axle roll, left wheel up'
+      case ('steering')
+         call hold_heights('centre')
+         call add_course('', case%drive, 1.0_wp, follows_place)
+         row = driver_row(suspension, case%drive)
+         case%place_name = 'travel of '//case%drive
+         call take_unit_of(row)
+      case ('lateral_force')
+         call hold_heights('force')
+         call load_wheels([0.0_wp, 1.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, case%offset], .true.)
+         case%place_name = 'lateral force at each patch'
+      case ('braking')
+         call hold_heights('force')
+         call load_wheels([1.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .true.)
+         case%place_name = 'braking force at each patch'
+      case ('traction')
+         call hold_heights('force')
+         call load_wheels([-1.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .false.)
+         case%place_name = 'traction force at each wheel centre'
+      case ('aligning_torque')
+         call hold_heights('force')
+         call load_wheels([0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 1.0_wp], .true.)
+         case%place_name = 'aligning torque on each wheel'
+         case%unit_name = 'N m'
+      case ('vertical_force')
+         call load_wheels([0.0_wp, 0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .true.)
+         case%place_name = 'change of vertical force at each patch'
+      case ('table')
+         call hold_heights('force')
+         case%place_name = 'row of '//case%file
+         case%unit_name = '-'
+         call mount_table(suspension, case, wheels, error)
+      end select
+
+   contains
+
+      !> What holds the wheels: the deck's word, or the test's own.
+      function control(default) result(word)
+         character(*), intent(in) :: default
+         character(:), allocatable :: word
+         word = default
+         if (allocated(case%vertical)) then
+            if (len(case%vertical) > 0) word = case%vertical
+         end if
+      end function control
+
+      !> Heights that follow the place, or vertical forces that do.
+      subroutine drive_heights(shares, place_name)
+         real(wp), intent(in) :: shares(2)        !! left, right; of a single wheel the first or second alone
+         character(*), intent(in) :: place_name
+         integer :: side
+
+         case%place_name = place_name
+         if (control('centre') == 'force') then
+            case%place_name = 'change of vertical force, in place of '//place_name
+            do side = 1, 2
+               if (wheels(side) == 0) cycle
+               call add_wheel_load(side, [0.0_wp, 0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .true., shares(side))
+            end do
+            return
+         end if
+         case%unit = millimetre
+         case%unit_name = 'mm'
+         call hold_heights('centre')
+         do side = 1, 2
+            if (wheels(side) > 0) call add_course('', height_name(side), shares(side), follows_place)
+         end do
+      end subroutine drive_heights
+
+      !> A driver on the height of each wheel's centre or patch, unless vertical force holds them.
+      subroutine hold_heights(default)
+         character(*), intent(in) :: default
+         integer :: side
+
+         if (control(default) == 'force') return
+         do side = 1, 2
+            if (wheels(side) > 0) call add_height_driver(suspension, height_name(side), case%where, wheels(side:side), &
+               [1.0_wp], control(default) == 'patch')
+         end do
+      end subroutine hold_heights
+
+      !> A unit load on each wheel, which the case scales.
+      subroutine load_wheels(force, moment, is_at_patch)
+         real(wp), intent(in) :: force(3), moment(3)
+         logical, intent(in) :: is_at_patch
+         integer :: side
+
+         do side = 1, 2
+            if (wheels(side) > 0) call add_wheel_load(side, force, moment, is_at_patch, &
+               merge(-1.0_wp, 1.0_wp, case%is_anti .and. side == 2))
+         end do
+      end subroutine load_wheels
+
+      subroutine add_wheel_load(side, force, moment, is_at_patch, share)
+         integer, intent(in) :: side
+         real(wp), intent(in) :: force(3), moment(3), share
+         logical, intent(in) :: is_at_patch
+         type(load_t) :: load
+
+         associate (wheel => suspension%wheels(wheels(side)))
+            load%name = 'rig_'//trim(side_name(side))
+            load%where = case%where
+            load%body = wheel%body
+            load%arm = wheel%centre
+            if (is_at_patch) load%arm = wheel%contact
+         end associate
+         load%force = force
+         load%moment = moment
+         load%is_case = .true.
+         call add_load(suspension, load)
+         call add_course(load%name, '', share, follows_place)
+      end subroutine add_wheel_load
+
+      subroutine add_course(load, drive, share, law)
+         character(*), intent(in) :: load, drive
+         real(wp), intent(in) :: share
+         integer, intent(in) :: law
+         type(course_t), allocatable :: more(:)
+         integer :: n
+
+         n = size(case%courses)
+         allocate (more(n + 1))
+         more(:n) = case%courses
+         more(n + 1)%load = load
+         more(n + 1)%drive = drive
+         more(n + 1)%share = share
+         more(n + 1)%law = law
+         call move_alloc(more, case%courses)
+      end subroutine add_course
+
+      !> Unit and name of the place of a case without a test.
+      subroutine name_place()
+         case%unit = 1.0_wp
+         case%unit_name = '-'
+         if (allocated(case%courses)) then
+            case%place_name = 'factor of the loads'
+         else if (len(case%load) > 0) then
+            case%place_name = 'factor of load '//case%load
+         else
+            case%place_name = 'change of '//case%drive
+            call take_unit_of(driver_row(suspension, case%drive))
+         end if
+      end subroutine name_place
+
+      !> The unit of what a row measures.
+      subroutine take_unit_of(row)
+         integer, intent(in) :: row
+
+         case%unit = millimetre
+         case%unit_name = 'mm'
+         if (row == 0) return
+         select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
+         case (rotation)
+            case%unit = degree
+            case%unit_name = 'deg'
+         case (axis_axis)
+            case%unit = 1.0_wp
+            case%unit_name = '-'
+         end select
+      end subroutine take_unit_of
+
+   end subroutine mount
+
+   !> 'left' or 'right'
+   pure function side_name(side) result(name)
+      integer, intent(in) :: side      !! 1 left, 2 right
+      character(5) :: name
+      name = merge('left ', 'right', side == 1)
+   end function side_name
+
+   pure function height_name(side) result(name)
+      integer, intent(in) :: side
+      character(:), allocatable :: name
+      name = 'rig_'//trim(side_name(side))//'_height'
+   end function height_name
+
+   !> The numbers of the left and the right wheel, 0 where there is none.
+   pure subroutine left_and_right(suspension, wheels)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(out) :: wheels(2)
+      integer :: k
+
+      wheels = 0
+      do k = size(suspension%wheels), 1, -1
+         wheels(merge(1, 2, suspension%wheels(k)%side < 0)) = k
+      end do
+   end subroutine left_and_right
+
+end module ek_rig
