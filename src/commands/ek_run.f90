@@ -16,6 +16,7 @@ module ek_run
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_sweep_table, only: sweep_table
+   use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: write_csv, csv_text
    use ek_figure, only: figure_t
@@ -134,8 +135,37 @@ contains
          write (output_unit, '(a)') name
          if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, trouble)
       end if
+      if (.not. allocated(trouble) .and. len(case%target) > 0) &
+         call aim(arguments, suspension, case, path, table, checksum, folder, kkt, trouble)
       if (allocated(trouble)) call move_alloc(trouble, error)
    end subroutine run_case
+
+   !> The place where the target of a case is met: told, and its state written to a file of its own.
+   subroutine aim(arguments, suspension, case, path, table, checksum, folder, kkt, error)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: checksum, folder
+      type(kkt_t), intent(inout) :: kkt
+      type(error_t), allocatable, intent(out) :: error
+      type(target_t) :: found
+      character(:), allocatable :: name, words
+
+      call find_target(suspension, case, path, table, kkt, found, error)
+      if (allocated(error)) return
+      call add_header(found%table, suspension, case, checksum)
+      call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
+      name = join_path(folder, suspension%name//'_'//case%name//'_target.csv')
+      call write_csv(found%table, name, error)
+      if (allocated(error)) return
+      write (output_unit, '(a)') name
+      words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
+         str(found%place/case%unit, 9)//' '//case%unit_name
+      if (found%crossings > 1) words = words//' (the nearest to design of '//str(found%crossings)//')'
+      call say(arguments%quiet, words)
+   end subroutine aim
 
    !> Figures of a case.
    subroutine draw(arguments, suspension, case, table, folder, csv, error)

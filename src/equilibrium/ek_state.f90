@@ -8,7 +8,7 @@ module ek_state
    private
    public :: state_t, demand_t, most_driven, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
 
-   integer, parameter :: most_driven = 16   !! things that one case may drive: six loads a wheel, two heights, two more
+   integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads a wheel and some more
 
    !> Poses of bodies 0 … n (index 1 is the chassis, which never moves) and the reactions λ.
    type :: state_t

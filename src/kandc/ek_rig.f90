@@ -24,17 +24,17 @@
 !> passes on. Where the drive torque ends in a solid axle, traction acts at the patch.
 module ek_rig
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: quoted
+   use ek_error, only: error_t
    use ek_units, only: degree, millimetre
+   use ek_wheel_side, only: side_name, height_name, left_and_right
    use ek_measure, only: rotation, axis_axis
    use ek_suspension, only: suspension_t, load_t, driver_row
    use ek_builder, only: add_travel_driver, add_height_driver, add_load
-   use ek_case, only: case_t, course_t, follows_place, follows_tangent
+   use ek_case, only: case_t, append_course, follows_place, follows_tangent
    use ek_load_table, only: mount_table
    implicit none(type, external)
    private
-   public :: mount, left_and_right
+   public :: mount
 
 contains
 
@@ -71,13 +71,13 @@ contains
          track = abs(suspension%bodies(suspension%wheels(wheels(2))%body)%origin(2) + suspension%wheels(wheels(2))%contact(2) &
             - suspension%bodies(suspension%wheels(wheels(1))%body)%origin(2) - suspension%wheels(wheels(1))%contact(2))
          call add_height_driver(suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
-         call add_course('', 'rig_roll', track, follows_tangent)
+         call append_course(case%courses, '', 'rig_roll', track, follows_tangent)
          case%unit = degree
          case%unit_name = 'deg'
          case%place_name = 'axle roll, left wheel up'
       case ('steering')
          call hold_heights('centre')
-         call add_course('', case%drive, 1.0_wp, follows_place)
+         call append_course(case%courses, '', case%drive, 1.0_wp, follows_place)
          row = driver_row(suspension, case%drive)
          case%place_name = 'travel of '//case%drive
          call take_unit_of(row)
@@ -139,7 +139,7 @@ contains
          case%unit_name = 'mm'
          call hold_heights('centre')
          do side = 1, 2
-            if (wheels(side) > 0) call add_course('', height_name(side), shares(side), follows_place)
+            if (wheels(side) > 0) call append_course(case%courses, '', height_name(side), shares(side), follows_place)
          end do
       end subroutine drive_heights
 
@@ -184,25 +184,8 @@ contains
          load%moment = moment
          load%is_case = .true.
          call add_load(suspension, load)
-         call add_course(load%name, '', share, follows_place)
+         call append_course(case%courses, load%name, '', share, follows_place)
       end subroutine add_wheel_load
-
-      subroutine add_course(load, drive, share, law)
-         character(*), intent(in) :: load, drive
-         real(wp), intent(in) :: share
-         integer, intent(in) :: law
-         type(course_t), allocatable :: more(:)
-         integer :: n
-
-         n = size(case%courses)
-         allocate (more(n + 1))
-         more(:n) = case%courses
-         more(n + 1)%load = load
-         more(n + 1)%drive = drive
-         more(n + 1)%share = share
-         more(n + 1)%law = law
-         call move_alloc(more, case%courses)
-      end subroutine add_course
 
       !> Unit and name of the place of a case without a test.
       subroutine name_place()
@@ -236,30 +219,5 @@ contains
       end subroutine take_unit_of
 
    end subroutine mount
-
-   !> 'left' or 'right'
-   pure function side_name(side) result(name)
-      integer, intent(in) :: side      !! 1 left, 2 right
-      character(5) :: name
-      name = merge('left ', 'right', side == 1)
-   end function side_name
-
-   pure function height_name(side) result(name)
-      integer, intent(in) :: side
-      character(:), allocatable :: name
-      name = 'rig_'//trim(side_name(side))//'_height'
-   end function height_name
-
-   !> The numbers of the left and the right wheel, 0 where there is none.
-   pure subroutine left_and_right(suspension, wheels)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(out) :: wheels(2)
-      integer :: k
-
-      wheels = 0
-      do k = size(suspension%wheels), 1, -1
-         wheels(merge(1, 2, suspension%wheels(k)%side < 0)) = k
-      end do
-   end subroutine left_and_right
 
 end module ek_rig

@@ -15,6 +15,7 @@ module ek_sweep_table
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
+   use ek_wheel_side, only: prefix_of
    use ek_attitude, only: attitude_t, attitude_of
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
@@ -142,8 +143,7 @@ contains
       call add('state')
       call add('factor')
       do k = 1, size(suspension%wheels)
-         prefix = ''
-         if (size(suspension%wheels) > 1) prefix = suspension%wheels(k)%name//'_'
+         prefix = prefix_of(suspension, k)
          call add(prefix//'wheel_travel_mm')
          call add(prefix//'toe_deg')
          call add(prefix//'camber_deg')

@@ -3,7 +3,7 @@ module ek_case
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: case_t, course_t, method_names, default_tolerance, most_increments
+   public :: case_t, course_t, append_course, method_names, default_tolerance, most_increments
    public :: follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
@@ -46,5 +46,29 @@ module ek_case
       real(wp) :: unit = 1.0_wp             !! SI value of a place's unit
       character(:), allocatable :: unit_name, place_name   !! 'mm', 'wheel travel'
    end type case_t
+
+contains
+
+   !> One more thing that a case drives: a load, or a driver joint; the other name is empty.
+   pure subroutine append_course(courses, load, drive, share, law, values)
+      type(course_t), allocatable, intent(inout) :: courses(:)
+      character(*), intent(in) :: load, drive
+      real(wp), intent(in) :: share
+      integer, intent(in) :: law
+      real(wp), intent(in), optional :: values(:)      !! of follows_table, SI
+      type(course_t), allocatable :: more(:)
+      integer :: n
+
+      n = 0
+      if (allocated(courses)) n = size(courses)
+      allocate (more(n + 1))
+      if (n > 0) more(:n) = courses
+      more(n + 1)%load = load
+      more(n + 1)%drive = drive
+      more(n + 1)%share = share
+      more(n + 1)%law = law
+      if (present(values)) more(n + 1)%values = values
+      call move_alloc(more, courses)
+   end subroutine append_course
 
 end module ek_case

@@ -1,0 +1,52 @@
+!> The two sides of an axle: which wheel is left, which right, and what their things are called.
+module ek_wheel_side
+   use ek_suspension, only: suspension_t
+   implicit none(type, external)
+   private
+   public :: side_name, height_name, left_and_right, prefix_of
+
+contains
+
+   !> 'left' or 'right'
+   pure function side_name(side) result(name)
+      integer, intent(in) :: side      !! 1 left, 2 right
+      character(5) :: name
+      name = merge('left ', 'right', side == 1)
+   end function side_name
+
+   pure function height_name(side) result(name)
+      integer, intent(in) :: side
+      character(:), allocatable :: name
+      name = 'rig_'//trim(side_name(side))//'_height'
+   end function height_name
+
+   !> The numbers of the left and the right wheel, 0 where there is none.
+   pure subroutine left_and_right(suspension, wheels)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(out) :: wheels(2)
+      integer :: k
+
+      wheels = 0
+      do k = size(suspension%wheels), 1, -1
+         wheels(merge(1, 2, suspension%wheels(k)%side < 0)) = k
+      end do
+   end subroutine left_and_right
+
+   !> What the columns of a wheel begin with: 'left_' or 'right_' where there are two, nothing for one.
+   pure function prefix_of(suspension, wheel) result(prefix)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: wheel
+      character(:), allocatable :: prefix
+      integer :: wheels(2)
+
+      prefix = ''
+      if (size(suspension%wheels) < 2) return
+      call left_and_right(suspension, wheels)
+      if (size(suspension%wheels) == 2 .and. all(wheels > 0)) then
+         prefix = trim(side_name(merge(1, 2, wheel == wheels(1))))//'_'
+      else
+         prefix = suspension%wheels(wheel)%name//'_'
+      end if
+   end function prefix_of
+
+end module ek_wheel_side
