@@ -49,6 +49,8 @@ contains
          factor = 1.0_wp
          cases(used)%wheel = 1
          cases(used)%test = ''
+         cases(used)%vertical = ''
+         cases(used)%file = ''
          cases(used)%drive = ''
          if (has_key(deck, k, 'test')) then
             call read_test(deck, k, draft, words, cases(used), factor)

@@ -1,0 +1,135 @@
+!> The tests that every axle is put through: what a K&C rig does in an afternoon.
+module ek_standard_tests
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   use ek_case, only: case_t
+   use ek_suspension, only: suspension_t
+   use ek_wheel_side, only: left_and_right
+   implicit none(type, external)
+   private
+   public :: standard_tests, test_title
+
+   real(wp), parameter :: trail = 30.0_wp*millimetre   !! of a lateral force, KC_DEFINITIONS' second value
+
+contains
+
+   !> The standard tests of an axle, or of a single wheel as far as it has them.
+   !>
+   !> A test that the deck holds itself (same test, phase and offset, along the same vertical control) is taken from
+   !> there, with its range; other cases of the deck follow behind. `steering` is the driver joint of the rack, '' for none.
+   subroutine standard_tests(suspension, own, steering, rack_travel, tests)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: own(:)             !! cases of the deck
+      character(*), intent(in) :: steering
+      real(wp), intent(in) :: rack_travel            !! each way [m, rad]
+      type(case_t), allocatable, intent(out) :: tests(:)
+      logical :: is_taken(size(own)), is_axle
+      integer :: wheels(2), k
+
+      call left_and_right(suspension, wheels)
+      is_axle = all(wheels > 0)
+      is_taken = .false.
+      allocate (tests(0))
+      call include('parallel_travel', .false., 0.0_wp, 80.0_wp*millimetre, 80)
+      if (is_axle) call include('opposite_travel', .false., 0.0_wp, 60.0_wp*millimetre, 60)
+      if (is_axle) call include('roll', .false., 0.0_wp, 3.0_wp*degree, 60)
+      if (len(steering) > 0) call include('steering', .false., 0.0_wp, rack_travel, 60)
+      call include_both('lateral_force', 0.0_wp, 2000.0_wp)
+      call include_both('lateral_force', trail, 2000.0_wp)
+      call include_both('aligning_torque', 0.0_wp, 100.0_wp)
+      call include('braking', .false., 0.0_wp, 2000.0_wp, 40)
+      call include('traction', .false., 0.0_wp, 2000.0_wp, 40)
+      do k = 1, size(own)
+         if (.not. is_taken(k)) call append(own(k))
+      end do
+
+   contains
+
+      subroutine include_both(test, offset, reach)
+         character(*), intent(in) :: test
+         real(wp), intent(in) :: offset, reach
+         call include(test, .false., offset, reach, 40)
+         if (is_axle) call include(test, .true., offset, reach, 40)
+      end subroutine include_both
+
+      subroutine include(test, is_anti, offset, reach, increments)
+         character(*), intent(in) :: test
+         logical, intent(in) :: is_anti
+         real(wp), intent(in) :: offset, reach       !! m; from −reach to +reach
+         integer, intent(in) :: increments
+         type(case_t) :: this
+         integer :: k
+
+         do k = 1, size(own)
+            if (own(k)%test /= test .or. (own(k)%is_anti .neqv. is_anti)) cycle
+            if (abs(own(k)%offset - offset) > 1.0e-6_wp .or. own(k)%vertical /= '') cycle
+            is_taken(k) = .true.
+            call append(own(k))
+            return
+         end do
+         this%name = test
+         if (is_anti) this%name = this%name//'_anti'
+         if (abs(offset) > 0.0_wp) this%name = this%name//'_trail'
+         this%where = 'the standard tests'
+         this%load = ''
+         this%drive = ''
+         if (test == 'steering') this%drive = steering
+         this%from = -reach
+         this%to = reach
+         this%increments = increments
+         this%method = 'equilibrium'
+         this%test = test
+         this%vertical = ''
+         this%is_anti = is_anti
+         this%offset = offset
+         this%file = ''
+         this%target = ''
+         this%has_all = .true.
+         call append(this)
+      end subroutine include
+
+      subroutine append(this)
+         type(case_t), intent(in) :: this
+         type(case_t), allocatable :: more(:)
+         integer :: n
+
+         n = size(tests)
+         allocate (more(n + 1))
+         more(:n) = tests
+         more(n + 1) = this
+         call move_alloc(more, tests)
+      end subroutine append
+
+   end subroutine standard_tests
+
+   !> A heading for a case: 'Lateral force, anti phase, 30 mm behind the patch'.
+   pure function test_title(this) result(title)
+      type(case_t), intent(in) :: this
+      character(:), allocatable :: title
+      character(8) :: number
+      integer :: k
+
+      title = this%name
+      if (len(this%test) == 0) return
+      title = this%test
+      title(1:1) = achar(iachar(title(1:1)) - 32)
+      do k = 1, len(title)
+         if (title(k:k) == '_') title(k:k) = ' '
+      end do
+      if (any(this%test == [character(15) :: 'lateral_force', 'aligning_torque', 'braking', 'traction'])) then
+         if (this%is_anti) then
+            title = title//', anti phase'
+         else
+            title = title//', in phase'
+         end if
+      end if
+      if (abs(this%offset) > 0.0_wp) then
+         write (number, '(i0)') nint(this%offset/millimetre)
+         title = title//', '//trim(number)//' mm behind the patch'
+      end if
+      if (this%vertical == 'patch') title = title//', patch heights held'
+      if (this%vertical == 'centre') title = title//', wheel centres held'
+      if (this%vertical == 'force') title = title//', by vertical force'
+   end function test_title
+
+end module ek_standard_tests
