@@ -3,18 +3,28 @@
 !> A mistake in the writing (a group without its end, a key given twice) does not stop the
 !> reading: it is kept here, and `build_model` reports it together with every other mistake.
 !> So `error` is set here only when the file cannot be read (exit_file) or is empty (exit_deck).
+!>
+!> The order of things: text, included files, settings of records that the deck has, &mirror, settings of
+!> records that only &mirror makes.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_deck, exit_usage
    use ek_file, only: read_whole
    use ek_text, only: str, lower
-   use ek_record, only: record_t, entry_t, complaints_t, element, is_given, add_value, add_entry
+   use ek_record, only: record_t, place_t, entry_t, complaints_t, element, is_given, add_value, add_entry
    use ek_scanner, only: scan_text
+   use ek_include, only: read_text
+   use ek_mirror, only: has_mirror, mirror_records
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
-   public :: deck_t, read_deck, parse_deck, set_value, split_setting, deck_checksum
+   public :: deck_t, read_deck, parse_deck, set_value, finish_deck, split_setting, deck_checksum
+
+   !> `path=text` for a record that &mirror makes.
+   type :: setting_t
+      character(:), allocatable :: path, text
+   end type setting_t
 
    !> The parsed deck.
    type :: deck_t
@@ -22,35 +32,48 @@ module ek_deck
       type(record_t), allocatable :: records(:)  !! the first `used`, in the order of the text
       integer :: used = 0
       type(complaints_t) :: complaints           !! mistakes of writing
+      type(setting_t), allocatable :: late(:)    !! to be set when the deck has been mirrored
+      logical :: is_mirrored = .false.
+   contains
+      procedure :: is_finished                   !! nothing is left for finish_deck to do
    end type deck_t
 
 contains
 
    !> Reads a file; '-' is standard input.
-   subroutine read_deck(path, deck, error)
+   subroutine read_deck(path, deck, error, is_study)
       character(*), intent(in) :: path
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
+      logical, intent(in), optional :: is_study     !! a study's file, which includes no other; .false.
       character(:), allocatable :: text
 
       if (path == '-') then
          call read_standard_input(text)
-         call parse_deck(text, 'standard input', deck, error)
+         call parse_deck(text, 'standard input', deck, error, is_study)
       else
          call read_whole(path, text, error)
          if (allocated(error)) return
-         call parse_deck(text, path, deck, error)
+         call parse_deck(text, path, deck, error, is_study)
       end if
    end subroutine read_deck
 
-   !> Takes a deck from a text; `name` stands for the file in messages.
-   subroutine parse_deck(text, name, deck, error)
+   !> Takes a deck from a text; `name` stands for the file in messages, and its folder for that of included files.
+   subroutine parse_deck(text, name, deck, error, is_study)
       character(*), intent(in) :: text, name
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
+      logical, intent(in), optional :: is_study     !! .false.
+      logical :: includes
 
       deck%file = trim(name)
-      call scan_text(text, deck%file, deck%records, deck%used, deck%complaints)
+      includes = .true.
+      if (present(is_study)) includes = .not. is_study
+      if (includes) then
+         call read_text(text, deck%file, deck%records, deck%used, deck%complaints)
+      else
+         call scan_text(text, deck%file, deck%records, deck%used, deck%complaints)
+      end if
       call name_tests(deck)
       if (deck%used == 0 .and. deck%complaints%count() == 0) &
          call fail(error, exit_deck, deck%file//': the deck is empty')
@@ -79,22 +102,98 @@ contains
    !> Sets one value, as `--set path=value` does: `point.lower_ball_joint.z`, `bushing.top_mount.kt(1)`,
    !> `spring.coil.rate`, `model.length`. A key that the record lacks is added. Ranges are checked
    !> by `build_model`, whose messages then name this setting as their place.
+   !>
+   !> Where the deck is mirrored, a record of its own is changed before it is doubled, so on both sides;
+   !> `point.left_lower_ball_joint.z` changes one side.
    subroutine set_value(deck, path, text, error)
       type(deck_t), intent(inout) :: deck
       character(*), intent(in) :: path    !! group.name.key or model.key
       character(*), intent(in) :: text    !! the value as in a deck; quotes around words may be left out
       type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: message
+      character(:), allocatable :: message, late_message
+      type(deck_t) :: whole
+      logical :: is_found
 
-      call apply_setting(deck%records, deck%used, path, text, message)
+      call apply_setting(deck%records, deck%used, path, text, message, is_found)
       if (message == '') return
+      if (.not. is_found .and. .not. deck%is_finished()) then
+         call finish_deck(deck, whole)
+         call apply_setting(whole%records, whole%used, path, text, late_message, is_found)
+         if (late_message == '') then
+            call add_late(deck%late, path, text)
+            return
+         end if
+         ! the name that was meant may be of either kind
+         if (is_found .or. index(message, 'did you mean') == 0) message = late_message
+      end if
       if (deck%complaints%count() > 0) message = deck%complaints%text()//new_line('a')//message
       call fail(error, exit_usage, message)
    end subroutine set_value
 
+   !> Appends a setting to those that wait.
+   subroutine add_late(late, path, text)
+      type(setting_t), allocatable, intent(inout) :: late(:)
+      character(*), intent(in) :: path, text
+      type(setting_t), allocatable :: grown(:)
+      integer :: k, used
+
+      used = 0
+      if (allocated(late)) used = size(late)
+      allocate (grown(used + 1))
+      do k = 1, used
+         call move_alloc(late(k)%path, grown(k)%path)
+         call move_alloc(late(k)%text, grown(k)%text)
+      end do
+      grown(used + 1)%path = path
+      grown(used + 1)%text = text
+      call move_alloc(grown, late)
+   end subroutine add_late
+
+   !> Whether the records are those that the model is built from.
+   pure logical function is_finished(self)
+      class(deck_t), intent(in) :: self
+      is_finished = self%is_mirrored .or. .not. has_mirror(self%records, self%used)
+   end function is_finished
+
+   !> The deck with both sides written out, and the settings of either side made. Mistakes join its complaints.
+   subroutine finish_deck(deck, whole)
+      type(deck_t), intent(in) :: deck
+      type(deck_t), intent(out) :: whole
+      character(:), allocatable :: message
+      type(place_t) :: place
+      logical :: is_found
+      integer :: k
+
+      whole%file = deck%file
+      whole%complaints = deck%complaints
+      whole%is_mirrored = .true.
+      call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%complaints)
+      if (.not. allocated(deck%late)) return
+      do k = 1, size(deck%late)
+         call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)
+         if (message == '') cycle      ! a later setting has done away with the record that it names
+         place%words = '--set '//trim(deck%late(k)%path)//'='//trim(deck%late(k)%text)
+         place%source = huge(place%source)
+         call whole%complaints%add(place, message(len(place%words) + 3:))
+      end do
+   end subroutine finish_deck
+
    !> 16 hexadecimal digits (FNV-1a, 64 bits) of everything that can change a result: comments,
-   !> notes, titles and layout do not count, settings do.
+   !> notes, titles, layout and the file that a group stands in do not count; settings do.
    function deck_checksum(deck) result(digits)
+      type(deck_t), intent(in) :: deck
+      character(16) :: digits
+      type(deck_t) :: whole
+
+      if (deck%is_finished()) then
+         digits = checksum_of(deck)
+      else
+         call finish_deck(deck, whole)
+         digits = checksum_of(whole)
+      end if
+   end function deck_checksum
+
+   function checksum_of(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
       integer(i8) :: high, low
@@ -103,6 +202,7 @@ contains
       high = int(z'cbf29ce4', i8)
       low = int(z'84222325', i8)
       do k = 1, deck%used
+         if (deck%records(k)%group == 'include') cycle
          call include('&'//deck%records(k)%group)
          do e = 1, deck%records(k)%used
             associate (entry => deck%records(k)%entries(e))
@@ -133,7 +233,7 @@ contains
          end do
       end subroutine include
 
-   end function deck_checksum
+   end function checksum_of
 
    !> All of standard input, line by line: it may be a pipe, without a size.
    subroutine read_standard_input(text)

@@ -8,12 +8,12 @@ module ek_draft
    use ek_text, only: str, lower, quoted
    use ek_units, only: units_t
    use ek_rotation, only: unit_vector
-   use ek_record, only: complaints_t, entry_index, is_given, place_of
+   use ek_record, only: complaints_t, place_t, entry_index, is_given, place_of, line_words, own_name, single, left_twin
    use ek_group, only: group_names, record_head, did_you_mean, point_group, body_group, word_length
    use ek_deck, only: deck_t
    implicit none(type, external)
    private
-   public :: draft_t, card_t, complain, where_of, find_card, names_of, look_up
+   public :: draft_t, card_t, complain, where_of, line_of, find_card, names_of, look_up
    public :: find_point, find_body, find_bodies, find_direction, to_internal, choice, has_key, angle_between
 
    !> What is known of one record.
@@ -43,13 +43,13 @@ contains
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       character(*), intent(in) :: key, what
-      character(:), allocatable :: place
-      integer :: line, entry
+      type(place_t) :: place
+      integer :: entry
 
       entry = 0
       if (key /= '') entry = entry_index(deck%records(k), key, 0)
-      call place_of(deck%records(k), entry, deck%file, place, line)
-      call draft%complaints%add(line, place//': '//record_head(draft%cards(k)%group, draft%cards(k)%name)//what)
+      call place_of(deck%records(k), entry, place)
+      call draft%complaints%add(place, record_head(draft%cards(k)%group, draft%cards(k)%name)//what)
       draft%cards(k)%is_good = .false.
    end subroutine complain
 
@@ -58,8 +58,16 @@ contains
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       character(:), allocatable :: place
-      place = deck%file//':'//str(deck%records(k)%line)
+      place = deck%records(k)%file//':'//str(deck%records(k)%line)
    end function where_of
+
+   !> 'line 12' of record j, for a message about record k.
+   pure function line_of(deck, j, k) result(words)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: j, k
+      character(:), allocatable :: words
+      words = line_words(deck%records(j), deck%records(k))
+   end function line_of
 
    pure logical function has_key(deck, k, key)
       type(deck_t), intent(in) :: deck
@@ -81,20 +89,33 @@ contains
       find_card = 0
    end function find_card
 
-   !> All names of a group, for suggestions.
-   pure function names_of(draft, group) result(names)
+   !> All names of a group that record k may mean, for suggestions. What &mirror doubled has one name for those
+   !> that are doubled with it, and all its names for the others.
+   function names_of(draft, deck, group, k) result(names)
       type(draft_t), intent(in) :: draft
-      integer, intent(in) :: group
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: group, k
       character(word_length), allocatable :: names(:)
-      integer :: k, used
+      integer :: j, used
 
-      allocate (names(count(draft%cards%group == group)))
+      allocate (names(count(draft%cards%group == group) + count(draft%cards%group == group .and. &
+         deck%records(:size(draft%cards))%twin == left_twin)))
+      names = ''
       used = 0
-      do k = 1, size(draft%cards)
-         if (draft%cards(k)%group /= group) cycle
-         used = used + 1
-         names(used) = draft%cards(k)%name
+      do j = 1, size(draft%cards)
+         if (draft%cards(j)%group /= group) cycle
+         if (deck%records(j)%twin == left_twin) call take(own_name(deck%records(j)))
+         if (deck%records(j)%twin == single .or. deck%records(k)%twin == single) call take(draft%cards(j)%name)
       end do
+
+   contains
+
+      subroutine take(name)
+         character(*), intent(in) :: name
+         used = used + 1
+         names(used) = name
+      end subroutine take
+
    end function names_of
 
    !> The record that a key of record k names; 0, with a message, if there is none.
@@ -113,10 +134,10 @@ contains
       if (may_be_meant(draft, group, name)) return
       if (group == body_group) then
          call complain(draft, deck, k, key, key//': there is no body '//quoted(name)// &
-            did_you_mean(name, [names_of(draft, group), [character(word_length) :: 'chassis']]))
+            did_you_mean(name, [names_of(draft, deck, group, k), [character(word_length) :: 'chassis']]))
       else
          call complain(draft, deck, k, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
-            did_you_mean(name, names_of(draft, group)))
+            did_you_mean(name, names_of(draft, deck, group, k)))
       end if
    end subroutine look_up
 

@@ -5,9 +5,10 @@ module ek_group
    use ek_text, only: quoted, nearest_name
    implicit none(type, external)
    private
-   public :: group_names, group_number, key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
+   public :: group_names, group_number, is_deck_group, names_of_groups, is_single
+   public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
-   public :: wheel_group, load_group, case_group, last_deck_group, study_group, factor_group, response_group
+   public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
    public :: most_values, most_loads
    public :: word_length, note_length, most_measures, largest_exponent
    public :: word, prose, number, whole, switch
@@ -15,9 +16,11 @@ module ek_group
    ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
-      last_deck_group = 10, study_group = 11, factor_group = 12, response_group = 13
-   character(*), parameter :: group_names(13) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
-      'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response']
+      study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15
+   character(*), parameter :: group_names(15) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
+      'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror']
+
+   integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others are a deck's
 
    ! types of value
    integer, parameter :: word = 1      !! quoted, at most word_length characters: names and choices
@@ -29,7 +32,7 @@ module ek_group
    integer, parameter :: word_length = 63      !! the longest name
    integer, parameter :: note_length = 2000    !! the longest title or note
    integer, parameter :: most_measures = 8     !! of one coupler
-   integer, parameter :: most_values = 200     !! of one factor, or step sizes of one study
+   integer, parameter :: most_values = 200     !! of one factor, step sizes of one study, names in shared
    integer, parameter :: most_loads = 12       !! scaled together by one case
    integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
 
@@ -157,7 +160,11 @@ module ek_group
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
       key_t(response_group, 'over', word, 1, 1, .false.), &
-      key_t(response_group, 'window', number, 1, 1, .false.)]
+      key_t(response_group, 'window', number, 1, 1, .false.), &
+      key_t(include_group, 'file', prose, 1, 1, .true.), &
+      key_t(include_group, 'note', prose, 1, 1, .false.), &
+      key_t(mirror_group, 'shared', word, 1, most_values, .false.), &
+      key_t(mirror_group, 'note', prose, 1, 1, .false.)]
 
 contains
 
@@ -171,6 +178,31 @@ contains
          if (group_names(k) == name) group_number = k
       end do
    end function group_number
+
+   !> Whether a group belongs in a deck; .false. for those of a study and for 0.
+   pure logical function is_deck_group(group)
+      integer, intent(in) :: group
+      is_deck_group = group > 0 .and. .not. any(study_groups == group)
+   end function is_deck_group
+
+   !> The groups of a deck, or those of a study, for suggestions.
+   pure function names_of_groups(of_deck) result(names)
+      logical, intent(in) :: of_deck
+      character(len(group_names)), allocatable :: names(:)
+      logical :: is_wanted(size(group_names))
+      integer :: k
+
+      do k = 1, size(group_names)
+         is_wanted(k) = is_deck_group(k) .eqv. of_deck
+      end do
+      names = pack(group_names, is_wanted)
+   end function names_of_groups
+
+   !> Whether --set names a group without the name of a record: &model, and the groups that have no names.
+   pure logical function is_single(group)
+      integer, intent(in) :: group
+      is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name')
+   end function is_single
 
    !> The row of a key; is_known is false when the group has no such key.
    pure subroutine find_key(group, name, key, is_known)

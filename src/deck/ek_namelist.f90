@@ -5,7 +5,7 @@
 !> judged here first (type, count, subscript, size), and only sound entries are written out again.
 module ek_namelist
    use ek_text, only: str, lower, quoted, plural
-   use ek_record, only: record_t, value_t, complaints_t, is_given, place_of
+   use ek_record, only: record_t, value_t, place_t, complaints_t, is_given, place_of
    use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
       word_length, note_length, largest_exponent
    implicit none(type, external)
@@ -15,11 +15,10 @@ module ek_namelist
 contains
 
    !> Checks one record, and writes its sound entries as one namelist record.
-   subroutine check_record(record, group, head, file, complaints, text, is_good)
+   subroutine check_record(record, group, head, complaints, text, is_good)
       type(record_t), intent(in) :: record
       integer, intent(in) :: group
       character(*), intent(in) :: head                        !! "bushing 'top_mount': " for messages
-      character(*), intent(in) :: file
       type(complaints_t), intent(inout) :: complaints
       character(:), allocatable, intent(out) :: text          !! '&bushing name=… /'
       logical, intent(out) :: is_good
@@ -111,11 +110,10 @@ contains
       subroutine complain(entry, what)
          integer, intent(in) :: entry
          character(*), intent(in) :: what
-         character(:), allocatable :: place
-         integer :: line
+         type(place_t) :: place
 
-         call place_of(record, entry, file, place, line)
-         call complaints%add(line, place//': '//head//what)
+         call place_of(record, entry, place)
+         call complaints%add(place, head//what)
          is_good = .false.
       end subroutine complain
 

@@ -7,13 +7,13 @@ module ek_reader
    use ek_text, only: str, lower, quoted
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
-   use ek_record, only: element, place_of
-   use ek_group, only: group_names, group_number, last_deck_group, model_group, point_group, body_group, &
+   use ek_record, only: place_t, element, place_of, place_in, own_name, single
+   use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, &
       bushing_group, spring_group, word_length, note_length, record_head, did_you_mean
    use ek_namelist, only: check_record
-   use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, where_of, find_point, to_internal, choice
+   use ek_deck, only: deck_t, finish_deck
+   use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice
    use ek_reader_joints, only: read_measures, read_joints
    use ek_reader_elements, only: read_bushings, read_springs, read_loads
    use ek_reader_wheels, only: read_wheels
@@ -34,8 +34,24 @@ module ek_reader
 
 contains
 
-   !> The model and the cases of a deck, or all that is wrong with it, in the order of its lines.
+   !> The model and the cases of a deck, or all that is wrong with it, in the order of its files and lines.
    subroutine build_model(deck, suspension, cases, error)
+      type(deck_t), intent(in) :: deck
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: finished
+
+      if (deck%is_finished()) then
+         call build_finished(deck, suspension, cases, error)
+      else
+         call finish_deck(deck, finished)
+         call build_finished(finished, suspension, cases, error)
+      end if
+   end subroutine build_model
+
+   !> The same of a deck in which nothing is left to be doubled.
+   subroutine build_finished(deck, suspension, cases, error)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
@@ -69,30 +85,32 @@ contains
          end associate
       end do
       call complete(suspension)
-   end subroutine build_model
+   end subroutine build_finished
 
    !> Group, keys, counts and types of record k, and that its name is legal and new.
    subroutine check_names(deck, k, draft)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       type(draft_t), intent(inout) :: draft
-      character(:), allocatable :: name, place
-      integer :: j, line
+      character(:), allocatable :: name
+      type(place_t) :: place
 
       associate (card => draft%cards(k), record => deck%records(k))
          card%group = group_number(record%group)
-         if (card%group > last_deck_group) card%group = 0     ! a study's
+         if (.not. is_deck_group(card%group)) card%group = 0     ! a study's
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
          if (card%group == 0) then
-            call place_of(record, 0, deck%file, place, line)
-            if (record%group /= '') call draft%complaints%add(line, place//': there is no group &'//record%group// &
-               did_you_mean(record%group, group_names(:last_deck_group)))
+            call place_of(record, 0, place)
+            if (record%group /= '') call draft%complaints%add(place, 'there is no group &'//record%group// &
+               did_you_mean(record%group, names_of_groups(of_deck=.true.)))
             return
          end if
-         call check_record(record, card%group, record_head(card%group, trim(card%name)), deck%file, draft%complaints, &
+         call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, &
             card%text, card%is_good)
          if (card%name == '') return
+         name = own_name(record)
+         if (name == '') name = trim(card%name)
 
          if (verify(lower(name), letters//'0123456789_') > 0 .or. verify(lower(name(1:1)), letters) > 0) then
             call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
@@ -101,21 +119,46 @@ contains
          else if (has_results(card%group) .and. any(reserved_results == lower(name))) then
             call complain(draft, deck, k, 'name', 'the name is reserved for a column of the results')
          end if
-         if (card%group == model_group) return
+         if (card%group /= model_group) call check_new(deck, k, draft)
+      end associate
+   end subroutine check_names
+
+   !> That no record before k has its name.
+   subroutine check_new(deck, k, draft)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      type(draft_t), intent(inout) :: draft
+      integer :: j
+
+      associate (card => draft%cards(k))
          do j = 1, k - 1
             if (lower(draft%cards(j)%name) /= lower(card%name)) cycle
             if (draft%cards(j)%group == card%group) then
-               call complain(draft, deck, k, 'name', 'the name is given twice, first in line '//str(deck%records(j)%line))
+               call complain(draft, deck, k, 'name', 'the name is given twice, first in '//line_of(deck, j, k)//doubling(j))
                exit
             else if (has_results(card%group) .and. has_results(draft%cards(j)%group)) then
                call complain(draft, deck, k, 'name', 'the name is already that of the '// &
-                  trim(group_names(draft%cards(j)%group))//' in line '//str(deck%records(j)%line)// &
+                  trim(group_names(draft%cards(j)%group))//' in '//line_of(deck, j, k)//doubling(j)// &
                   ' (joints, bushings, springs and measures share their columns)')
                exit
             end if
          end do
       end associate
-   end subroutine check_names
+
+   contains
+
+      !> Where only one of the two is doubled, the name that both have at last.
+      function doubling(j) result(words)
+         integer, intent(in) :: j
+         character(:), allocatable :: words
+
+         words = ''
+         if ((deck%records(j)%twin == single) .eqv. (deck%records(k)%twin == single)) return
+         words = ' (&mirror makes '//trim(draft%cards(k)%name)//' of '// &
+            own_name(deck%records(merge(j, k, deck%records(k)%twin == single)))//')'
+      end function doubling
+
+   end subroutine check_new
 
    !> Whether things of a group have columns in the results.
    pure logical function has_results(group)
@@ -143,7 +186,7 @@ contains
       do k = 1, deck%used
          if (draft%cards(k)%group /= model_group) cycle
          if (first > 0) then
-            call complain(draft, deck, k, '', 'a second &model; the first is in line '//str(deck%records(first)%line))
+            call complain(draft, deck, k, '', 'a second &model; the first is in '//line_of(deck, first, k))
             cycle
          end if
          first = k
@@ -168,8 +211,8 @@ contains
          suspension%balance = lower(trim(balance))
          suspension%is_iso = draft%is_iso
       end do
-      if (first == 0 .and. all(draft%cards%group > 0)) call draft%complaints%add(0, &
-         deck%file//': there is no &model (it gives name, units and axes)')
+      if (first == 0 .and. all(draft%cards%group > 0)) &
+         call complain_of_all(deck, draft, 'there is no &model (it gives name, units and axes)')
    end subroutine read_model
 
    !> &point: design positions, kept on the cards.
@@ -218,9 +261,20 @@ contains
             call add_body(suspension, trim(name), where_of(deck, k))
          end if
       end do
-      if (bodies == 0 .and. all(draft%cards%group > 0)) call draft%complaints%add(0, &
-         deck%file//': there is no &body, so nothing can move')
+      if (bodies == 0 .and. all(draft%cards%group > 0)) &
+         call complain_of_all(deck, draft, 'there is no &body, so nothing can move')
    end subroutine read_bodies
+
+   !> A mistake of the deck as a whole.
+   subroutine complain_of_all(deck, draft, what)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: what
+      type(place_t) :: place
+
+      call place_in(deck%file, 0, 0, place)
+      call draft%complaints%add(place, what)
+   end subroutine complain_of_all
 
    !> A body that nothing holds would float away: certainly a slip. Unless what holds it was refused.
    subroutine check_bodies(deck, draft)

@@ -6,7 +6,7 @@ module ek_reader_cases
    use ek_record, only: element
    use ek_group, only: wheel_group, case_group, load_group, joint_group, word_length, note_length, most_loads, did_you_mean
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, look_up, find_card
+   use ek_draft, only: draft_t, complain, where_of, line_of, has_key, choice, look_up, find_card
    implicit none(type, external)
    private
    public :: read_cases, test_names
@@ -210,8 +210,8 @@ contains
 
          call look_up(draft, deck, k, 'load', load_group, name, found)
          if (found == 0) return
-         if (.not. draft%cards(found)%is_used) call complain(draft, deck, k, 'load', 'load '//quoted(name)//' in line '// &
-            str(deck%records(found)%line)//" is constant; a case scales loads with factor = 'case'")
+         if (.not. draft%cards(found)%is_used) call complain(draft, deck, k, 'load', 'load '//quoted(name)//' in '// &
+            line_of(deck, found, k)//" is constant; a case scales loads with factor = 'case'")
       end subroutine find_load
 
    end subroutine read_drive
@@ -270,8 +270,8 @@ contains
       case ('table')
          if (.not. has_key(deck, k, 'file')) call complain(draft, deck, k, '', "'file' is missing")
          this%file = trim(words%file)
-         slash = index(deck%file, '/', back=.true.)
-         if (index(this%file, '/') /= 1) this%file = deck%file(:slash)//this%file
+         slash = index(deck%records(k)%file, '/', back=.true.)
+         if (index(this%file, '/') /= 1) this%file = deck%records(k)%file(:slash)//this%file
       case default
          factor = draft%units%force
       end select
@@ -342,7 +342,7 @@ contains
       if (found > 0) then
          factor = draft%cards(found)%factor
          if (lower(element(deck%records(found), 'type', 1)) /= 'driver') call complain(draft, deck, k, 'drive', &
-            'drive: the joint '//quoted(name)//' in line '//str(deck%records(found)%line)//' is not a driver')
+            'drive: the joint '//quoted(name)//' in '//line_of(deck, found, k)//' is not a driver')
          return
       end if
       allocate (names(deck%used + size(others)))

@@ -1,11 +1,16 @@
 !> What a deck says, before anybody asks what it means: records (namelist groups) of entries
-!> (`key = values`), with the line of each.
+!> (`key = values`), with the file and line of each.
 module ek_record
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: value_t, entry_t, record_t, complaints_t
-   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of
+   public :: value_t, entry_t, record_t, place_t, complaints_t
+   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, place_in, line_words, own_name
+   public :: single, left_twin, right_twin, twin_prefix
+
+   ! what &mirror makes of a record
+   integer, parameter :: single = 0, left_twin = 1, right_twin = 2
+   character(*), parameter :: twin_prefix(2) = [character(6) :: 'left_', 'right_']
 
    !> One value as it was written; a string without its quotes.
    type :: value_t
@@ -27,17 +32,30 @@ module ek_record
    !> One group, from `&` to `/`.
    type :: record_t
       character(:), allocatable :: group  !! lower case, without the &
+      character(:), allocatable :: file   !! as messages name it
+      integer :: source = 1               !! number of that file, in the order of reading
       integer :: line = 0
+      integer :: twin = single
       integer :: used = 0
       type(entry_t), allocatable :: entries(:)
    end type record_t
 
+   !> Where something stands.
+   type :: place_t
+      character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
+      integer :: source = 0, line = 0     !! messages are sorted by these
+      integer :: twin = single
+   end type place_t
+
    type :: complaint_t
-      integer :: line = 0
+      type(place_t) :: place
       character(:), allocatable :: text
    end type complaint_t
 
-   !> Mistakes found so far; handed out in the order of their lines.
+   !> Mistakes found so far; handed out in the order of files and lines.
+   !>
+   !> What &mirror doubled is told once and under the name that the deck uses: a message about the right twin
+   !> is dropped where there is one about the left twin at the same place, and that one loses its prefixes.
    type :: complaints_t
       private
       integer :: used = 0
@@ -50,34 +68,69 @@ module ek_record
 
 contains
 
-   !> Note a mistake; `text` names its place already.
-   pure subroutine complaints_add(self, line, text)
+   !> Note a mistake.
+   pure subroutine complaints_add(self, place, what)
       class(complaints_t), intent(inout) :: self
-      integer, intent(in) :: line      !! sorts the messages
-      character(*), intent(in) :: text
+      type(place_t), intent(in) :: place
+      character(*), intent(in) :: what
       type(complaint_t), allocatable :: grown(:)
       integer :: k
 
+      if (place%twin == right_twin) then
+         do k = 1, self%used
+            if (self%list(k)%place%twin == left_twin .and. self%list(k)%place%words == place%words) return
+         end do
+      end if
       if (.not. allocated(self%list)) allocate (self%list(8))
       if (self%used == size(self%list)) then
          allocate (grown(2*self%used))
          do k = 1, self%used
-            grown(k)%line = self%list(k)%line
-            call move_alloc(self%list(k)%text, grown(k)%text)
+            call move_complaint(self%list(k), grown(k))
          end do
          call move_alloc(grown, self%list)
       end if
       self%used = self%used + 1
-      self%list(self%used)%line = line
-      self%list(self%used)%text = text
+      self%list(self%used)%place = place
+      if (place%twin == left_twin) then
+         self%list(self%used)%text = place%words//': '//without(what, "'"//trim(twin_prefix(left_twin)))
+      else
+         self%list(self%used)%text = place%words//': '//what
+      end if
    end subroutine complaints_add
+
+   pure subroutine move_complaint(from, to)
+      type(complaint_t), intent(inout) :: from, to
+
+      to%place%source = from%place%source
+      to%place%line = from%place%line
+      to%place%twin = from%place%twin
+      call move_alloc(from%place%words, to%place%words)
+      call move_alloc(from%text, to%text)
+   end subroutine move_complaint
+
+   !> A text in which a quote and a prefix have become the quote alone.
+   pure function without(text, prefix) result(plain)
+      character(*), intent(in) :: text, prefix
+      character(:), allocatable :: plain
+      integer :: first, found
+
+      plain = ''
+      first = 1
+      do
+         found = index(text(first:), prefix)
+         if (found == 0) exit
+         plain = plain//text(first:first + found - 1)
+         first = first + found - 1 + len(prefix)
+      end do
+      plain = plain//text(first:)
+   end function without
 
    pure integer function complaints_count(self)
       class(complaints_t), intent(in) :: self
       complaints_count = self%used
    end function complaints_count
 
-   !> All messages, one a line, by line number; those of one line in the order they came.
+   !> All messages, one a line, by file and line number; those of one line in the order they came.
    pure function complaints_text(self) result(text)
       class(complaints_t), intent(in) :: self
       character(:), allocatable :: text
@@ -86,7 +139,7 @@ contains
       do k = 1, self%used
          this = k
          do j = k - 1, 1, -1
-            if (self%list(order(j))%line <= self%list(this)%line) exit
+            if (.not. is_before(self%list(this)%place, self%list(order(j))%place)) exit
             order(j + 1) = order(j)
          end do
          order(j + 1) = this
@@ -97,6 +150,11 @@ contains
          text = text//self%list(order(k))%text
       end do
    end function complaints_text
+
+   pure logical function is_before(a, b)
+      type(place_t), intent(in) :: a, b
+      is_before = a%source < b%source .or. (a%source == b%source .and. a%line < b%line)
+   end function is_before
 
    !> Append one value to an entry.
    pure subroutine add_value(entry, text, is_string, is_empty)
@@ -177,8 +235,11 @@ contains
       type(record_t), intent(inout) :: from, to
 
       to%line = from%line
+      to%source = from%source
+      to%twin = from%twin
       to%used = from%used
       call move_alloc(from%group, to%group)
+      call move_alloc(from%file, to%file)
       call move_alloc(from%entries, to%entries)
       from%used = 0
    end subroutine move_record
@@ -222,24 +283,52 @@ contains
       is_given = entry_index(record, key, 0) > 0
    end function is_given
 
-   !> 'front.nml:41', or '--set point.x.z=-105', and the line by which messages are sorted.
-   pure subroutine place_of(record, entry, file, place, line)
+   !> The name of a record as the deck has it: a twin's without the prefix.
+   pure function own_name(record) result(name)
+      type(record_t), intent(in) :: record
+      character(:), allocatable :: name
+
+      name = element(record, 'name', 1)
+      if (record%twin == single) return
+      if (index(name, trim(twin_prefix(record%twin))) == 1) name = name(len_trim(twin_prefix(record%twin)) + 1:)
+   end function own_name
+
+   !> Where a record or one of its entries stands; --set comes after all files.
+   pure subroutine place_of(record, entry, place)
       type(record_t), intent(in) :: record
       integer, intent(in) :: entry            !! 0: the record itself
-      character(*), intent(in) :: file
-      character(:), allocatable, intent(out) :: place
-      integer, intent(out) :: line
+      type(place_t), intent(out) :: place
 
-      line = record%line
       if (entry > 0) then
-         line = record%entries(entry)%line
+         call place_in(record%file, record%source, record%entries(entry)%line, place)
          if (allocated(record%entries(entry)%setting)) then
-            place = '--set '//record%entries(entry)%setting
-            line = huge(line)
-            return
+            place%words = '--set '//record%entries(entry)%setting
+            place%source = huge(place%source)
          end if
+      else
+         call place_in(record%file, record%source, record%line, place)
       end if
-      place = file//':'//str(line)
+      place%twin = record%twin
    end subroutine place_of
+
+   !> 'line 12' of a record; 'line 12 of wheels.nml' where the one whose message says so is in another file.
+   pure function line_words(record, seen_from) result(words)
+      type(record_t), intent(in) :: record, seen_from
+      character(:), allocatable :: words
+      words = 'line '//str(record%line)
+      if (record%source /= seen_from%source) words = words//' of '//record%file
+   end function line_words
+
+   !> A line of a file; line 0: the file itself.
+   pure subroutine place_in(file, source, line, place)
+      character(*), intent(in) :: file
+      integer, intent(in) :: source, line
+      type(place_t), intent(out) :: place
+
+      place%words = file
+      if (line > 0) place%words = file//':'//str(line)
+      place%source = source
+      place%line = line
+   end subroutine place_in
 
 end module ek_record

@@ -9,7 +9,7 @@
 !> Values are separated by commas, blanks or line ends; strings stand in ' or ", doubled inside.
 module ek_scanner
    use ek_text, only: str, lower, quoted
-   use ek_record, only: entry_t, record_t, complaints_t, add_value, add_entry, add_record, entry_index
+   use ek_record, only: entry_t, record_t, place_t, complaints_t, add_value, add_entry, add_record, entry_index, place_in
    implicit none(type, external)
    private
    public :: scan_text, scan_values
@@ -21,17 +21,19 @@ module ek_scanner
    !> Where the scanner stands.
    type :: cursor_t
       integer :: at = 1, line = 1
+      integer :: source = 1      !! number of the file
    end type cursor_t
 
 contains
 
    !> All records of a text. Mistakes go to `complaints`, as `file:line: what`.
-   subroutine scan_text(text, file, records, used, complaints)
+   subroutine scan_text(text, file, records, used, complaints, source)
       character(*), intent(in) :: text
       character(*), intent(in) :: file                        !! name for messages
       type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
       integer, intent(out) :: used
       type(complaints_t), intent(inout) :: complaints
+      integer, intent(in), optional :: source                 !! number of the file, in the order of reading; 1
       type(record_t) :: record
       type(cursor_t) :: cursor
       character(:), allocatable :: word
@@ -40,6 +42,7 @@ contains
       allocate (records(32))
       used = 0
       last_stray = 0
+      if (present(source)) cursor%source = source
       if (len(text) >= 3) then
          if (text(1:3) == byte_order_mark) cursor%at = 4
       end if
@@ -52,18 +55,20 @@ contains
             call take_word(text, cursor, word)
             word = lower(word)
             if (word == 'end') then
-               call complain(complaints, file, record%line, "'&end' without a group before it")
+               call complain(complaints, file, cursor, record%line, "'&end' without a group before it")
                cycle
             else if (word == '') then
-               call complain(complaints, file, record%line, "'&' without the name of a group")
+               call complain(complaints, file, cursor, record%line, "'&' without the name of a group")
             end if
             record%group = word
+            record%file = file
+            record%source = cursor%source
             call scan_record(text, file, cursor, record, complaints)
             call add_record(records, used, record)
          else
             call take_line(text, cursor, word)
             ! one message a line is enough
-            if (cursor%line /= last_stray) call complain(complaints, file, cursor%line, &
+            if (cursor%line /= last_stray) call complain(complaints, file, cursor, cursor%line, &
                'text outside any group: '//quoted(word)//" (a group begins with &, ends with /, a comment begins with !)")
             last_stray = cursor%line
          end if
@@ -111,7 +116,7 @@ contains
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) then
-            call complain(complaints, file, record%line, '&'//record%group//" is not ended by '/'")
+            call complain(complaints, file, cursor, record%line, '&'//record%group//" is not ended by '/'")
             exit
          end if
          c = text(cursor%at:cursor%at)
@@ -124,7 +129,7 @@ contains
             call take_word(text, cursor, word)
             if (lower(word) == 'end') exit
             cursor = start
-            call complain(complaints, file, record%line, '&'//record%group// &
+            call complain(complaints, file, cursor, record%line, '&'//record%group// &
                " is not ended by '/' before the next group in line "//str(cursor%line))
             exit
          end if
@@ -145,13 +150,13 @@ contains
             after_comma = .true.
             start = cursor
             call scan_value(text, file, cursor, lost, after_comma, complaints)
-            call complain(complaints, file, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
+            call complain(complaints, file, cursor, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
                " where a key and '=' should be")
          else if (c == '(') then
             call take_subscript(text, cursor, word)
             call add_value(entry, '('//word//')', .false., .false.)
          else if (c == '=' .or. c == ')') then
-            call complain(complaints, file, cursor%line, '&'//record%group//': unexpected '//quoted(c)// &
+            call complain(complaints, file, cursor, cursor%line, '&'//record%group//': unexpected '//quoted(c)// &
                ' after '//quoted(entry%key))
             cursor%at = cursor%at + 1
          else
@@ -177,7 +182,7 @@ contains
             if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
                read (subscript, *, iostat=status) entry%first
             if (status /= 0 .or. entry%first < 1) then
-               call complain(complaints, file, entry%line, '&'//record%group//': the subscript of '// &
+               call complain(complaints, file, cursor, entry%line, '&'//record%group//': the subscript of '// &
                   quoted(entry%key)//' must be one positive whole number, found ('//subscript//')')
                entry%first = 1
             end if
@@ -193,14 +198,14 @@ contains
 
          is_open = .false.
          if (entry%used == 0) then
-            call complain(complaints, file, entry%line, '&'//record%group//': '//quoted(entry%key)//' has no value')
+            call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)//' has no value')
          end if
          before = 0
          do k = 1, max(entry%used, 1)
             if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
          end do
          if (before > 0) then
-            call complain(complaints, file, entry%line, '&'//record%group//': '//quoted(entry%key)// &
+            call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)// &
                ' is given twice, first in line '//str(record%entries(before)%line))
             entry%used = 0
             if (allocated(entry%values)) deallocate (entry%values)
@@ -241,7 +246,7 @@ contains
                repeats = 0
                if (star < 9) read (word(:star - 1), *) repeats
                if (repeats < 1 .or. repeats > most_repeats) then
-                  call complain(complaints, file, cursor%line, 'the repeat count of '//quoted(word)// &
+                  call complain(complaints, file, cursor, cursor%line, 'the repeat count of '//quoted(word)// &
                      ' must be 1 to '//str(most_repeats))
                   repeats = 1
                end if
@@ -282,7 +287,7 @@ contains
             end if
             k = k + 1
          end do
-         call complain(complaints, file, cursor%line, 'the string '//quote//content//text(first:k - 1)// &
+         call complain(complaints, file, cursor, cursor%line, 'the string '//quote//content//text(first:k - 1)// &
             ' has no closing quote on its line')
          ! go on behind its first word: most strings are names, and the rest of the line is then read as meant
          first = cursor%at + 1
@@ -412,12 +417,15 @@ contains
       is_quote = c == "'" .or. c == '"'
    end function is_quote
 
-   subroutine complain(complaints, file, line, what)
+   subroutine complain(complaints, file, cursor, line, what)
       type(complaints_t), intent(inout) :: complaints
       character(*), intent(in) :: file, what
+      type(cursor_t), intent(in) :: cursor      !! tells the number of the file
       integer, intent(in) :: line
+      type(place_t) :: place
 
-      call complaints%add(line, file//':'//str(line)//': '//what)
+      call place_in(file, cursor%source, line, place)
+      call complaints%add(place, what)
    end subroutine complain
 
 end module ek_scanner

@@ -4,8 +4,8 @@ module ek_setting
    use ek_error, only: error_t, fail, exit_usage
    use ek_record, only: record_t, entry_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
-   use ek_group, only: group_names, group_number, last_deck_group, model_group, point_group, key_t, find_key, &
-      did_you_mean, unknown_key, word, prose, word_length
+   use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, point_group, &
+      key_t, find_key, did_you_mean, unknown_key, word, prose, word_length
    use ek_namelist, only: value_fault
    implicit none(type, external)
    private
@@ -32,21 +32,24 @@ contains
    end subroutine split_setting
 
    !> Changes the record that the path names; `message` says why not, '' if all is well.
-   subroutine apply_setting(records, used, path, text, message)
+   subroutine apply_setting(records, used, path, text, message, is_found)
       type(record_t), intent(inout) :: records(:)
       integer, intent(in) :: used
       character(*), intent(in) :: path, text
       character(:), allocatable, intent(out) :: message
+      logical, intent(out) :: is_found     !! there is such a record, whatever else is wrong
       character(:), allocatable :: setting, name, key_name
       type(entry_t) :: given
       type(key_t) :: key
       logical :: is_known, has_subscript
       integer :: group, first, target, k
 
+      is_found = .false.
       message = ''
       setting = trim(adjustl(path))//'='//trim(adjustl(text))
       call split_path(trim(adjustl(path)), group, name, key_name, first, has_subscript, message)
       if (message == '') call find_record()
+      is_found = message == ''
       if (message == '') call read_values()
       if (message == '') then
          do k = 1, given%used
@@ -67,7 +70,7 @@ contains
          do j = 1, used
             if (records(j)%group /= group_names(group)) cycle
             found = found + 1
-            if (group == model_group) then
+            if (is_single(group)) then
                target = j
             else if (element(records(j), 'name', 1) == name) then
                target = j
@@ -81,8 +84,8 @@ contains
             found = found + 1
             names(found) = element(records(j), 'name', 1)
          end do
-         if (group == model_group) then
-            message = 'the deck has no &model'
+         if (is_single(group)) then
+            message = 'the deck has no &'//trim(group_names(group))
          else
             message = 'there is no '//trim(group_names(group))//' '//quoted(name)//did_you_mean(name, names)
          end if
@@ -160,12 +163,17 @@ contains
          return
       end if
       group = group_number(lower(path(:dot - 1)))
-      if (group == 0 .or. group > last_deck_group) then
-         message = 'there is no group '//quoted(path(:dot - 1))//did_you_mean(path(:dot - 1), group_names(:last_deck_group))
+      if (.not. is_deck_group(group)) then
+         message = 'there is no group '//quoted(path(:dot - 1))//did_you_mean(path(:dot - 1), names_of_groups(of_deck=.true.))
          return
       end if
-      if (group == model_group .neqv. dot == last) then
-         message = 'expected '//merge('model.key=value     ', 'group.name.key=value', group == model_group)
+      if (group == include_group) then
+         message = 'an &include is read before anything is set'
+         return
+      end if
+      if (is_single(group) .neqv. dot == last) then
+         message = 'expected group.name.key=value'
+         if (is_single(group)) message = 'expected '//trim(group_names(group))//'.key=value'
          return
       end if
       if (dot < last) name = path(dot + 1:last - 1)

@@ -7,9 +7,9 @@ module ek_study
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: lower
    use ek_case, only: method_names
-   use ek_record, only: element, place_of
+   use ek_record, only: element, place_t, place_of, place_in
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, note_length, &
-      most_values, group_names, did_you_mean, last_deck_group
+      most_values, did_you_mean, is_deck_group, names_of_groups
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, read_deck
    use ek_draft, only: draft_t, complain, choice, has_key
@@ -54,10 +54,10 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: file
       type(draft_t) :: draft
-      character(:), allocatable :: place
-      integer :: k, line, studies
+      type(place_t) :: place
+      integer :: k, studies
 
-      call read_deck(path, file, error)
+      call read_deck(path, file, error, is_study=.true.)
       if (allocated(error)) return
       draft%complaints = file%complaints
       allocate (draft%cards(file%used))
@@ -66,15 +66,15 @@ contains
       do k = 1, file%used
          associate (card => draft%cards(k), record => file%records(k))
             card%group = group_number(record%group)
-            if (card%group <= last_deck_group) then
-               call place_of(record, 0, file%file, place, line)
-               call draft%complaints%add(line, place//': there is no group &'//record%group//' in a study'// &
-                  did_you_mean(record%group, group_names(last_deck_group + 1:)))
+            if (card%group == 0 .or. is_deck_group(card%group)) then
+               call place_of(record, 0, place)
+               call draft%complaints%add(place, 'there is no group &'//record%group//' in a study'// &
+                  did_you_mean(record%group, names_of_groups(of_deck=.false.)))
                card%group = 0
                cycle
             end if
             card%name = element(record, 'name', 1)
-            call check_record(record, card%group, record_head(card%group, trim(card%name)), file%file, draft%complaints, &
+            call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, &
                card%text, card%is_good)
          end associate
          select case (draft%cards(k)%group)
@@ -88,7 +88,10 @@ contains
             call take_response(file, draft, k, study)
          end select
       end do
-      if (studies == 0) call draft%complaints%add(0, file%file//': there is no &study')
+      if (studies == 0) then
+         call place_in(file%file, 0, 0, place)
+         call draft%complaints%add(place, 'there is no &study')
+      end if
       if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(file, draft, study)
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
    end subroutine read_study

@@ -1,0 +1,154 @@
+!> &include: a deck in several files, read as if it were one text.
+!>
+!> The &include record itself stays in the list, so that its keys are checked like all others; the records
+!> of the file follow it. Every record knows its file, so messages name that one.
+module ek_include
+   use ek_error, only: error_t
+   use ek_file, only: read_whole, join_path, folder_name
+   use ek_text, only: str, quoted
+   use ek_record, only: record_t, place_t, complaints_t, add_record, entry_index, place_of
+   use ek_scanner, only: scan_text
+   implicit none(type, external)
+   private
+   public :: read_text
+
+   integer, parameter :: most_nested = 8      !! files within files; more is a mistake
+
+   !> The files that are open, from the deck inwards.
+   type :: file_t
+      character(:), allocatable :: path
+   end type file_t
+
+contains
+
+   !> All records of a text and of the files that it includes. Mistakes go to `complaints`.
+   subroutine read_text(text, file, records, used, complaints)
+      character(*), intent(in) :: text
+      character(*), intent(in) :: file                        !! its path, or what stands for it in messages
+      type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
+      integer, intent(out) :: used
+      type(complaints_t), intent(inout) :: complaints
+      type(file_t) :: open_files(0:most_nested)
+      integer :: sources
+
+      allocate (records(32))
+      used = 0
+      sources = 0
+      open_files(0)%path = file
+      call take_text(text, 0, open_files, sources, records, used, complaints)
+   end subroutine read_text
+
+   !> The text of the innermost open file.
+   recursive subroutine take_text(text, depth, open_files, sources, records, used, complaints)
+      character(*), intent(in) :: text
+      integer, intent(in) :: depth
+      type(file_t), intent(inout) :: open_files(0:)
+      integer, intent(inout) :: sources                       !! files read so far
+      type(record_t), allocatable, intent(inout) :: records(:)
+      integer, intent(inout) :: used
+      type(complaints_t), intent(inout) :: complaints
+      type(record_t), allocatable :: own(:)
+      type(place_t) :: place
+      character(:), allocatable :: name
+      integer :: k, own_used
+
+      sources = sources + 1
+      call scan_text(text, open_files(depth)%path, own, own_used, complaints, sources)
+      do k = 1, own_used
+         name = ''
+         if (own(k)%group == 'include') call find_name(own(k), name, place)
+         call add_record(records, used, own(k))
+         if (name /= '') call take_file(name, place, depth, open_files, sources, records, used, complaints)
+      end do
+   end subroutine take_text
+
+   !> The file that an &include names; '' where it names none in quotes, which the check of its keys will tell.
+   subroutine find_name(record, name, place)
+      type(record_t), intent(in) :: record
+      character(:), allocatable, intent(out) :: name
+      type(place_t), intent(out) :: place
+      integer :: entry
+
+      name = ''
+      entry = entry_index(record, 'file', 1)
+      if (entry == 0) return
+      call place_of(record, entry, place)
+      if (record%entries(entry)%values(1)%is_string .and. record%entries(entry)%used == 1) &
+         name = trim(record%entries(entry)%values(1)%text)
+   end subroutine find_name
+
+   !> A file beside the innermost open one.
+   recursive subroutine take_file(name, place, depth, open_files, sources, records, used, complaints)
+      character(*), intent(in) :: name
+      type(place_t), intent(in) :: place        !! of the &include
+      integer, intent(in) :: depth
+      type(file_t), intent(inout) :: open_files(0:)
+      integer, intent(inout) :: sources
+      type(record_t), allocatable, intent(inout) :: records(:)
+      integer, intent(inout) :: used
+      type(complaints_t), intent(inout) :: complaints
+      type(error_t), allocatable :: error
+      character(:), allocatable :: text, path
+      integer :: k, records_before, complaints_before
+
+      path = beside(open_files(depth)%path, name)
+      do k = 0, depth
+         if (plain_path(open_files(k)%path) /= plain_path(path)) cycle
+         call complaints%add(place, 'include: '//quoted(path)//' would include itself')
+         return
+      end do
+      if (depth == most_nested) then
+         call complaints%add(place, 'include: files are nested more than '//str(most_nested)//' deep')
+         return
+      end if
+      call read_whole(path, text, error)
+      if (allocated(error)) then
+         call complaints%add(place, 'include: '//error%message)
+         return
+      end if
+      records_before = used
+      complaints_before = complaints%count()
+      open_files(depth + 1)%path = path
+      call take_text(text, depth + 1, open_files, sources, records, used, complaints)
+      if (used == records_before .and. complaints%count() == complaints_before) &
+         call complaints%add(place, 'include: there is no group in '//quoted(path))
+   end subroutine take_file
+
+   !> The path of a file named in another one; of a deck without a folder, in the working folder.
+   pure function beside(file, name) result(path)
+      character(*), intent(in) :: file, name
+      character(:), allocatable :: path
+
+      path = name
+      if (index(file, '/') > 0) path = join_path(folder_name(file), name)
+   end function beside
+
+   !> A path without 'x/..' and '.', so that two ways of naming one file compare equal.
+   pure function plain_path(path) result(plain)
+      character(*), intent(in) :: path
+      character(:), allocatable :: plain
+      character(:), allocatable :: part
+      integer :: first, slash, last
+
+      plain = ''
+      first = 1
+      do
+         slash = index(path(first:), '/')
+         if (slash == 0) then
+            part = path(first:)
+         else
+            part = path(first:first + slash - 2)
+         end if
+         last = index(plain, '/', back=.true.)
+         if (part == '..' .and. plain /= '' .and. plain(last + 1:) /= '..') then
+            plain = plain(:max(last - 1, 0))
+         else if (part /= '.' .and. (part /= '' .or. first == 1)) then
+            if (plain /= '' .or. (first > 1 .and. path(1:1) == '/')) plain = plain//'/'
+            plain = plain//part
+         end if
+         if (slash == 0) exit
+         first = first + slash
+      end do
+   end function plain_path
+
+end module ek_include

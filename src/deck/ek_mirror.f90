@@ -1,0 +1,353 @@
+!> &mirror: a deck that describes the left half of an axle becomes the deck of both sides.
+!>
+!> This works on records, before anything is looked up, so that the reader never knows. Points off the plane
+!> y = 0, and all bodies, are written twice, as left_<name> and right_<name>, but for those in `shared`; so is
+!> every element that refers to one of them. What bears a name of one side already, or refers to one, is not.
+!>
+!> The right twin is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial one
+!> (a moment, the axis of a rotation) −M v. A bushing's x and z axes are mirrored as directions, so its y = z × x
+!> becomes −M y: along the marker's axes forces change the sign of y, moments those of x and z.
+module ek_mirror
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower, quoted
+   use ek_record, only: record_t, entry_t, place_t, complaints_t, add_record, add_value, element, entry_index, &
+      place_of, line_words, left_twin, right_twin, twin_prefix
+   use ek_group, only: word_length, did_you_mean
+   use ek_mirror_role, only: role_of, is_element, can_be_doubled, is_name, named_group, loads
+   use ek_mirror_twin, only: reflect, complete_marker, number_of
+   implicit none(type, external)
+   private
+   public :: has_mirror, mirror_records
+
+   real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point nearer to y = 0 is on both sides
+
+   !> What is known of the half while it is doubled, one element a record.
+   type :: half_t
+      character(word_length), allocatable :: groups(:), names(:)   !! lower case; '' where there is no name
+      logical, allocatable :: is_doubled(:), is_shared(:)
+      logical, allocatable :: is_right(:)            !! a wheel of the other side, refused
+      real(wp) :: length = 1.0e-3_wp                 !! the deck's unit of length [m]
+      real(wp) :: outboard = -1.0_wp                 !! sign of y on the left
+   end type half_t
+
+contains
+
+   !> Whether there is an &mirror among the records.
+   pure logical function has_mirror(records, used)
+      type(record_t), intent(in) :: records(:)
+      integer, intent(in) :: used
+      integer :: k
+
+      has_mirror = .false.
+      do k = 1, used
+         if (records(k)%group == 'mirror') has_mirror = .true.
+      end do
+   end function has_mirror
+
+   !> The records of both sides, a left twin and right after it the right one. Without &mirror: a copy.
+   subroutine mirror_records(records, used, whole, whole_used, complaints)
+      type(record_t), intent(in) :: records(:)
+      integer, intent(in) :: used
+      type(record_t), allocatable, intent(out) :: whole(:)     !! the first `whole_used` are filled
+      integer, intent(out) :: whole_used
+      type(complaints_t), intent(inout) :: complaints
+      type(half_t) :: half
+      type(record_t) :: copy
+      integer :: k, twin
+
+      allocate (whole(2*max(used, 1)))
+      whole_used = 0
+      call survey(records(:used), half, complaints)
+      do k = 1, used
+         if (half%is_doubled(k)) then
+            do twin = left_twin, right_twin
+               copy = records(k)
+               copy%twin = twin
+               call complete_marker(records(:used), records(k), copy)
+               call rename(half, twin, copy)
+               if (twin == right_twin) call reflect(copy)
+               call add_record(whole, whole_used, copy)
+            end do
+         else if (.not. (half%is_right(k) .and. any(half%is_doubled .and. half%groups == 'wheel'))) then
+            copy = records(k)
+            call keep_single(half, half%is_right(k), copy, complaints)
+            call add_record(whole, whole_used, copy)
+         end if
+      end do
+   end subroutine mirror_records
+
+   !> Finds what is doubled, and what is wrong with the half.
+   subroutine survey(records, half, complaints)
+      type(record_t), intent(in) :: records(:)
+      type(half_t), intent(out) :: half
+      type(complaints_t), intent(inout) :: complaints
+      integer :: mirror, k
+
+      allocate (half%groups(size(records)), half%names(size(records)))
+      allocate (half%is_doubled(size(records)), half%is_shared(size(records)), half%is_right(size(records)), source=.false.)
+      half%names = ''
+      mirror = 0
+      do k = 1, size(records)
+         half%groups(k) = records(k)%group
+         if (entry_index(records(k), 'name', 1) > 0) half%names(k) = name_of(records(k))
+         select case (records(k)%group)
+         case ('mirror')
+            if (mirror > 0) call complain(complaints, records(k), '', 'a second &mirror; the first is in '// &
+               line_words(records(mirror), records(k)))
+            if (mirror == 0) mirror = k
+         case ('model')
+            if (lower(element(records(k), 'length', 1)) == 'm') half%length = 1.0_wp
+            if (lower(element(records(k), 'axes', 1)) == 'iso') half%outboard = 1.0_wp
+         case ('wheel')
+            half%is_right(k) = lower(element(records(k), 'side', 1)) == 'right'
+            if (half%is_right(k)) call complain(complaints, records(k), 'side', &
+               "the deck of a mirrored axle describes the left half, found side = 'right'")
+         end select
+      end do
+      if (mirror == 0) return
+      call find_shared(records(mirror), half, complaints)
+
+      do k = 1, size(records)
+         if (is_of_one(half, k)) cycle
+         if (records(k)%group == 'body') half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
+         if (records(k)%group == 'point') call judge_point(records(k), half, half%is_doubled(k), complaints)
+      end do
+      do k = 1, size(records)
+         if (records(k)%group == 'measure' .and. .not. is_of_one(half, k)) half%is_doubled(k) = follows(records(k), half)
+      end do
+      do k = 1, size(records)
+         if (.not. is_element(records(k)%group) .or. records(k)%group == 'measure' .or. is_of_one(half, k)) cycle
+         half%is_doubled(k) = follows(records(k), half)
+      end do
+      do k = 1, size(records)
+         if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(twin_prefix)) cycle
+         call complain(complaints, records(k), 'name', 'a name that &mirror doubles has at most '// &
+            str(word_length - len(twin_prefix))//' characters, found '//str(len_trim(half%names(k))))
+      end do
+   end subroutine survey
+
+   !> The names in `shared`; each must be that of something.
+   subroutine find_shared(mirror, half, complaints)
+      type(record_t), intent(in) :: mirror
+      type(half_t), intent(inout) :: half
+      type(complaints_t), intent(inout) :: complaints
+      logical :: is_candidate(size(half%names))
+      logical :: is_found
+      integer :: e, v, k
+
+      do k = 1, size(half%names)
+         is_candidate(k) = can_be_doubled(trim(half%groups(k)))
+      end do
+      do e = 1, mirror%used
+         if (mirror%entries(e)%key /= 'shared') cycle
+         do v = 1, mirror%entries(e)%used
+            associate (value => mirror%entries(e)%values(v))
+               if (.not. value%is_string .or. value%text == '') cycle     ! told by the check of keys
+               is_found = .false.
+               do k = 1, size(half%names)
+                  if (half%names(k) /= lower(value%text)) cycle
+                  is_found = .true.
+                  half%is_shared(k) = is_candidate(k)
+               end do
+               if (.not. is_found) call complain(complaints, mirror, 'shared', 'shared: there is no body, point or element '// &
+                  quoted(value%text)//did_you_mean(value%text, pack(half%names, is_candidate)))
+            end associate
+         end do
+      end do
+   end subroutine find_shared
+
+   !> Whether record k is there once because it is said so, by `shared` or by its name.
+   pure logical function is_of_one(half, k)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: k
+      is_of_one = half%is_shared(k) .or. half%is_right(k) .or. has_side(half%names(k))
+   end function is_of_one
+
+   !> Whether a name begins with left_ or right_.
+   pure logical function has_side(name)
+      character(*), intent(in) :: name
+      has_side = index(lower(name), trim(twin_prefix(left_twin))) == 1 .or. &
+         index(lower(name), trim(twin_prefix(right_twin))) == 1
+   end function has_side
+
+   !> A point is doubled unless it lies in the plane; it must lie on the left.
+   subroutine judge_point(point, half, is_doubled, complaints)
+      type(record_t), intent(in) :: point
+      type(half_t), intent(in) :: half
+      logical, intent(out) :: is_doubled
+      type(complaints_t), intent(inout) :: complaints
+      real(wp) :: y
+      logical :: is_known
+
+      call number_of(point, 'at', 2, y, is_known)
+      is_doubled = .not. is_known .or. abs(y)*half%length >= in_plane
+      ! a deck of the right half has been told so at its wheel
+      if (.not. (is_known .and. is_doubled) .or. any(half%is_right)) return
+      if (y*half%outboard < 0.0_wp) call complain(complaints, point, 'at', &
+         'the deck of a mirrored axle describes the left half, found y = '//str(y)//' on the right (y points '// &
+         trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); a point that there is only once is listed in shared')
+   end subroutine judge_point
+
+   !> Whether an element is doubled with something that it refers to.
+   logical function follows(record, half)
+      type(record_t), intent(in) :: record
+      type(half_t), intent(in) :: half
+      integer :: e, v, role
+
+      follows = .false.
+      do e = 1, record%used
+         role = role_of(record, record%entries(e)%key)
+         if (.not. is_name(role)) cycle
+         do v = 1, record%entries(e)%used
+            associate (text => record%entries(e)%values(v)%text)
+               if (has_side(text)) then      ! across the axle, or of one side: it says so itself
+                  follows = .false.
+                  return
+               end if
+               if (is_doubled_name(half, role, text)) follows = .true.
+            end associate
+         end do
+      end do
+   end function follows
+
+   !> Whether what a role names is doubled.
+   pure logical function is_doubled_name(half, role, name)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: role
+      character(*), intent(in) :: name
+
+      is_doubled_name = .false.
+      if (name == '' .or. len_trim(name) > word_length) return
+      is_doubled_name = any(half%is_doubled .and. half%groups == named_group(role) .and. half%names == lower(name))
+   end function is_doubled_name
+
+   !> Gives a twin its name, and those of the twins that it refers to.
+   subroutine rename(half, twin, record)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: twin
+      type(record_t), intent(inout) :: record
+      integer :: e, v, role
+
+      do e = 1, record%used
+         associate (entry => record%entries(e))
+            role = role_of(record, entry%key)
+            do v = 1, entry%used
+               if (.not. entry%values(v)%is_string) cycle
+               if (entry%key == 'name') then
+                  if (len_trim(entry%values(v)%text) > word_length .or. entry%values(v)%text == '') cycle
+                  entry%values(v)%text = name_of_twin(record%group, entry%values(v)%text, twin)
+               else if (is_name(role)) then
+                  if (is_doubled_name(half, role, entry%values(v)%text)) &
+                     entry%values(v)%text = name_of_twin(named_group(role), entry%values(v)%text, twin)
+               end if
+            end do
+         end associate
+      end do
+   end subroutine rename
+
+   !> left_<name>, right_<name>; the wheel 'left' becomes 'left' and 'right'. Too long a name, told in `survey`, is cut.
+   pure function name_of_twin(group, name, twin) result(renamed)
+      character(*), intent(in) :: group, name
+      integer, intent(in) :: twin
+      character(:), allocatable :: renamed
+
+      if (group == 'wheel' .and. lower(name) == 'left') then
+         renamed = trim(merge('left ', 'right', twin == left_twin))
+      else
+         renamed = trim(twin_prefix(twin))//trim(name)
+         renamed = renamed(:min(len(renamed), word_length))
+      end if
+   end function name_of_twin
+
+   !> A record that is there once: a case's doubled loads act on both sides; any other name must be that of one thing.
+   subroutine keep_single(half, is_refused, record, complaints)
+      type(half_t), intent(in) :: half
+      logical, intent(in) :: is_refused        !! a wheel of the right side, told already
+      type(record_t), intent(inout) :: record
+      type(complaints_t), intent(inout) :: complaints
+      type(record_t) :: original
+      character(:), allocatable :: left, right
+      integer :: e, v, role
+
+      original = record
+      do e = 1, record%used
+         role = role_of(record, record%entries(e)%key)
+         if (.not. is_name(role)) cycle
+         if (role == loads) then
+            do v = 1, original%entries(e)%first - 1     ! load(2) = … moves up when load(1) has become two
+               if (is_doubled_name(half, role, element(original, original%entries(e)%key, v))) &
+                  record%entries(e)%first = record%entries(e)%first + 1
+            end do
+            call expand(half, role, record%entries(e))
+            cycle
+         end if
+         do v = 1, record%entries(e)%used
+            associate (value => record%entries(e)%values(v))
+               if (.not. is_doubled_name(half, role, value%text)) cycle
+               left = name_of_twin(named_group(role), value%text, left_twin)
+               right = name_of_twin(named_group(role), value%text, right_twin)
+               if (left == value%text) cycle
+               if (.not. is_refused) call complain(complaints, record, record%entries(e)%key, record%entries(e)%key// &
+                  ': &mirror doubles the '//named_group(role)//' '//quoted(value%text)//'; name '//quoted(left)// &
+                  ' or '//quoted(right))
+               value%text = left
+            end associate
+         end do
+      end do
+   end subroutine keep_single
+
+   !> Both twins of every load that is doubled.
+   subroutine expand(half, role, entry)
+      type(half_t), intent(in) :: half
+      integer, intent(in) :: role
+      type(entry_t), intent(inout) :: entry
+      type(entry_t) :: both
+      integer :: v, twin
+
+      do v = 1, entry%used
+         associate (value => entry%values(v))
+            if (is_doubled_name(half, role, value%text)) then
+               do twin = left_twin, right_twin
+                  call add_value(both, name_of_twin(named_group(role), value%text, twin), value%is_string, .false.)
+               end do
+            else
+               call add_value(both, value%text, value%is_string, value%is_empty)
+            end if
+         end associate
+      end do
+      if (both%used == entry%used) return
+      entry%used = both%used
+      call move_alloc(both%values, entry%values)
+   end subroutine expand
+
+   !> The name of a record, lower case; '' where it has none that may be one.
+   pure function name_of(record) result(name)
+      type(record_t), intent(in) :: record
+      character(:), allocatable :: name
+      integer :: e
+
+      name = ''
+      e = entry_index(record, 'name', 1)
+      if (e == 0) return
+      if (record%entries(e)%values(1)%is_string .and. len_trim(record%entries(e)%values(1)%text) <= word_length) &
+         name = trim(lower(record%entries(e)%values(1)%text))
+   end function name_of
+
+   subroutine complain(complaints, record, key, what)
+      type(complaints_t), intent(inout) :: complaints
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: key, what
+      type(place_t) :: place
+      integer :: entry
+
+      entry = 0
+      if (key /= '') entry = entry_index(record, key, 0)
+      call place_of(record, entry, place)
+      if (element(record, 'name', 1) == '') then
+         call complaints%add(place, record%group//': '//what)
+      else
+         call complaints%add(place, record%group//' '//quoted(element(record, 'name', 1))//': '//what)
+      end if
+   end subroutine complain
+
+end module ek_mirror

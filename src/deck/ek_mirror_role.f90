@@ -1,0 +1,128 @@
+!> What the keys of a deck are under y → −y: names of things that may be doubled, vectors, sides.
+!>
+!> A key that is not listed means the same on both sides (a rate, a radius, static toe). To add a key to the
+!> deck that holds a name or a direction: its row here, beside the one in ek_group.
+module ek_mirror_role
+   use ek_text, only: lower
+   use ek_record, only: record_t, element
+   implicit none(type, external)
+   private
+   public :: role_of, is_element, can_be_doubled, is_name, named_group, turns
+   public :: loads, polar, axial, curves, side
+
+   ! names of other records; a vector; and the rest
+   integer, parameter :: points = 1, bodies = 2, measures = 3, joints = 4, loads = 5, wheels = 6
+   integer, parameter :: polar = 11     !! (x, y, z) → (x, −y, z)
+   integer, parameter :: axial = 12     !! (x, y, z) → (−x, y, −z)
+   integer, parameter :: curves = 13    !! 'fy=name' → 'fy=-name' for the components that change sign
+   integer, parameter :: side = 14      !! 'left' → 'right'
+   character(*), parameter :: named_groups(6) = [character(7) :: 'point', 'body', 'measure', 'joint', 'load', 'wheel']
+
+   type :: role_t
+      character(8) :: group
+      character(14) :: key
+      integer :: role
+   end type role_t
+
+   type(role_t), parameter :: roles(*) = [ &
+      role_t('point', 'at', polar), &
+      role_t('body', 'origin', points), &
+      role_t('body', 'centre', points), &
+      role_t('measure', 'bodies', bodies), &
+      role_t('measure', 'at', points), &
+      role_t('measure', 'axis', points), &
+      role_t('measure', 'axis_vector', polar), &
+      role_t('measure', 'axis_2', points), &
+      role_t('measure', 'axis_2_vector', polar), &
+      role_t('joint', 'bodies', bodies), &
+      role_t('joint', 'at', points), &
+      role_t('joint', 'axis', points), &
+      role_t('joint', 'axis_vector', polar), &
+      role_t('joint', 'axis_2', points), &
+      role_t('joint', 'axis_2_vector', polar), &
+      role_t('joint', 'measure', measures), &
+      role_t('joint', 'measures', measures), &
+      role_t('bushing', 'bodies', bodies), &
+      role_t('bushing', 'at', points), &
+      role_t('bushing', 'z_axis', points), &
+      role_t('bushing', 'z_vector', polar), &
+      role_t('bushing', 'x_axis', points), &
+      role_t('bushing', 'x_vector', polar), &
+      role_t('bushing', 'preload_force', polar), &       ! along x', y', z', see ek_mirror
+      role_t('bushing', 'preload_moment', axial), &
+      role_t('bushing', 'curve', curves), &
+      role_t('spring', 'bodies', bodies), &
+      role_t('spring', 'at', points), &
+      role_t('damper', 'bodies', bodies), &
+      role_t('damper', 'at', points), &
+      role_t('stop', 'bodies', bodies), &
+      role_t('stop', 'at', points), &
+      role_t('torsion', 'bodies', bodies), &
+      role_t('torsion', 'axis', points), &
+      role_t('torsion', 'axis_vector', polar), &
+      role_t('wheel', 'body', bodies), &
+      role_t('wheel', 'centre', points), &
+      role_t('wheel', 'contact', points), &
+      role_t('wheel', 'steer_axis', points), &
+      role_t('wheel', 'spin_vector', polar), &
+      role_t('wheel', 'side', side), &
+      role_t('load', 'body', bodies), &
+      role_t('load', 'at', points), &
+      role_t('load', 'force', polar), &
+      role_t('load', 'moment', axial), &
+      role_t('case', 'load', loads), &
+      role_t('case', 'drive', joints), &
+      role_t('case', 'wheel', wheels), &
+      role_t('steering', 'driver', joints)]
+
+   character(*), parameter :: elements(9) = [character(8) :: 'measure', 'joint', 'bushing', 'spring', 'damper', 'stop', &
+      'torsion', 'wheel', 'load']
+
+contains
+
+   !> What a key is; 0: the same on both sides.
+   pure integer function role_of(record, key) result(role)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: key
+      integer :: k
+
+      role = 0
+      do k = 1, size(roles)
+         if (roles(k)%group /= record%group) cycle
+         if (roles(k)%key == key) role = roles(k)%role
+      end do
+      if (role == polar .and. key == 'axis_vector' .and. turns(record)) role = axial
+   end function role_of
+
+   !> Whether the record's axis is that of a rotation: its sense, not its direction, makes the value's sign.
+   pure logical function turns(record)
+      type(record_t), intent(in) :: record
+      turns = record%group == 'torsion'
+      if (record%group == 'measure') turns = lower(element(record, 'type', 1)) == 'rotation'
+   end function turns
+
+   !> Whether records of a group are doubled with what they refer to.
+   pure logical function is_element(group)
+      character(*), intent(in) :: group
+      is_element = any(elements == group)
+   end function is_element
+
+   pure logical function can_be_doubled(group)
+      character(*), intent(in) :: group
+      can_be_doubled = is_element(group) .or. group == 'point' .or. group == 'body'
+   end function can_be_doubled
+
+   !> Whether a role is the name of another record.
+   pure logical function is_name(role)
+      integer, intent(in) :: role
+      is_name = role >= 1 .and. role <= size(named_groups)
+   end function is_name
+
+   !> The group of the records that a role names.
+   pure function named_group(role) result(group)
+      integer, intent(in) :: role
+      character(:), allocatable :: group
+      group = trim(named_groups(role))
+   end function named_group
+
+end module ek_mirror_role
