@@ -1,0 +1,214 @@
+!> A curve through points: the law of a rubber, a progressive spring, a bump stop.
+!>
+!> Piecewise cubics y = c1 + c2 t + c3 t² + c4 t³, t = x − x_k, between the points; a straight line with the end slope
+!> beyond them. The kinds differ in the slopes d_k at the points only (`linear` has two at each, left and right):
+!>
+!> | kind   | slopes                                                              | smooth |
+!> |--------|---------------------------------------------------------------------|--------|
+!> | linear | those of the chords; corners stay corners                           | C0     |
+!> | akima  | weighted means of neighbouring chords: H. Akima, J. ACM 17 (1970) 589–602 | C1 |
+!> | cubic  | natural spline: no curvature at the ends, so that the straight continuation fits | C2 |
+!>
+!> Akima's follows five points at a time: no waves from a corner far away, and flat data stay flat.
+module ek_curve
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds
+
+   character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
+
+   !> Units: those of its points.
+   type :: curve_t
+      real(wp), allocatable :: breaks(:)           !! x of the n points, increasing
+      real(wp), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
+      real(wp), allocatable :: areas(:)            !! ∫ from the first point to each of the n
+      real(wp) :: end_value = 0.0_wp               !! y of the last point
+      real(wp) :: end_slope = 0.0_wp               !! slope beyond it
+   end type curve_t
+
+contains
+
+   !> The curve through points; x must increase strictly, at least two (checked by the reader).
+   pure function new_curve(x, y, kind) result(curve)
+      real(wp), intent(in) :: x(:), y(:)
+      character(*), intent(in) :: kind         !! one of curve_kinds
+      type(curve_t) :: curve
+      real(wp) :: left(size(x) - 1), right(size(x) - 1), chord(size(x) - 1), slope(size(x)), h
+      integer :: k, n
+
+      n = size(x)
+      chord = (y(2:) - y(:n - 1))/(x(2:) - x(:n - 1))
+      select case (kind)
+      case ('akima')
+         slope = akima_slopes(chord)
+         left = slope(:n - 1)
+         right = slope(2:)
+      case ('cubic')
+         slope = natural_slopes(x, chord)
+         left = slope(:n - 1)
+         right = slope(2:)
+      case default
+         left = chord
+         right = chord
+      end select
+      allocate (curve%breaks(n), curve%coefficients(4, n - 1), curve%areas(n))
+      curve%breaks = x
+      curve%areas(1) = 0.0_wp
+      do k = 1, n - 1
+         h = x(k + 1) - x(k)
+         curve%coefficients(1, k) = y(k)
+         curve%coefficients(2, k) = left(k)
+         curve%coefficients(3, k) = (3.0_wp*chord(k) - 2.0_wp*left(k) - right(k))/h
+         curve%coefficients(4, k) = (left(k) + right(k) - 2.0_wp*chord(k))/h**2
+         curve%areas(k + 1) = curve%areas(k) + piece_area(curve%coefficients(:, k), h)
+      end do
+      curve%end_value = y(n)
+      curve%end_slope = right(n - 1)
+   end function new_curve
+
+   !> The same curve in other units: x times x_unit, y times y_unit, both above 0.
+   pure function scaled_curve(curve, x_unit, y_unit) result(scaled)
+      type(curve_t), intent(in) :: curve
+      real(wp), intent(in) :: x_unit, y_unit
+      type(curve_t) :: scaled
+      integer :: k
+
+      scaled = curve
+      scaled%breaks = curve%breaks*x_unit
+      do k = 1, 4
+         scaled%coefficients(k, :) = curve%coefficients(k, :)*(y_unit/x_unit**(k - 1))
+      end do
+      scaled%areas = curve%areas*(x_unit*y_unit)
+      scaled%end_value = curve%end_value*y_unit
+      scaled%end_slope = curve%end_slope*(y_unit/x_unit)
+   end function scaled_curve
+
+   !> Value and slope at a place; at a corner of a linear curve the slope is that to the right.
+   pure subroutine look_up_curve(curve, x, value, slope)
+      type(curve_t), intent(in) :: curve
+      real(wp), intent(in) :: x
+      real(wp), intent(out) :: value, slope
+      real(wp) :: t
+      integer :: k, n
+
+      n = size(curve%breaks)
+      t = x - curve%breaks(n)
+      if (t >= 0.0_wp) then
+         value = curve%end_value + curve%end_slope*t
+         slope = curve%end_slope
+         return
+      end if
+      t = x - curve%breaks(1)
+      if (t < 0.0_wp) then
+         slope = curve%coefficients(2, 1)
+         value = curve%coefficients(1, 1) + slope*t
+         return
+      end if
+      k = piece_of(curve%breaks, x)
+      t = x - curve%breaks(k)
+      associate (c => curve%coefficients(:, k))
+         value = c(1) + t*(c(2) + t*(c(3) + t*c(4)))
+         slope = c(2) + t*(2.0_wp*c(3) + t*(3.0_wp*c(4)))
+      end associate
+   end subroutine look_up_curve
+
+   !> ∫ y dx from the first point to x: an energy, up to a constant.
+   pure real(wp) function curve_integral(curve, x) result(area)
+      type(curve_t), intent(in) :: curve
+      real(wp), intent(in) :: x
+      real(wp) :: t
+      integer :: k, n
+
+      n = size(curve%breaks)
+      if (x >= curve%breaks(n)) then
+         t = x - curve%breaks(n)
+         area = curve%areas(n) + t*(curve%end_value + 0.5_wp*curve%end_slope*t)
+      else if (x < curve%breaks(1)) then
+         t = x - curve%breaks(1)
+         area = t*(curve%coefficients(1, 1) + 0.5_wp*curve%coefficients(2, 1)*t)
+      else
+         k = piece_of(curve%breaks, x)
+         area = curve%areas(k) + piece_area(curve%coefficients(:, k), x - curve%breaks(k))
+      end if
+   end function curve_integral
+
+   !> The piece k with x_k ≤ x < x_{k+1}, by bisection; x lies between the first point and the last.
+   pure integer function piece_of(breaks, x) result(low)
+      real(wp), intent(in) :: breaks(:), x
+      integer :: high, middle
+
+      low = 1
+      high = size(breaks)
+      do while (high - low > 1)
+         middle = (low + high)/2
+         if (x < breaks(middle)) then
+            high = middle
+         else
+            low = middle
+         end if
+      end do
+   end function piece_of
+
+   !> ∫ of a piece from its beginning over a length t.
+   pure real(wp) function piece_area(c, t) result(area)
+      real(wp), intent(in) :: c(4), t
+      area = t*(c(1) + t*(c(2)/2 + t*(c(3)/3 + t*(c(4)/4))))
+   end function piece_area
+
+   !> Akima (1970), eqs. 1, 8 and 9: d = (|m4 − m3| m2 + |m2 − m1| m3)/(|m4 − m3| + |m2 − m1|), m1 … m4 the two chords
+   !> on either side; where both differences vanish, the mean of m2 and m3. Two chords more are made up beyond each end.
+   pure function akima_slopes(chord) result(slope)
+      real(wp), intent(in) :: chord(:)
+      real(wp) :: slope(size(chord) + 1), m(-1:size(chord) + 2), before, after, least
+      integer :: k, n
+
+      n = size(chord)
+      m(1:n) = chord
+      ! a parabola through the last three points, continued; with two points the line
+      m(0) = 2.0_wp*m(1) - m(min(2, n))
+      m(-1) = 2.0_wp*m(0) - m(1)
+      m(n + 1) = 2.0_wp*m(n) - m(max(n - 1, 1))
+      m(n + 2) = 2.0_wp*m(n + 1) - m(n)
+      least = 1.0e-9_wp*maxval(abs(m))     ! chords that differ by rounding are alike
+      do k = 1, n + 1
+         before = abs(m(k - 1) - m(k - 2))
+         after = abs(m(k + 1) - m(k))
+         if (before + after > least) then
+            slope(k) = (after*m(k - 1) + before*m(k))/(before + after)
+         else
+            slope(k) = 0.5_wp*(m(k - 1) + m(k))
+         end if
+      end do
+   end function akima_slopes
+
+   !> Slopes of the natural cubic spline: continuous curvature, none at the ends.
+   !>
+   !>     d_{k−1}/h_{k−1} + 2 d_k (1/h_{k−1} + 1/h_k) + d_{k+1}/h_k = 3 (m_{k−1}/h_{k−1} + m_k/h_k)
+   !>
+   !> and 2 d_1 + d_2 = 3 m_1 at the first point, alike at the last; tridiagonal, solved without pivoting as the
+   !> diagonal dominates.
+   pure function natural_slopes(x, chord) result(slope)
+      real(wp), intent(in) :: x(:), chord(:)
+      real(wp) :: slope(size(x)), diagonal(size(x)), inverse(size(chord)), factor
+      integer :: k, n
+
+      n = size(x)
+      inverse = 1.0_wp/(x(2:) - x(:n - 1))
+      diagonal(1) = 2.0_wp*inverse(1)
+      slope(1) = 3.0_wp*chord(1)*inverse(1)
+      do k = 2, n
+         factor = inverse(k - 1)/diagonal(k - 1)
+         diagonal(k) = 2.0_wp*inverse(k - 1) - factor*inverse(k - 1)
+         slope(k) = 3.0_wp*chord(k - 1)*inverse(k - 1) - factor*slope(k - 1)
+         if (k == n) exit
+         diagonal(k) = diagonal(k) + 2.0_wp*inverse(k)
+         slope(k) = slope(k) + 3.0_wp*chord(k)*inverse(k)
+      end do
+      slope(n) = slope(n)/diagonal(n)
+      do k = n - 1, 1, -1
+         slope(k) = (slope(k) - inverse(k)*slope(k + 1))/diagonal(k)
+      end do
+   end function natural_slopes
+
+end module ek_curve
