@@ -3,6 +3,7 @@ module ek_run_words
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
+   use ek_spring, only: axial_spring
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
@@ -53,6 +54,7 @@ contains
 
       if (suspension%balance == 'none') return
       do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%kind /= axial_spring) cycle
          call say(arguments%quiet, 'balance: preload of spring '//quoted(suspension%springs(k)%name)//' = '// &
             str(suspension%springs(k)%preload, 9)//' N (compression)')
       end do
@@ -144,7 +146,7 @@ contains
          if (k > size(case%courses)) return
       end if
       advice = '; are the rates, and their units, as meant?'
-      if (size(suspension%springs) == 0) advice = '; the deck has no spring'
+      if (.not. any(suspension%springs%kind == axial_spring)) advice = '; the deck has no spring'
       ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
       state = design_state(suspension)
       do n = 1, 2

@@ -7,6 +7,7 @@ module ek_draft
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_units, only: units_t
+   use ek_curve, only: curve_t
    use ek_rotation, only: unit_vector
    use ek_record, only: complaints_t, place_t, entry_index, is_given, place_of, line_words, own_name, single, left_twin
    use ek_group, only: group_names, record_head, did_you_mean, point_group, body_group, word_length
@@ -33,6 +34,7 @@ module ek_draft
       logical :: is_iso = .false.
       type(complaints_t) :: complaints
       type(card_t), allocatable :: cards(:)    !! one per record of the deck
+      type(curve_t), allocatable :: curves(:)  !! those of &curve, numbers as in the deck
    end type draft_t
 
 contains

@@ -9,6 +9,7 @@ module ek_group
    public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
+   public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group
    public :: most_values, most_loads
    public :: word_length, note_length, most_measures, largest_exponent
    public :: word, prose, number, whole, switch
@@ -16,9 +17,11 @@ module ek_group
    ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
-      study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15
-   character(*), parameter :: group_names(15) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
-      'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror']
+      study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
+      curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21
+   character(*), parameter :: group_names(21) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
+      'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
+      'stop', 'torsion', 'axle', 'steering']
 
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others are a deck's
 
@@ -32,7 +35,7 @@ module ek_group
    integer, parameter :: word_length = 63      !! the longest name
    integer, parameter :: note_length = 2000    !! the longest title or note
    integer, parameter :: most_measures = 8     !! of one coupler
-   integer, parameter :: most_values = 200     !! of one factor, step sizes of one study, names in shared
+   integer, parameter :: most_values = 200     !! of one factor, step sizes of one study, points of a curve, names in shared
    integer, parameter :: most_loads = 12       !! scaled together by one case
    integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
 
@@ -96,9 +99,38 @@ module ek_group
       key_t(spring_group, 'note', prose, 1, 1, .false.), &
       key_t(spring_group, 'bodies', word, 2, 2, .true.), &
       key_t(spring_group, 'at', word, 2, 2, .true.), &
-      key_t(spring_group, 'rate', number, 1, 1, .true.), &
+      key_t(spring_group, 'rate', number, 1, 1, .false.), &
+      key_t(spring_group, 'curve', word, 1, 1, .false.), &
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
       key_t(spring_group, 'free_length', number, 1, 1, .false.), &
+      key_t(curve_group, 'name', word, 1, 1, .true.), &
+      key_t(curve_group, 'note', prose, 1, 1, .false.), &
+      key_t(curve_group, 'x', number, 2, most_values, .true.), &
+      key_t(curve_group, 'y', number, 2, most_values, .true.), &
+      key_t(curve_group, 'kind', word, 1, 1, .false.), &
+      key_t(damper_group, 'name', word, 1, 1, .true.), &
+      key_t(damper_group, 'note', prose, 1, 1, .false.), &
+      key_t(damper_group, 'bodies', word, 2, 2, .true.), &
+      key_t(damper_group, 'at', word, 2, 2, .true.), &
+      key_t(damper_group, 'gas_force', number, 1, 1, .false.), &
+      key_t(damper_group, 'gas_rate', number, 1, 1, .false.), &
+      key_t(stop_group, 'name', word, 1, 1, .true.), &
+      key_t(stop_group, 'note', prose, 1, 1, .false.), &
+      key_t(stop_group, 'type', word, 1, 1, .true.), &
+      key_t(stop_group, 'bodies', word, 2, 2, .true.), &
+      key_t(stop_group, 'at', word, 2, 2, .true.), &
+      key_t(stop_group, 'clearance', number, 1, 1, .true.), &
+      key_t(stop_group, 'rate', number, 1, 1, .false.), &
+      key_t(stop_group, 'curve', word, 1, 1, .false.), &
+      key_t(stop_group, 'rounding', number, 1, 1, .false.), &
+      key_t(torsion_group, 'name', word, 1, 1, .true.), &
+      key_t(torsion_group, 'note', prose, 1, 1, .false.), &
+      key_t(torsion_group, 'bodies', word, 2, 2, .true.), &
+      key_t(torsion_group, 'axis', word, 2, 2, .false.), &
+      key_t(torsion_group, 'axis_vector', number, 3, 3, .false.), &
+      key_t(torsion_group, 'rate', number, 1, 1, .false.), &
+      key_t(torsion_group, 'curve', word, 1, 1, .false.), &
+      key_t(torsion_group, 'preload', number, 1, 1, .false.), &
       key_t(wheel_group, 'name', word, 1, 1, .true.), &
       key_t(wheel_group, 'note', prose, 1, 1, .false.), &
       key_t(wheel_group, 'body', word, 1, 1, .true.), &

@@ -9,13 +9,15 @@ module ek_reader
    use ek_units, only: new_units
    use ek_record, only: place_t, element, place_of, place_in, own_name, single
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, &
-      bushing_group, spring_group, word_length, note_length, record_head, did_you_mean
+      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, &
+      word_length, note_length, record_head, did_you_mean
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice
    use ek_reader_joints, only: read_measures, read_joints
-   use ek_reader_elements, only: read_bushings, read_springs, read_loads
+   use ek_reader_curves, only: read_curves
+   use ek_reader_springs, only: read_springs, read_dampers, read_stops, read_torsions
+   use ek_reader_elements, only: read_bushings, read_loads
    use ek_reader_wheels, only: read_wheels
    use ek_reader_cases, only: read_cases
    use ek_suspension, only: suspension_t
@@ -66,11 +68,15 @@ contains
       end do
       call read_model(deck, draft, suspension)
       call read_points(deck, draft)
+      call read_curves(deck, draft)
       call read_bodies(deck, draft, suspension)
       call read_measures(deck, draft, suspension)
       call read_joints(deck, draft, suspension)
       call read_bushings(deck, draft, suspension)
       call read_springs(deck, draft, suspension)
+      call read_dampers(deck, draft, suspension)
+      call read_stops(deck, draft, suspension)
+      call read_torsions(deck, draft, suspension)
       call read_wheels(deck, draft, suspension)
       call read_loads(deck, draft, suspension)
       call read_cases(deck, draft, cases)
@@ -139,7 +145,7 @@ contains
             else if (has_results(card%group) .and. has_results(draft%cards(j)%group)) then
                call complain(draft, deck, k, 'name', 'the name is already that of the '// &
                   trim(group_names(draft%cards(j)%group))//' in '//line_of(deck, j, k)//doubling(j)// &
-                  ' (joints, bushings, springs and measures share their columns)')
+                  ' (joints, measures and elastic elements share their columns)')
                exit
             end if
          end do
@@ -163,7 +169,8 @@ contains
    !> Whether things of a group have columns in the results.
    pure logical function has_results(group)
       integer, intent(in) :: group
-      has_results = any(group == [joint_group, bushing_group, spring_group, measure_group])
+      has_results = any(group == [joint_group, measure_group, bushing_group, spring_group, damper_group, stop_group, &
+         torsion_group])
    end function has_results
 
    !> &model: names, units, axes.

@@ -1,18 +1,19 @@
-!> &bushing, &spring and &load: what carries and brings force.
+!> &bushing and &load.
 module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: cross, perpendicular, unit_vector
    use ek_elastic, only: bushing_t
    use ek_suspension, only: suspension_t, load_t
-   use ek_builder, only: add_bushing, add_spring, add_load
-   use ek_group, only: bushing_group, spring_group, load_group, word_length
+   use ek_builder, only: add_bushing, add_load
+   use ek_group, only: bushing_group, load_group, word_length
    use ek_deck, only: deck_t
+   use ek_reader_curves, only: check_rate
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_body, find_bodies, &
       find_direction, to_internal, angle_between
    implicit none(type, external)
    private
-   public :: read_bushings, read_springs, read_loads
+   public :: read_bushings, read_loads
 
    real(wp), parameter :: least_angle = 0.01_wp   !! deg between x and z, below which x has no direction of its own
 
@@ -110,56 +111,6 @@ contains
       axes(:, 3) = z
    end subroutine find_axes
 
-   !> &spring.
-   subroutine read_springs(deck, draft, suspension)
-      type(deck_t), intent(in) :: deck
-      type(draft_t), intent(inout) :: draft
-      type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, bodies(2), at(2)
-      real(wp) :: rate, preload, free_length
-      namelist /spring/ name, bodies, at, rate, preload, free_length
-      real(wp) :: ends(3, 2)
-      logical :: has_bodies, is_there(2)
-      integer :: k, j, number(2), status
-
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= spring_group) cycle
-         name = ''
-         bodies = ''
-         at = ''
-         rate = 0.0_wp
-         preload = 0.0_wp
-         free_length = 1.0_wp
-         read (draft%cards(k)%text, nml=spring, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-
-         call find_bodies(draft, deck, k, bodies, number, has_bodies)
-         do j = 1, 2
-            call find_point(draft, deck, k, 'at', trim(at(j)), ends(:, j), is_there(j))
-         end do
-         if (all(is_there)) then
-            if (.not. norm2(ends(:, 2) - ends(:, 1)) > 0.0_wp) &
-               call complain(draft, deck, k, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
-         end if
-         call check_rate(draft, deck, k, 'rate', '', rate)
-         if (.not. free_length > 0.0_wp) &
-            call complain(draft, deck, k, 'free_length', 'free_length must be above 0, found '//str(free_length))
-         if (has_key(deck, k, 'preload') .and. has_key(deck, k, 'free_length')) &
-            call complain(draft, deck, k, 'free_length', 'give either preload or free_length, not both')
-         if (.not. draft%cards(k)%is_good) cycle
-
-         associate (units => draft%units)
-            if (has_key(deck, k, 'free_length')) then
-               call add_spring(suspension, trim(name), where_of(deck, k), number(1), number(2), ends(:, 1), ends(:, 2), &
-                  rate*(units%force/units%length), free_length=free_length*units%length)
-            else
-               call add_spring(suspension, trim(name), where_of(deck, k), number(1), number(2), ends(:, 1), ends(:, 2), &
-                  rate*(units%force/units%length), preload=preload*units%force)
-            end if
-         end associate
-      end do
-   end subroutine read_springs
-
    !> &load: force and moment in global axes.
    subroutine read_loads(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
@@ -205,15 +156,5 @@ contains
          call add_load(suspension, element)
       end do
    end subroutine read_loads
-
-   !> A rate is never negative.
-   subroutine check_rate(draft, deck, k, key, element, rate)
-      type(draft_t), intent(inout) :: draft
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
-      character(*), intent(in) :: key, element
-      real(wp), intent(in) :: rate
-      if (rate < 0.0_wp) call complain(draft, deck, k, key, key//element//' must be 0 or more, found '//str(rate))
-   end subroutine check_rate
 
 end module ek_reader_elements

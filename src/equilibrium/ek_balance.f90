@@ -2,13 +2,14 @@
 !>
 !> `spring`: the spring preloads with which the wheels settle at their design height.
 !> `all`: spring and bushing preloads with which every body stays exactly at design; among all that do,
-!> the bushing preloads of least complementary energy Σ f²/2k.
+!> the bushing preloads of least complementary energy Σ f²/2k. Dampers, stops and torsion springs keep theirs.
 module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model, exit_convergence
    use ek_text, only: str
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
+   use ek_spring, only: axial_spring
    use ek_elastic, only: set_bushing_axes
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
@@ -46,10 +47,10 @@ contains
       type(failure_t) :: failure
       type(view_t) :: view
       real(wp) :: height(size(suspension%wheels)), slope(size(suspension%wheels), size(suspension%springs))
-      real(wp) :: change(size(suspension%springs))
+      real(wp) :: change(size(suspension%springs))     ! of springs; 0 of the other elements
       integer :: s, w, iteration, at
 
-      if (size(suspension%springs) == 0 .or. size(suspension%wheels) == 0) then
+      if (.not. any(suspension%springs%kind == axial_spring) .or. size(suspension%wheels) == 0) then
          call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
          return
       end if
@@ -71,7 +72,9 @@ contains
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
          call assemble(suspension, state, demand_t(), whole_tangent, kkt)
          call factorise(kkt)
+         slope = 0.0_wp
          do s = 1, size(change)
+            if (suspension%springs(s)%kind /= axial_spring) cycle
             associate (m => suspension%springs(s)%measure)
                call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
                kkt%rhs = 0.0_wp     ! a unit of preload pushes the ends apart
@@ -110,7 +113,7 @@ contains
       integer :: b, k, s, at, t, nx, ny
 
       do s = 1, size(suspension%springs)
-         suspension%springs(s)%preload = 0.0_wp
+         if (suspension%springs(s)%kind == axial_spring) suspension%springs(s)%preload = 0.0_wp
       end do
       do b = 1, size(suspension%bushings)
          suspension%bushings(b)%preload_force = 0.0_wp
@@ -134,6 +137,7 @@ contains
          end do
       end do
       do s = 1, size(suspension%springs)
+         if (suspension%springs(s)%kind /= axial_spring) cycle
          associate (m => suspension%springs(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)
@@ -168,7 +172,7 @@ contains
          return
       end if
       do s = 1, size(suspension%springs)
-         suspension%springs(s)%preload = y(s)
+         if (suspension%springs(s)%kind == axial_spring) suspension%springs(s)%preload = y(s)
       end do
       do b = 1, size(suspension%bushings)
          suspension%bushings(b)%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)

@@ -13,8 +13,8 @@ module ek_kkt
    use ek_measure, only: view_t, look, add_measure_hessian, axis_axis, rotation
    use ek_turn, only: pose_t
    use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated
-   use ek_elastic, only: bushing_view_t, spring_tension, add_spring_tangent, look_bushing, bushing_pull, &
-      add_bushing_tangent, add_bushing_material
+   use ek_spring, only: axial_spring, spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
+   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
    use ek_rotation, only: cross, skew
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
@@ -77,11 +77,11 @@ contains
    end function new_kkt
 
    !> The size of the mechanism (mean distance of its attachment points from the reference points)
-   !> and the geometric mean of its stiffnesses.
+   !> and the geometric mean of its stiffnesses at design.
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length, stiffness
-      real(wp) :: sum_log, least
+      real(wp) :: sum_log, least, tension, slope
       integer :: k, count, axis
 
       least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
@@ -104,8 +104,10 @@ contains
       sum_log = 0.0_wp
       count = 0
       do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%rate <= 0.0_wp) cycle
-         sum_log = sum_log + log(suspension%springs(k)%rate)
+         if (suspension%springs(k)%kind /= axial_spring) cycle     ! gas and stops hold no wheel at design
+         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
+         if (slope <= 0.0_wp) cycle
+         sum_log = sum_log + log(slope)
          count = count + 1
       end do
       do k = 1, size(suspension%bushings)
@@ -218,7 +220,10 @@ contains
             call look(spring%measure, poses(i), poses(j), view)
             call spring_tension(spring, view%value, tension, slope)
             call push(-tension*view%gradient, at_i, at_j, rhs)
-            if (mode == whole_tangent) then
+            if (spring%measure%kind == rotation) then
+               if (mode == whole_tangent) call add_torsion_tangent(view, tension, slope, at_i, at_j, n, matrix)
+               if (mode == material_only) call add_torsion_material(view, slope, at_i, at_j, n, matrix)
+            else if (mode == whole_tangent) then
                call add_spring_tangent(view, tension, slope, at_i, at_j, n, matrix)
             else if (mode == material_only) then
                call add_link_stiffness(slope*reshape([view%u(1)*view%u, view%u(2)*view%u, view%u(3)*view%u], [3, 3]), &

@@ -8,7 +8,9 @@ module ek_sweep_table
    use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_joint, only: joint_t
-   use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
+   use ek_law, only: deflection
+   use ek_spring, only: spring_tension, stop_spring, torsion_spring
+   use ek_elastic, only: bushing_view_t, look_bushing
    use ek_suspension, only: suspension_t, driver_row
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
@@ -160,8 +162,17 @@ contains
          call add(prefix//'spindle_offset_mm')
       end do
       do k = 1, size(suspension%springs)
-         call add(suspension%springs(k)%name//'_length_mm')
-         call add(suspension%springs(k)%name//'_force_n')
+         select case (suspension%springs(k)%kind)
+         case (stop_spring)
+            call add(suspension%springs(k)%name//'_gap_mm')
+            call add(suspension%springs(k)%name//'_force_n')
+         case (torsion_spring)
+            call add(suspension%springs(k)%name//'_angle_deg')
+            call add(suspension%springs(k)%name//'_moment_nm')
+         case default
+            call add(suspension%springs(k)%name//'_length_mm')
+            call add(suspension%springs(k)%name//'_force_n')
+         end select
       end do
       do k = 1, size(suspension%readouts)
          select case (suspension%readouts(k)%measure%kind)
@@ -262,7 +273,14 @@ contains
             length = measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
                state%poses(spring%measure%body_j + 1))
             call spring_tension(spring, length, tension, slope)
-            row(at + 1) = length/millimetre
+            select case (spring%kind)
+            case (stop_spring)
+               row(at + 1) = -deflection(spring%law, length)/millimetre
+            case (torsion_spring)
+               row(at + 1) = length/degree
+            case default
+               row(at + 1) = length/millimetre
+            end select
             row(at + 2) = -tension
             at = at + 2
          end associate

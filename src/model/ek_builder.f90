@@ -3,13 +3,14 @@
 module ek_builder
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
-   use ek_measure, only: measure_t, measure_value, distance, axis_axis, rotation, global_gap
+   use ek_measure, only: measure_t, measure_value, axis_axis, rotation, global_gap
    use ek_joint, only: joint_t, row_t, term_t, joint_geometry_t, joint_terms, max_terms
-   use ek_elastic, only: spring_t, bushing_t, set_bushing_axes
+   use ek_spring, only: spring_t, new_spring
+   use ek_elastic, only: bushing_t, set_bushing_axes
    use ek_suspension, only: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, design_poses
    implicit none(type, external)
    private
-   public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_bushing
+   public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_element, add_bushing
    public :: add_travel_driver, add_height_driver, add_load, add_wheel, add_readout, complete
 
 contains
@@ -168,18 +169,18 @@ contains
       real(wp), intent(in) :: rate                        !! N/m
       real(wp), intent(in), optional :: preload           !! N, compression at design
       real(wp), intent(in), optional :: free_length       !! m
-      type(spring_t) :: spring
 
-      spring%name = name
-      spring%where = where
-      spring%measure = measure_t(kind=distance, body_i=body_i, body_j=body_j, arm_i=point_i, arm_j=point_j)
-      spring%rate = rate
-      spring%design_length = norm2(point_j - point_i)
-      if (present(preload)) spring%preload = preload
-      if (present(free_length)) spring%preload = rate*(free_length - spring%design_length)
-      if (.not. allocated(self%springs)) allocate (self%springs(0))
-      self%springs = [self%springs, spring]
+      call add_element(self, new_spring(name, where, body_i, body_j, point_i, point_j, rate, preload, free_length))
    end subroutine add_spring
+
+   !> Any element of one measure: new_spring, new_damper, new_stop or new_torsion of ek_spring.
+   pure subroutine add_element(self, element)
+      type(suspension_t), intent(inout) :: self
+      type(spring_t), intent(in) :: element
+
+      if (.not. allocated(self%springs)) allocate (self%springs(0))
+      self%springs = [self%springs, element]
+   end subroutine add_element
 
    !> A bushing: everything set by the caller but the derived parts; arms as design points.
    pure subroutine add_bushing(self, bushing)
@@ -233,7 +234,7 @@ contains
          call subtract_origins(self, self%readouts(k)%measure)
       end do
       do k = 1, size(self%springs)
-         call subtract_origins(self, self%springs(k)%measure)
+         if (self%springs(k)%measure%kind /= rotation) call subtract_origins(self, self%springs(k)%measure)
       end do
       do k = 1, size(self%joints)
          self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
@@ -293,7 +294,7 @@ contains
          call include_measure(self%terms(t)%measure)
       end do
       do k = 1, size(self%springs)
-         call include_measure(self%springs(k)%measure)
+         if (self%springs(k)%measure%kind /= rotation) call include_measure(self%springs(k)%measure)
       end do
       do k = 1, size(self%bushings)
          call include_point(self%bushings(k)%body_i, self%bushings(k)%arm_i)

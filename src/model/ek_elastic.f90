@@ -1,30 +1,21 @@
 !> Elastic elements: measures with a law, each with an energy, so that all forces balance.
 !>
-!> Spring:  T(L) = rate (L − L_design) − preload, a tension along the distance of two points.
+!> Springs: one measure, a distance or a rotation (ek_spring); named here too.
 !> Bushing: V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ, d the gap from marker I to marker J and θ the
 !>          relative rotation vector, both in the axes of marker I (fixed in body i).
 !>
 !> "Pull" below means the gradient of the energy, dV/dz: the force ON the bodies is minus that.
 module ek_elastic
    use ek_kinds, only: wp
-   use ek_measure, only: measure_t, view_t, look
+   use ek_spring, only: spring_t, spring_tension, add_spring_tangent
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
-   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, s_matrix, rotated
+   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
    public :: spring_t, bushing_t, bushing_view_t
    public :: spring_tension, add_spring_tangent, set_bushing_axes
    public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
-
-   !> An axial spring.
-   type :: spring_t
-      character(:), allocatable :: name, where
-      type(measure_t) :: measure            !! its length, a distance
-      real(wp) :: rate = 0.0_wp             !! N/m
-      real(wp) :: design_length = 0.0_wp    !! m
-      real(wp) :: preload = 0.0_wp          !! compression at design [N]
-   end type spring_t
 
    !> A six-axis linear bushing from marker I on body i to marker J on body j. The markers are parallel
    !> at design; where two points are given they may lie apart, and the design gap is free of force.
@@ -54,37 +45,6 @@ module ek_elastic
    end type bushing_view_t
 
 contains
-
-   !> Tension at a length, and its slope dT/dL.
-   pure subroutine spring_tension(spring, length, tension, slope)
-      type(spring_t), intent(in) :: spring
-      real(wp), intent(in) :: length    !! m
-      real(wp), intent(out) :: tension  !! N, pulling the ends together
-      real(wp), intent(out) :: slope    !! N/m
-
-      tension = spring%rate*(length - spring%design_length) - spring%preload
-      slope = spring%rate
-   end subroutine spring_tension
-
-   !> Adds Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and the arm terms of the distance's Hessian.
-   pure subroutine add_spring_tangent(view, tension, slope, at_i, at_j, ld, matrix)
-      type(view_t), intent(in) :: view       !! of the spring's measure
-      real(wp), intent(in) :: tension, slope
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: m(3, 3), pull(3), across
-      integer :: k
-
-      across = tension/view%value
-      do k = 1, 3
-         m(:, k) = ((slope - across)*view%u(k))*view%u
-         m(k, k) = m(k, k) + across
-      end do
-      call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
-      pull = tension*view%u
-      call add_diagonal_block(-s_matrix(view%a, pull), at_i + 3, at_i, ld, matrix)
-      call add_diagonal_block(s_matrix(view%b, pull), at_j + 3, at_j, ld, matrix)
-   end subroutine add_spring_tangent
 
    !> Brings rates and preloads from marker axes to the axes of body i (A_i = I at design):
    !> K = E diag(k) Eᵀ. To be called after any change of axes, rates or preload.

@@ -1,0 +1,106 @@
+!> &curve, and the rates and curves that elements ask for.
+!>
+!> A curve has no unit of its own: its numbers are what the element that uses it would have, deck units.
+module ek_reader_curves
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower
+   use ek_curve, only: curve_t, new_curve, scaled_curve, curve_kinds
+   use ek_group, only: curve_group, word_length, most_values
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, has_key, choice, look_up
+   implicit none(type, external)
+   private
+   public :: read_curves, find_curve, check_rate, check_either
+
+contains
+
+   !> &curve: points, and what goes between them.
+   subroutine read_curves(deck, draft)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      character(word_length) :: name, kind
+      real(wp) :: x(most_values), y(most_values)
+      namelist /curve/ name, x, y, kind
+      integer :: k, j, c, n, used, status
+
+      allocate (draft%curves(count(draft%cards%group == curve_group)))
+      used = 0
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= curve_group) cycle
+         used = used + 1
+         draft%cards(k)%index = used
+         name = ''
+         kind = 'linear'
+         x = 0.0_wp
+         y = 0.0_wp
+         read (draft%cards(k)%text, nml=curve, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+         call choice(draft, deck, k, 'kind', trim(kind), curve_kinds, c)
+         if (.not. draft%cards(k)%is_good) cycle
+         n = value_count(deck, k, 'x')
+         if (value_count(deck, k, 'y') /= n) then
+            call complain(draft, deck, k, 'y', 'y needs as many values as x, '//str(n)//', found '// &
+               str(value_count(deck, k, 'y')))
+            cycle
+         end if
+         do j = 2, n
+            if (x(j) > x(j - 1)) cycle
+            call complain(draft, deck, k, 'x', 'x must increase, found '//str(x(j))//' after '//str(x(j - 1)))
+            exit
+         end do
+         if (draft%cards(k)%is_good) draft%curves(used) = new_curve(x(:n), y(:n), lower(trim(kind)))
+      end do
+   end subroutine read_curves
+
+   !> How many values of a key there are, however they are written.
+   pure integer function value_count(deck, k, key)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: key
+      integer :: e
+
+      value_count = 0
+      do e = 1, deck%records(k)%used
+         if (deck%records(k)%entries(e)%key == key) value_count = value_count + deck%records(k)%entries(e)%used
+      end do
+   end function value_count
+
+   !> The curve that a key of record k names, in SI; unallocated where there is none, or it was refused.
+   subroutine find_curve(draft, deck, k, key, name, x_unit, y_unit, curve)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: key, name
+      real(wp), intent(in) :: x_unit, y_unit     !! SI per deck unit of the deflection and of the force
+      type(curve_t), allocatable, intent(out) :: curve
+      integer :: found
+
+      call look_up(draft, deck, k, key, curve_group, name, found)
+      if (found == 0) return
+      if (draft%cards(found)%is_good) curve = scaled_curve(draft%curves(draft%cards(found)%index), x_unit, y_unit)
+   end subroutine find_curve
+
+   !> Rate or curve, one of them.
+   subroutine check_either(draft, deck, k)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+
+      if (has_key(deck, k, 'rate') .and. has_key(deck, k, 'curve')) then
+         call complain(draft, deck, k, 'curve', 'give either rate or curve, not both')
+      else if (.not. (has_key(deck, k, 'rate') .or. has_key(deck, k, 'curve'))) then
+         call complain(draft, deck, k, '', "'rate' is missing (and 'curve' as well)")
+      end if
+   end subroutine check_either
+
+   !> A rate is never negative.
+   subroutine check_rate(draft, deck, k, key, element, rate)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: key, element
+      real(wp), intent(in) :: rate
+      if (rate < 0.0_wp) call complain(draft, deck, k, key, key//element//' must be 0 or more, found '//str(rate))
+   end subroutine check_rate
+
+end module ek_reader_curves

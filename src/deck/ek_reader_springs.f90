@@ -1,0 +1,204 @@
+!> &spring, &damper, &stop and &torsion: elastic elements of one measure.
+module ek_reader_springs
+   use ek_kinds, only: wp
+   use ek_text, only: str, quoted
+   use ek_curve, only: curve_t, look_up_curve
+   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion
+   use ek_suspension, only: suspension_t
+   use ek_builder, only: add_element
+   use ek_group, only: spring_group, damper_group, stop_group, torsion_group, word_length
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_bodies, find_direction
+   use ek_reader_curves, only: find_curve, check_rate, check_either
+   implicit none(type, external)
+   private
+   public :: read_springs, read_dampers, read_stops, read_torsions
+
+   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: what the lip of a bump stop gives way
+
+   !> Where an element of two points is.
+   type :: ends_t
+      integer :: body(2) = 0
+      real(wp) :: at(3, 2) = 0.0_wp        !! m, x rearward
+   end type ends_t
+
+contains
+
+   !> &spring.
+   subroutine read_springs(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, bodies(2), at(2), curve
+      real(wp) :: rate, preload, free_length
+      namelist /spring/ name, bodies, at, rate, curve, preload, free_length
+      type(ends_t) :: ends
+      real(wp), allocatable :: free
+      type(curve_t), allocatable :: law      ! where there is none, or it was refused: an absent argument
+      integer :: k, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= spring_group) cycle
+         name = ''
+         bodies = ''
+         at = ''
+         curve = ''
+         rate = 0.0_wp
+         preload = 0.0_wp
+         free_length = 1.0_wp
+         read (draft%cards(k)%text, nml=spring, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call find_ends(draft, deck, k, bodies, at, ends)
+         call check_either(draft, deck, k)
+         call check_rate(draft, deck, k, 'rate', '', rate)
+         call find_curve(draft, deck, k, 'curve', trim(curve), draft%units%length, draft%units%force, law)
+         if (.not. free_length > 0.0_wp) &
+            call complain(draft, deck, k, 'free_length', 'free_length must be above 0, found '//str(free_length))
+         if (has_key(deck, k, 'preload') .and. has_key(deck, k, 'free_length')) &
+            call complain(draft, deck, k, 'free_length', 'give either preload or free_length, not both')
+         if (.not. draft%cards(k)%is_good) cycle
+
+         if (allocated(free)) deallocate (free)
+         if (has_key(deck, k, 'free_length')) free = free_length*draft%units%length
+         call add_element(suspension, new_spring(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
+            ends%at(:, 1), ends%at(:, 2), rate*(draft%units%force/draft%units%length), preload*draft%units%force, free, law))
+      end do
+   end subroutine read_springs
+
+   !> &damper: of a damper, statics know the force of its gas.
+   subroutine read_dampers(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, bodies(2), at(2)
+      real(wp) :: gas_force, gas_rate
+      namelist /damper/ name, bodies, at, gas_force, gas_rate
+      type(ends_t) :: ends
+      integer :: k, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= damper_group) cycle
+         name = ''
+         bodies = ''
+         at = ''
+         gas_force = 0.0_wp
+         gas_rate = 0.0_wp
+         read (draft%cards(k)%text, nml=damper, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call find_ends(draft, deck, k, bodies, at, ends)
+         call check_rate(draft, deck, k, 'gas_force', '', gas_force)
+         call check_rate(draft, deck, k, 'gas_rate', '', gas_rate)
+         if (.not. draft%cards(k)%is_good) cycle
+         call add_element(suspension, new_damper(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
+            ends%at(:, 1), ends%at(:, 2), gas_rate*(draft%units%force/draft%units%length), gas_force*draft%units%force))
+      end do
+   end subroutine read_dampers
+
+   !> &stop.
+   subroutine read_stops(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, type, bodies(2), at(2), curve
+      real(wp) :: clearance, rate, rounding
+      namelist /stop/ name, type, bodies, at, clearance, rate, curve, rounding
+      type(ends_t) :: ends
+      type(curve_t), allocatable :: law
+      real(wp) :: force, slope
+      integer :: k, c, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= stop_group) cycle
+         name = ''
+         type = ''
+         bodies = ''
+         at = ''
+         curve = ''
+         clearance = 0.0_wp
+         rate = 0.0_wp
+         rounding = usual_rounding/draft%units%length
+         read (draft%cards(k)%text, nml=stop, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call choice(draft, deck, k, 'type', trim(type), [character(7) :: 'bump', 'rebound'], c)
+         call find_ends(draft, deck, k, bodies, at, ends)
+         call check_either(draft, deck, k)
+         call check_rate(draft, deck, k, 'rate', '', rate)
+         call check_rate(draft, deck, k, 'clearance', '', clearance)
+         if (.not. rounding > 0.0_wp) &
+            call complain(draft, deck, k, 'rounding', 'rounding must be above 0, found '//str(rounding))
+         call find_curve(draft, deck, k, 'curve', trim(curve), draft%units%length, draft%units%force, law)
+         if (allocated(law)) then
+            call look_up_curve(law, 0.0_wp, force, slope)
+            if (abs(force) > 0.0_wp) call complain(draft, deck, k, 'curve', 'curve '//quoted(curve)// &
+               ' must be 0 at 0, as a stop without contact has no force; found '//str(force/draft%units%force))
+         end if
+         if (.not. draft%cards(k)%is_good) cycle
+
+         associate (unit => draft%units%length)
+            call add_element(suspension, new_stop(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
+               ends%at(:, 1), ends%at(:, 2), c == 1, clearance*unit, rounding*unit, rate*(draft%units%force/unit), law))
+         end associate
+      end do
+   end subroutine read_stops
+
+   !> &torsion: moment/angle about an axis fixed in the first body.
+   subroutine read_torsions(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, bodies(2), axis(2), curve
+      real(wp) :: axis_vector(3), rate, preload, moment_unit, u(3)
+      namelist /torsion/ name, bodies, axis, axis_vector, rate, curve, preload
+      type(curve_t), allocatable :: law
+      logical :: has_bodies, has_axis, is_axis
+      integer :: k, number(2), status
+
+      moment_unit = draft%units%force*draft%units%length
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= torsion_group) cycle
+         name = ''
+         bodies = ''
+         axis = ''
+         curve = ''
+         axis_vector = 0.0_wp
+         rate = 0.0_wp
+         preload = 0.0_wp
+         read (draft%cards(k)%text, nml=torsion, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+
+         call find_bodies(draft, deck, k, bodies, number, has_bodies)
+         call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, u, has_axis, is_axis)
+         if (.not. has_axis) call complain(draft, deck, k, '', "'axis' or 'axis_vector' is missing")
+         call check_either(draft, deck, k)
+         call check_rate(draft, deck, k, 'rate', '', rate)
+         call find_curve(draft, deck, k, 'curve', trim(curve), draft%units%angle, moment_unit, law)
+         if (.not. draft%cards(k)%is_good) cycle
+
+         call add_element(suspension, new_torsion(trim(name), where_of(deck, k), number(1), number(2), u, &
+            rate*(moment_unit/draft%units%angle), preload*moment_unit, law))
+      end do
+   end subroutine read_torsions
+
+   !> Two bodies and two points apart from each other.
+   subroutine find_ends(draft, deck, k, bodies, at, ends)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: bodies(2), at(2)
+      type(ends_t), intent(out) :: ends
+      logical :: has_bodies, is_there(2)
+      integer :: j
+
+      call find_bodies(draft, deck, k, bodies, ends%body, has_bodies)
+      do j = 1, 2
+         call find_point(draft, deck, k, 'at', trim(at(j)), ends%at(:, j), is_there(j))
+      end do
+      if (.not. all(is_there)) return
+      if (.not. norm2(ends%at(:, 2) - ends%at(:, 1)) > 0.0_wp) &
+         call complain(draft, deck, k, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+   end subroutine find_ends
+
+end module ek_reader_springs

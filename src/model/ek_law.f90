@@ -1,0 +1,65 @@
+!> The law of one scalar measure that is not simply rate × deflection: along a curve, one-sided, reflected.
+!>
+!>     force = s y(p),   p = e or its one-sided part,   e = s (value − reference)
+!>
+!> s = ±1 reflects the law through the origin: s = −1 with the length of a spring as value makes e its compression.
+!> y is rate × p or a curve of p. One-sided, rounded over r so that the force has no corner at contact (C1):
+!>
+!>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
+module ek_law
+   use ek_kinds, only: wp
+   use ek_curve, only: curve_t, look_up_curve
+   implicit none(type, external)
+   private
+   public :: law_t, look_up_law, deflection
+
+   !> Units by the measure: m and N, or rad and N m.
+   type :: law_t
+      real(wp) :: sign = 1.0_wp             !! s
+      real(wp) :: reference = 0.0_wp        !! value at which e = 0
+      real(wp) :: rate = 0.0_wp             !! without a curve
+      logical :: has_curve = .false.
+      logical :: is_one_sided = .false.
+      real(wp) :: rounding = 0.0_wp         !! r of a one-sided law, above 0
+      type(curve_t) :: curve
+   end type law_t
+
+contains
+
+   !> Force, the derivative of the energy, at a value of the measure; and its slope.
+   pure subroutine look_up_law(law, value, force, slope)
+      type(law_t), intent(in) :: law
+      real(wp), intent(in) :: value
+      real(wp), intent(out) :: force, slope
+      real(wp) :: p, share, y
+
+      p = law%sign*(value - law%reference)
+      share = 1.0_wp                       ! dp/de
+      if (law%is_one_sided) then
+         if (p <= -0.5_wp*law%rounding) then
+            force = 0.0_wp
+            slope = 0.0_wp
+            return
+         else if (p < 0.5_wp*law%rounding) then
+            share = (p + 0.5_wp*law%rounding)/law%rounding
+            p = 0.5_wp*law%rounding*share**2
+         end if
+      end if
+      if (law%has_curve) then
+         call look_up_curve(law%curve, p, y, slope)
+      else
+         y = law%rate*p
+         slope = law%rate
+      end if
+      force = law%sign*y
+      slope = slope*share
+   end subroutine look_up_law
+
+   !> e: compression of a spring, penetration of a stop (below 0: its gap).
+   pure real(wp) function deflection(law, value)
+      type(law_t), intent(in) :: law
+      real(wp), intent(in) :: value
+      deflection = law%sign*(value - law%reference)
+   end function deflection
+
+end module ek_law

@@ -1,0 +1,208 @@
+!> Elastic elements of one measure: springs, dampers, stops along a distance, torsion springs about an axis.
+!>
+!> | kind    | tension T (dV/dvalue)                                                                 |
+!> |---------|---------------------------------------------------------------------------------------|
+!> | spring  | rate (L − L_design) − preload, or −c(compression) − preload with a curve              |
+!> | damper  | gas_rate (L − L_design) − gas_force: statics know nothing else of it                  |
+!> | stop    | −f(e), e = (L_design − clearance) − L (bump); f(e), e = L − (L_design + clearance) (rebound) |
+!> | torsion | rate φ − preload, or c(φ) − preload; φ = m·θ, the rotation about its axis             |
+!>
+!> f is one-sided and rounded (ek_law). The force ON the bodies is −T × gradient of the measure.
+module ek_spring
+   use ek_kinds, only: wp
+   use ek_measure, only: measure_t, view_t, distance, rotation, add_measure_hessian
+   use ek_block, only: add_link_stiffness, add_diagonal_block, add_block, s_matrix, dyad
+   use ek_curve, only: curve_t
+   use ek_law, only: law_t, look_up_law
+   implicit none(type, external)
+   private
+   public :: spring_t, new_spring, new_damper, new_stop, new_torsion
+   public :: axial_spring, damper, stop_spring, torsion_spring
+   public :: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
+
+   integer, parameter :: axial_spring = 1    !! its preload may be found by balance
+   integer, parameter :: damper = 2
+   integer, parameter :: stop_spring = 3
+   integer, parameter :: torsion_spring = 4
+
+   !> An elastic element on one distance or rotation.
+   type :: spring_t
+      character(:), allocatable :: name, where
+      integer :: kind = axial_spring
+      type(measure_t) :: measure            !! its length, or its angle
+      real(wp) :: rate = 0.0_wp             !! N/m, N m/rad; without a law of its own
+      real(wp) :: design_length = 0.0_wp    !! value at design: m; 0 rad of a torsion spring
+      real(wp) :: preload = 0.0_wp          !! compression at design [N], moment on body j about the axis [N m]
+      logical :: has_law = .false.          !! `law` takes the place of rate and design length
+      type(law_t) :: law
+   end type spring_t
+
+contains
+
+   !> A spring between two design points (global; `complete` of the builder makes them arms).
+   !>
+   !> free_length > 0 sets the preload from the design length; of a curve it is where compression counts from.
+   pure function new_spring(name, where, body_i, body_j, point_i, point_j, rate, preload, free_length, curve) result(spring)
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: body_i, body_j
+      real(wp), intent(in) :: point_i(3), point_j(3)      !! m
+      real(wp), intent(in) :: rate                        !! N/m
+      real(wp), intent(in), optional :: preload           !! N, compression at design
+      real(wp), intent(in), optional :: free_length       !! m
+      type(curve_t), intent(in), optional :: curve        !! force over compression [N, m]; instead of the rate
+      type(spring_t) :: spring
+
+      spring = axial(name, where, body_i, body_j, point_i, point_j)
+      spring%rate = rate
+      if (present(preload)) spring%preload = preload
+      if (present(curve)) then
+         spring%rate = 0.0_wp
+         spring%has_law = .true.
+         spring%law%sign = -1.0_wp
+         spring%law%reference = spring%design_length
+         if (present(free_length)) spring%law%reference = free_length
+         spring%law%has_curve = .true.
+         spring%law%curve = curve
+      else if (present(free_length)) then
+         spring%preload = rate*(free_length - spring%design_length)
+      end if
+   end function new_spring
+
+   !> What a damper does at rest: the force of its gas on the rod.
+   pure function new_damper(name, where, body_i, body_j, point_i, point_j, gas_rate, gas_force) result(spring)
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: body_i, body_j
+      real(wp), intent(in) :: point_i(3), point_j(3)      !! m
+      real(wp), intent(in) :: gas_rate                    !! N/m
+      real(wp), intent(in) :: gas_force                   !! N, pushes the ends apart at design
+      type(spring_t) :: spring
+
+      spring = axial(name, where, body_i, body_j, point_i, point_j)
+      spring%kind = damper
+      spring%rate = gas_rate
+      spring%preload = gas_force
+   end function new_damper
+
+   !> A bump or rebound stop: free for `clearance` of shortening or lengthening from design, then rate or curve.
+   pure function new_stop(name, where, body_i, body_j, point_i, point_j, is_bump, clearance, rounding, rate, curve) &
+      result(spring)
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: body_i, body_j
+      real(wp), intent(in) :: point_i(3), point_j(3)      !! m
+      logical, intent(in) :: is_bump                      !! else rebound
+      real(wp), intent(in) :: clearance, rounding         !! m
+      real(wp), intent(in) :: rate                        !! N/m
+      type(curve_t), intent(in), optional :: curve        !! force over penetration [N, m]; instead of the rate
+      type(spring_t) :: spring
+
+      spring = axial(name, where, body_i, body_j, point_i, point_j)
+      spring%kind = stop_spring
+      spring%has_law = .true.
+      spring%law%sign = merge(-1.0_wp, 1.0_wp, is_bump)
+      spring%law%reference = spring%design_length + spring%law%sign*clearance
+      spring%law%is_one_sided = .true.
+      spring%law%rounding = rounding
+      spring%law%rate = rate
+      if (.not. present(curve)) return
+      spring%law%has_curve = .true.
+      spring%law%curve = curve
+   end function new_stop
+
+   !> A torsion spring about an axis fixed in body i, free at design but for its preload.
+   pure function new_torsion(name, where, body_i, body_j, axis, rate, preload, curve) result(spring)
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: body_i, body_j
+      real(wp), intent(in) :: axis(3)                     !! unit, global at design
+      real(wp), intent(in) :: rate                        !! N m/rad
+      real(wp), intent(in) :: preload                     !! N m on body j about the axis at design
+      type(curve_t), intent(in), optional :: curve        !! moment over angle [N m, rad]; instead of the rate
+      type(spring_t) :: spring
+
+      spring%name = name
+      spring%where = where
+      spring%kind = torsion_spring
+      spring%measure = measure_t(kind=rotation, body_i=body_i, body_j=body_j, u=axis)
+      spring%rate = rate
+      spring%preload = preload
+      if (.not. present(curve)) return
+      spring%rate = 0.0_wp
+      spring%has_law = .true.
+      spring%law%has_curve = .true.
+      spring%law%curve = curve
+   end function new_torsion
+
+   pure function axial(name, where, body_i, body_j, point_i, point_j) result(spring)
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: body_i, body_j
+      real(wp), intent(in) :: point_i(3), point_j(3)
+      type(spring_t) :: spring
+
+      spring%name = name
+      spring%where = where
+      spring%measure = measure_t(kind=distance, body_i=body_i, body_j=body_j, arm_i=point_i, arm_j=point_j)
+      spring%design_length = norm2(point_j - point_i)
+   end function axial
+
+   !> Tension at a length, and its slope dT/dL; of a torsion spring its moment at an angle.
+   pure subroutine spring_tension(spring, length, tension, slope)
+      type(spring_t), intent(in) :: spring
+      real(wp), intent(in) :: length    !! m, rad
+      real(wp), intent(out) :: tension  !! N, pulling the ends together; N m, turning the bodies back
+      real(wp), intent(out) :: slope    !! N/m, N m/rad
+
+      if (spring%has_law) then
+         call look_up_law(spring%law, length, tension, slope)
+         tension = tension - spring%preload
+      else
+         tension = spring%rate*(length - spring%design_length) - spring%preload
+         slope = spring%rate
+      end if
+   end subroutine spring_tension
+
+   !> Adds Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and the arm terms of the distance's Hessian.
+   pure subroutine add_spring_tangent(view, tension, slope, at_i, at_j, ld, matrix)
+      type(view_t), intent(in) :: view       !! of the spring's measure
+      real(wp), intent(in) :: tension, slope
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: m(3, 3), pull(3), across
+      integer :: k
+
+      across = tension/view%value
+      do k = 1, 3
+         m(:, k) = ((slope - across)*view%u(k))*view%u
+         m(k, k) = m(k, k) + across
+      end do
+      call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
+      pull = tension*view%u
+      call add_diagonal_block(-s_matrix(view%a, pull), at_i + 3, at_i, ld, matrix)
+      call add_diagonal_block(s_matrix(view%b, pull), at_j + 3, at_j, ld, matrix)
+   end subroutine add_spring_tangent
+
+   !> Adds slope g gᵀ + moment × Hessian of the rotation.
+   pure subroutine add_torsion_tangent(view, moment, slope, at_i, at_j, ld, matrix)
+      type(view_t), intent(in) :: view       !! of the spring's measure
+      real(wp), intent(in) :: moment, slope  !! N m, N m/rad
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+
+      call add_torsion_material(view, slope, at_i, at_j, ld, matrix)
+      call add_measure_hessian(rotation, view, moment, at_i, at_j, ld, matrix)
+   end subroutine add_torsion_tangent
+
+   !> Adds slope g gᵀ alone, g = [0, −v, 0, v].
+   pure subroutine add_torsion_material(view, slope, at_i, at_j, ld, matrix)
+      type(view_t), intent(in) :: view
+      real(wp), intent(in) :: slope
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: k(3, 3), pull(3)
+
+      pull = slope*view%v
+      k = dyad(pull, view%v)
+      call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
+      call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
+      if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
+   end subroutine add_torsion_material
+
+end module ek_spring
