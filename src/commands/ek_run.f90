@@ -126,21 +126,23 @@ contains
       call add_header(table, suspension, case, checksum)
       if (folder == '-') then
          call write_standard_output(csv_text(table), trouble)
-         if (allocated(trouble)) call move_alloc(trouble, error)
-         return
-      end if
-      name = join_path(folder, suspension%name//'_'//case%name//'.csv')
-      call write_csv(table, name, trouble)
-      if (.not. allocated(trouble)) then
-         write (output_unit, '(a)') name
-         if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, trouble)
+      else
+         name = join_path(folder, suspension%name//'_'//case%name//'.csv')
+         call write_csv(table, name, trouble)
+         if (.not. allocated(trouble)) then
+            write (output_unit, '(a)') name
+            if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, trouble)
+         end if
       end if
       if (.not. allocated(trouble) .and. len(case%target) > 0) &
          call aim(arguments, suspension, case, path, table, checksum, folder, kkt, trouble)
-      if (allocated(trouble)) call move_alloc(trouble, error)
+      if (.not. allocated(trouble)) return
+      if (trouble%code == exit_convergence .and. len(words) > 0) trouble%message = words//new_line('a')//trouble%message
+      call move_alloc(trouble, error)
    end subroutine run_case
 
-   !> The place where the target of a case is met: told, and its state written to a file of its own.
+   !> The place where the target of a case is met: told, and its state written to a file of its own (not when the
+   !> results go to standard output). The linear methods, whose states are not equilibria, have none.
    subroutine aim(arguments, suspension, case, path, table, checksum, folder, kkt, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
@@ -153,14 +155,20 @@ contains
       type(target_t) :: found
       character(:), allocatable :: name, words
 
+      if (case%method /= 'equilibrium') then
+         call say(arguments%quiet, 'case '//quoted(case%name)//': the target is looked for with method ''equilibrium'' only')
+         return
+      end if
       call find_target(suspension, case, path, table, kkt, found, error)
       if (allocated(error)) return
-      call add_header(found%table, suspension, case, checksum)
-      call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
-      name = join_path(folder, suspension%name//'_'//case%name//'_target.csv')
-      call write_csv(found%table, name, error)
-      if (allocated(error)) return
-      write (output_unit, '(a)') name
+      if (folder /= '-') then
+         call add_header(found%table, suspension, case, checksum)
+         call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
+         name = join_path(folder, suspension%name//'_'//case%name//'_target.csv')
+         call write_csv(found%table, name, error)
+         if (allocated(error)) return
+         write (output_unit, '(a)') name
+      end if
       words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
          str(found%place/case%unit, 9)//' '//case%unit_name
       if (found%crossings > 1) words = words//' (the nearest to design of '//str(found%crossings)//')'

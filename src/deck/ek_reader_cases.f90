@@ -3,8 +3,10 @@ module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_case, only: case_t, method_names, most_increments
-   use ek_record, only: element
-   use ek_group, only: wheel_group, case_group, load_group, joint_group, word_length, note_length, most_loads, did_you_mean
+   use ek_record, only: element, value_t
+   use ek_namelist, only: value_fault
+   use ek_group, only: wheel_group, case_group, load_group, joint_group, number, word_length, note_length, most_loads, &
+      did_you_mean
    use ek_deck, only: deck_t
    use ek_draft, only: draft_t, complain, where_of, line_of, has_key, choice, look_up, find_card
    implicit none(type, external)
@@ -91,16 +93,21 @@ contains
 
       !> target = 'column=value', the value in the unit of the column.
       subroutine read_target()
-         real(wp) :: value
-         integer :: equals, status
+         type(value_t) :: value
+         integer :: equals
 
          cases(used)%target = trim(words%target)
          if (words%target == '') return
          equals = index(words%target, '=')
-         status = 1
-         if (equals > 1) read (words%target(equals + 1:), *, iostat=status) value
-         if (status /= 0) call complain(draft, deck, k, 'target', &
-            "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target))
+         value%text = trim(adjustl(words%target(equals + 1:)))
+         value%is_empty = value%text == ''
+         if (equals == 0 .or. words%target(:max(equals - 1, 0)) == '' .or. value_fault(value, number) /= '') then
+            call complain(draft, deck, k, 'target', &
+               "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target))
+         else if (words%method /= '' .and. lower(words%method) /= 'equilibrium') then
+            call complain(draft, deck, k, 'target', "target: only method 'equilibrium' can look for one, found "// &
+               quoted(words%method))
+         end if
       end subroutine read_target
 
    end subroutine read_cases
@@ -177,6 +184,10 @@ contains
       end do
       loads = count(words%load /= '')
       do j = 1, loads
+         if (any(words%load(:j - 1) == words%load(j))) then
+            call complain(draft, deck, k, 'load', 'load '//quoted(words%load(j))//' is named twice')
+            exit
+         end if
          call find_load(trim(words%load(j)))
       end do
       this%load = trim(words%load(1))
@@ -237,6 +248,7 @@ contains
       call refuse('file', this%test /= 'table', 'only the test ''table'' has one')
       call refuse('from', this%test == 'table', 'a table says itself where it goes')
       call refuse('to', this%test == 'table', 'a table says itself where it goes')
+      call refuse('increments', this%test == 'table', 'each of its rows is a state')
       call refuse('target', this%test == 'table', 'a table has no path to search')
 
       call count_wheels()
@@ -302,9 +314,11 @@ contains
 
       !> What is steered: the case's own word, else that of &steering, else the only driver.
       subroutine find_steering()
+         character(word_length) :: only
          integer :: j, found
 
          this%drive = trim(words%drive)
+         only = ''
          found = 0
          do j = 1, deck%used
             if (this%drive /= '') exit
@@ -315,10 +329,9 @@ contains
             if (draft%cards(j)%group /= joint_group) cycle
             if (lower(element(deck%records(j), 'type', 1)) /= 'driver') cycle
             found = found + 1
-            if (found == 1) words%name = draft%cards(j)%name
+            if (found == 1) only = draft%cards(j)%name
          end do
-         if (found == 1) this%drive = trim(words%name)
-         words%name = draft%cards(k)%name
+         if (found == 1) this%drive = trim(only)
          if (this%drive == '') then
             call complain(draft, deck, k, 'test', "what is steered? Give drive = '<driver joint>' or a &steering")
          else

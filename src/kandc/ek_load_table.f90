@@ -13,14 +13,14 @@ module ek_load_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: str, quoted, nearest_name
    use ek_units, only: degree, millimetre
    use ek_case, only: case_t, append_course, follows_table
    use ek_measure, only: rotation
    use ek_state, only: most_driven
    use ek_suspension, only: suspension_t, load_t, driver_row
    use ek_builder, only: add_height_driver, add_load
-   use ek_table, only: table_t, name_length, row_count
+   use ek_table, only: table_t, name_length, row_count, column_index
    use ek_csv, only: read_csv
    use ek_wheel_side, only: prefix_of, height_name
    implicit none(type, external)
@@ -44,9 +44,14 @@ contains
       call read_csv(case%file, table, error)
       if (allocated(error)) return
       if (row_count(table) == 0) call fail(error, exit_deck, case%file//': the table has no rows')
-      if (size(table%columns) > most_driven) call fail(error, exit_deck, case%file//': too many columns')
+      if (size(table%columns) > most_driven) call fail(error, exit_deck, case%file//': at most '//str(most_driven)// &
+         ' columns, found '//str(size(table%columns)))
       if (allocated(error)) return
       do k = 1, size(table%columns)
+         if (column_index(table, trim(table%columns(k))) < k) then
+            call fail(error, exit_deck, case%file//': the column '//quoted(table%columns(k))//' is there twice')
+            return
+         end if
          if (.not. all(ieee_is_finite(table%values(k, :)))) then
             call fail(error, exit_deck, case%file//': column '//quoted(table%columns(k))//' holds a value that is not a number')
             return
@@ -69,6 +74,7 @@ contains
          real(wp), intent(in) :: values(:)
          character(:), allocatable :: prefix, stem
          integer :: side, c, row
+         logical :: is_angle
 
          if (name == 'state' .or. name == 'factor') return
          do side = 1, 2
@@ -92,9 +98,10 @@ contains
          if (c > 1) then
             row = driver_row(suspension, name(:c - 1))
             if (row > 0) then
-               if (suspension%terms(suspension%rows(row)%first)%measure%kind == rotation .eqv. name(c:) == '_deg') then
+               is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
+               if (name(c:) == trim(merge('_deg', '_mm ', is_angle))) then
                   call append_course(case%courses, '', name(:c - 1), 1.0_wp, follows_table, &
-                     values*merge(degree, millimetre, name(c:) == '_deg'))
+                     values*merge(degree, millimetre, is_angle))
                   return
                end if
             end if

@@ -1,16 +1,18 @@
 !> The place on a path at which a result has a wanted value: the travel that gives a spring length of 250 mm.
 module ek_target
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_convergence
    use ek_text, only: str, quoted, nearest_name
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_state, only: state_t, demand_t, design_state, pack_state, unpack_state
-   use ek_schedule, only: schedule_t, new_schedule, demand_at
+   use ek_state, only: state_t, design_state, pack_state
+   use ek_schedule, only: schedule_t, new_schedule
    use ek_kkt, only: kkt_t
-   use ek_newton, only: outcome_t, find_equilibrium
+   use ek_predictor, only: predictor_t, new_predictor, remember, forget
+   use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
-   use ek_table, only: table_t, column_index, row_count
+   use ek_table, only: table_t, column_index, column_range, row_count
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
@@ -27,10 +29,11 @@ module ek_target
 
 contains
 
-   !> Looks along a sweep for case%target, 'column=value', and solves for the place between its states.
+   !> Looks along a sweep of method `equilibrium` for case%target, 'column=value', and solves for the place
+   !> between its states.
    !>
-   !> The column may be named without its unit when only one begins so. Errors: exit_deck, no such column;
-   !> exit_convergence, the sweep never has the value.
+   !> The column may be named without its unit when only one begins so. Of several places the one nearest to design
+   !> is taken. Errors: exit_deck, no such column; exit_convergence, the sweep never has the value.
    subroutine find_target(suspension, case, path, table, kkt, found, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -39,15 +42,13 @@ contains
       type(kkt_t), intent(inout) :: kkt
       type(target_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error
-      integer, parameter :: most_steps = 80
-      real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states at hand
-      type(path_t) :: here
-      type(schedule_t) :: schedule
-      real(wp) :: low, high, f_low, f_high, middle, f, span
-      integer :: c, k, row, best, first, step, last_side, status
+      logical :: is_crossing(row_count(table)), is_jump
+      real(wp) :: place(row_count(table)), range(2)
+      character(:), allocatable :: words
+      integer :: c, k, status
 
       k = index(case%target, '=')
-      read (case%target(k + 1:), *, iostat=status) found%wanted
+      read (case%target(k + 1:), *, iostat=status) found%wanted      ! the reader has seen that it is a number
       call find_column(table, trim(adjustl(case%target(:k - 1))), c, error)
       if (allocated(error)) then
          error%message = case%where//': case '//quoted(case%name)//': target: '//error%message
@@ -55,42 +56,99 @@ contains
       end if
       found%column = trim(table%columns(c))
 
-      best = 0
-      do row = 1, row_count(table) - 1
-         first = nint(table%values(1, row)) + 1     ! the states of the path are counted from 1
-         if (.not. (path%is_reached(first) .and. path%is_reached(first + 1))) cycle
-         if ((table%values(c, row) - found%wanted)*(table%values(c, row + 1) - found%wanted) > 0.0_wp) cycle
-         found%crossings = found%crossings + 1
-         if (best > 0) then
-            if (abs(path%value(first)) >= abs(path%value(nint(table%values(1, best)) + 1))) cycle
-         end if
-         best = row
+      call find_crossings(path, table, c, found%wanted, is_crossing, place)
+      do while (any(is_crossing))
+         found%crossings = count(is_crossing)
+         k = minloc(abs(place), dim=1, mask=is_crossing)
+         call close_in(suspension, case, path, table, c, k, kkt, found, is_jump, error)
+         if (allocated(error) .or. .not. is_jump) return
+         is_crossing(k) = .false.
       end do
-      if (best == 0) then
-         call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column//' is never '// &
-            str(found%wanted)//'; over the case it goes from '//str(table%values(c, 1), 6)//' to '// &
-            str(table%values(c, row_count(table)), 6))
-         return
-      end if
+      range = column_range(table, found%column)
+      words = '; it is not a number anywhere'
+      if (ieee_is_finite(range(1))) words = '; over the case it lies between '//str(range(1), 6)//' and '//str(range(2), 6)
+      call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column//' is never '// &
+         str(found%wanted)//words)
+   end subroutine find_target
 
-      first = nint(table%values(1, best)) + 1
+   !> Marks the rows which have the value, or between which and the next it is passed, and tells about where.
+   subroutine find_crossings(path, table, c, wanted, is_crossing, place)
+      type(path_t), intent(in) :: path
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: c                       !! column
+      real(wp), intent(in) :: wanted
+      logical, intent(out) :: is_crossing(:)         !! one a row
+      real(wp), intent(out) :: place(:)              !! where it is one: SI
+      real(wp) :: f, next
+      integer :: row
+
+      is_crossing = .false.
+      place = 0.0_wp
+      do row = 1, row_count(table)
+         if (.not. ieee_is_finite(table%values(c, row))) cycle      ! not reached, or not defined there
+         f = table%values(c, row) - wanted
+         place(row) = path%value(state_of(table, row))
+         is_crossing(row) = abs(f) <= 0.0_wp
+         if (is_crossing(row) .or. row == row_count(table)) cycle
+         if (.not. ieee_is_finite(table%values(c, row + 1))) cycle
+         next = table%values(c, row + 1) - wanted
+         if (abs(next) <= 0.0_wp .or. (f > 0.0_wp .eqv. next > 0.0_wp)) cycle
+         is_crossing(row) = .true.
+         place(row) = place(row) + (path%value(state_of(table, row + 1)) - place(row))*(f/(f - next))
+      end do
+   end subroutine find_crossings
+
+   !> The state of the path in a row of its table.
+   pure integer function state_of(table, row)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: row
+      state_of = nint(table%values(1, row)) + 1     ! the table counts from 0
+   end function state_of
+
+   !> Solves for the place between a row and the next: regula falsi, where an end that stays is given half its
+   !> weight (the Illinois rule).
+   subroutine close_in(suspension, case, path, table, c, row, kkt, found, is_jump, error)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: c, row
+      type(kkt_t), intent(inout) :: kkt
+      type(target_t), intent(inout) :: found
+      logical, intent(out) :: is_jump          !! the value is not passed but jumped over, as at a pole
+      type(error_t), allocatable, intent(out) :: error
+      integer, parameter :: most_steps = 80
+      real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states at hand
+      real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer when the places have met
+      type(path_t) :: here
+      type(schedule_t) :: schedule
+      type(predictor_t) :: predictor
+      real(wp) :: low, high, f_low, f_high, middle, f, span
+      integer :: first, second, step, last_side
+
+      is_jump = .false.
+      first = state_of(table, row)
+      second = min(first + 1, path%states)
       call one_state(path, first, here)
       schedule = new_schedule(suspension, case)
+      predictor = new_predictor(size(here%packed))
       low = path%value(first)
-      high = path%value(first + 1)
-      f_low = table%values(c, best) - found%wanted
-      f_high = table%values(c, best + 1) - found%wanted
-      span = max(abs(f_low), abs(f_high), tiny(1.0_wp))
+      f_low = table%values(c, row) - found%wanted
+      if (abs(f_low) <= 0.0_wp) then
+         call look_at(low)
+         found%place = low
+         return
+      end if
+      high = path%value(second)
+      f_high = table%values(c, row + 1) - found%wanted
+      span = max(abs(f_low), abs(f_high))
       last_side = 0
-      middle = low
-      if (abs(f_low) > abs(f_high)) middle = high
-      f = huge(f)
-      ! regula falsi; an end that stays is given half its weight (the Illinois rule)
       do step = 1, most_steps
-         if (abs(f_high - f_low) > 0.0_wp) middle = high - f_high*(high - low)/(f_high - f_low)
+         middle = high - f_high*(high - low)/(f_high - f_low)
          call look_at(middle)
+         if (allocated(error)) return
          if (abs(f) <= enough*span) exit
-         if (f*f_high > 0.0_wp) then
+         if (f > 0.0_wp .eqv. f_high > 0.0_wp) then
             high = middle
             f_high = f
             if (last_side == 1) f_low = 0.5_wp*f_low
@@ -103,32 +161,40 @@ contains
          end if
          if (abs(high - low) <= 4.0_wp*epsilon(1.0_wp)*max(abs(low), abs(high))) exit
       end do
+      is_jump = abs(f) > jump*span
       found%place = middle
 
    contains
 
-      !> Equilibrium at a place, from the state found last, and its distance to the wanted value.
+      !> Equilibrium at a place, from the nearer state of the sweep, and its distance to the wanted value.
       subroutine look_at(place)
          real(wp), intent(in) :: place
          type(state_t) :: state
-         type(demand_t) :: demand
-         type(outcome_t) :: outcome
+         type(failure_t) :: failure
+         integer :: from
 
+         from = first
+         if (abs(path%value(second) - place) < abs(path%value(first) - place)) from = second
          state = design_state(suspension)
-         call unpack_state(here%packed(:, 1), state)
-         call demand_at(schedule, place, demand)
-         call find_equilibrium(suspension, demand, case%tolerance, state, kkt, outcome)
+         call forget(predictor)
+         call remember(predictor, path%value(from), path%packed(:, from))
+         call reach(suspension, schedule, place, case%tolerance, predictor, state, kkt, here%iterations(1), failure)
          here%value(1) = place
-         here%iterations(1) = outcome%factorisations
-         here%is_reached(1) = outcome%is_converged
-         here%is_stable(1) = outcome%negative == kkt%nc
-         here%pivot_ratio(1) = outcome%pivot_ratio
+         here%is_reached(1) = failure%state == 0
+         here%is_stable(1) = kkt%negative == kkt%nc
+         here%pivot_ratio(1) = kkt%pivot_ratio
          call pack_state(state, here%packed(:, 1))
          call sweep_table(suspension, case, here, kkt, found%table)
-         f = found%table%values(c, 1) - found%wanted
+         f = 0.0_wp
+         if (ieee_is_finite(found%table%values(c, 1))) then
+            f = found%table%values(c, 1) - found%wanted
+         else
+            call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
+               ' cannot be told at '//case%place_name//' = '//str(place/case%unit, 9)//' '//case%unit_name)
+         end if
       end subroutine look_at
 
-   end subroutine find_target
+   end subroutine close_in
 
    !> A path of which only one state is left.
    subroutine one_state(path, k, here)

@@ -12,48 +12,57 @@ contains
 
    !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and
    !> what a rig that holds its height exerts. Weights of bodies are not among them. Where one body carries both
-   !> wheels, a load belongs to the nearer one.
+   !> wheels, a load belongs to the nearer one, and half to each when it is in the middle.
    pure real(wp) function vertical_force(suspension, state, demand, wheel) result(force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
       integer, intent(in) :: wheel
-      real(wp) :: factor, f(3), moment(3), arm(3)
+      real(wp) :: factor, share, f(3), moment(3), arm(3)
       integer :: k, t
 
       force = 0.0_wp
       do k = 1, size(suspension%loads)
          associate (load => suspension%loads(k))
-            if (.not. belongs(load%body, load%arm)) cycle
+            share = share_of(load%body, load%arm)
+            if (.not. share > 0.0_wp) cycle
             factor = 1.0_wp
             if (load%is_case) factor = load_factor(demand, k)
             call wrench(load, state%poses(load%body + 1), f, moment, arm)
-            force = force + factor*f(3)
+            force = force + share*factor*f(3)
          end associate
       end do
       do k = 1, size(suspension%rows)
          if (.not. suspension%joints(suspension%rows(k)%joint)%is_rig) cycle
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
             associate (term => suspension%terms(t))
-               if (belongs(term%measure%body_j, term%measure%arm_j)) &
-                  force = force - state%reaction(k)*term%coefficient*term%measure%u(3)
+               force = force - share_of(term%measure%body_j, term%measure%arm_j)* &
+                  state%reaction(k)*term%coefficient*term%measure%u(3)
             end associate
          end do
       end do
 
    contains
 
-      pure logical function belongs(body, arm)
+      !> How much of what acts at this point of a body goes to the wheel: 1, 0, or a half.
+      pure real(wp) function share_of(body, arm)
          integer, intent(in) :: body
-         real(wp), intent(in) :: arm(3)
+         real(wp), intent(in) :: arm(3)      !! from the reference point, body axes [m]
+         real(wp), parameter :: middle = 1.0e-9_wp      ! m: nearer than that is as near
+         real(wp) :: nearer
          integer :: other
 
-         belongs = body == suspension%wheels(wheel)%body
+         share_of = merge(1.0_wp, 0.0_wp, body == suspension%wheels(wheel)%body)
          do other = 1, size(suspension%wheels)
-            if (.not. belongs .or. other == wheel .or. suspension%wheels(other)%body /= body) cycle
-            belongs = abs(arm(2) - suspension%wheels(wheel)%contact(2)) <= abs(arm(2) - suspension%wheels(other)%contact(2))
+            if (other == wheel .or. suspension%wheels(other)%body /= body .or. .not. share_of > 0.0_wp) cycle
+            nearer = abs(arm(2) - suspension%wheels(other)%contact(2)) - abs(arm(2) - suspension%wheels(wheel)%contact(2))
+            if (abs(nearer) <= middle) then
+               share_of = 0.5_wp
+            else if (nearer < 0.0_wp) then
+               share_of = 0.0_wp
+            end if
          end do
-      end function belongs
+      end function share_of
 
    end function vertical_force
 
