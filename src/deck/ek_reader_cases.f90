@@ -274,7 +274,7 @@ contains
       case ('roll')
          factor = draft%units%angle
          if (max(abs(words%from), abs(words%to))*factor > 0.5_wp) call complain(draft, deck, k, 'to', &
-            'the roll angle must stay within 0.5 rad, found '//str(words%from)//' to '//str(words%to))
+            'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(words%from)//' to '//str(words%to))
       case ('steering')
          call find_steering()
       case ('aligning_torque')
