@@ -3,7 +3,7 @@ module ek_lapack
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesvd, dgeqp3, dgelsd
+   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dgeqp3, dgelsd
 
    interface
       !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
@@ -57,6 +57,17 @@ module ek_lapack
          real(wp), intent(out) :: work(*)
          integer, intent(out) :: info
       end subroutine dsysv
+
+      !> Factor (LU, partial pivoting) and solve a general system.
+      pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         implicit none(type, external)
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dgesv
 
       !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
       pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)

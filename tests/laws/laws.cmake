@@ -4,6 +4,7 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_random.f90
   ${ek_laws_dir}/ek_differences.f90
   ${ek_laws_dir}/ek_example.f90
+  ${ek_laws_dir}/ek_axle.f90
   ${ek_laws_dir}/ek_reading.f90)
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws

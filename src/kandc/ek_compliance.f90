@@ -1,0 +1,248 @@
+!> How wheels and springs give way to small loads, at one equilibrium: the compliance matrix and its kin.
+!>
+!> With the whole tangent K = [T Φqᵀ; Φq 0] of a state, ports P (what is read) and loads B (what is applied), the
+!> response is R = Pᵀ K⁻¹ B. Ports are the six displacements [x y z, rotations about x y z] of every wheel centre in
+!> global axes, then the length of every spring. Loads are the unit loads of the same ports (virtual work: B = P; of
+!> a spring a pair of forces that pushes its ends apart), then a unit of the steering driver. The first
+!> 6 × wheels rows and columns are the compliance matrix C [m/N, rad/N, m/(N m), rad/(N m)], body fixed.
+!>
+!> Rows of Φ that belong to a rig (a jack that holds a wheel's height) are released: their reaction stays on
+!> the wheel as a dead force, with its geometric stiffness λ·Hess(φ), but the row restrains nothing. Its gradient
+!> is cleared and its diagonal set to −1 of the scaled matrix: Δλ = 0, one negative eigenvalue as before.
+!>
+!> A constant moment and a load that turns with its body have no potential: T lacks their skew part N, which changes
+!> no equilibrium but does change its derivative. With g = dV/dπ the moment of everything that has a potential,
+!> the derivative of the residual along a rotation is that of the exponential coordinates less ½ g̃ (from the
+!> product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)), and g is the moment M of the rest:
+!>
+!>     dead moment M:            N_ππ = −½ M̃
+!>     follower, force f, moment m about the reference point, arm included:
+!>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own turning less ½ g̃)
+!>
+!> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
+module ek_compliance
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_measure, only: view_t, look
+   use ek_block, only: rotated
+   use ek_rotation, only: cross, skew, identity3
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t
+   use ek_kkt, only: kkt_t, assemble, factorise, wrench, whole_tangent
+   use ek_lapack, only: dsytrs, dgesv
+   implicit none(type, external)
+   private
+   public :: compliance_t, new_compliance, wheel_compliance
+
+   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is rounding alone
+
+   !> The responses at one state, and the work space for them, allocated once for a model.
+   type :: compliance_t
+      integer :: wheels = 0, springs = 0
+      integer, allocatable :: order(:)          !! wheel of the suspension at each place: left before right
+      logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
+      logical :: has_drive = .false.            !! the last column is that of a unit of the steering driver
+      real(wp), allocatable :: response(:, :)   !! (port, load), see above
+      real(wp), allocatable :: ports(:, :), columns(:, :)   !! (unknown, port), (unknown, load)
+      real(wp), allocatable :: full(:, :)       !! unsymmetric matrix, only where a load asks for it
+      integer, allocatable :: pivots(:)
+   end type compliance_t
+
+contains
+
+   !> Work space for a model: `drives` is whether a steering driver is to be moved.
+   function new_compliance(suspension, drives) result(self)
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: drives
+      type(compliance_t) :: self
+      integer :: n, k, side, ports
+
+      self%wheels = size(suspension%wheels)
+      self%springs = size(suspension%springs)
+      self%has_drive = drives
+      n = suspension%unknowns() + suspension%constraints()
+      ports = 6*self%wheels + self%springs
+      allocate (self%order(self%wheels), source=0)
+      allocate (self%ports(n, ports), self%columns(n, ports + merge(1, 0, drives)), source=0.0_wp)
+      allocate (self%response(ports, ports + merge(1, 0, drives)), source=0.0_wp)
+      n = 0
+      do side = -1, 1, 2
+         do k = 1, self%wheels
+            if (suspension%wheels(k)%side /= side) cycle
+            n = n + 1
+            self%order(n) = k
+         end do
+      end do
+   end function new_compliance
+
+   !> Fills `self%response` at a state of equilibrium under a demand. Costs one factorisation and the solutions.
+   subroutine wheel_compliance(suspension, state, demand, released_rows, steer_row, kkt, self)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand
+      integer, intent(in) :: released_rows(:)     !! rows of Φ that belong to the rig
+      integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
+      type(kkt_t), intent(inout) :: kkt           !! work space
+      type(compliance_t), intent(inout) :: self   !! of new_compliance
+      integer :: j, p, info
+
+      call assemble(suspension, state, demand, whole_tangent, kkt)
+      do j = 1, size(released_rows)
+         call release(released_rows(j), kkt)
+      end do
+      call set_ports(suspension, state, self)
+      p = size(self%ports, 2)
+      self%columns(:, :p) = self%ports
+      if (self%has_drive) then
+         self%columns(:, p + 1) = 0.0_wp
+         self%columns(kkt%nq + steer_row, p + 1) = 1.0_wp
+      end if
+
+      do j = 1, size(self%columns, 2)
+         self%columns(:, j) = self%columns(:, j)*kkt%scale
+      end do
+      if (has_skew_part(suspension, demand)) then
+         call solve_full(suspension, state, demand, kkt, self)
+      else
+         call factorise(kkt)
+         self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+         if (self%is_known) call dsytrs('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
+            kkt%n, info)
+      end if
+      if (.not. self%is_known) then
+         self%response = ieee_value(1.0_wp, ieee_quiet_nan)
+         return
+      end if
+      do j = 1, size(self%columns, 2)
+         self%columns(:, j) = self%columns(:, j)*kkt%scale
+         do p = 1, size(self%ports, 2)
+            self%response(p, j) = dot_product(self%ports(:, p), self%columns(:, j))
+         end do
+      end do
+   end subroutine wheel_compliance
+
+   !> Takes a row of Φ out of an assembled matrix.
+   pure subroutine release(row, kkt)
+      integer, intent(in) :: row
+      type(kkt_t), intent(inout) :: kkt
+      integer :: k
+
+      k = kkt%nq + row
+      kkt%matrix(k, :k - 1) = 0.0_wp
+      kkt%matrix(k + 1:, k) = 0.0_wp
+      kkt%matrix(k, k) = -1.0_wp/kkt%scale(k)**2
+   end subroutine release
+
+   !> The ports as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   pure subroutine set_ports(suspension, state, self)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(compliance_t), intent(inout) :: self
+      type(view_t) :: view
+      real(wp) :: arm(3)
+      integer :: w, k, at, port
+
+      self%ports = 0.0_wp
+      do w = 1, self%wheels
+         associate (wheel => suspension%wheels(self%order(w)))
+            arm = rotated(state%poses(wheel%body + 1)%a, wheel%centre)
+            at = 6*(wheel%body - 1)
+         end associate
+         do k = 1, 3
+            port = 6*(w - 1) + k
+            self%ports(at + k, port) = 1.0_wp
+            self%ports(at + 4:at + 6, port) = cross(arm, identity3(:, k))
+            self%ports(at + 3 + k, port + 3) = 1.0_wp
+         end do
+      end do
+      do k = 1, self%springs
+         associate (m => suspension%springs(k)%measure)
+            port = 6*self%wheels + k
+            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            at = 6*(m%body_i - 1)
+            if (at >= 0) self%ports(at + 1:at + 6, port) = view%gradient(1:6)
+            at = 6*(m%body_j - 1)
+            if (at >= 0) self%ports(at + 1:at + 6, port) = self%ports(at + 1:at + 6, port) + view%gradient(7:12)
+         end associate
+      end do
+   end subroutine set_ports
+
+   !> What load k is scaled by under a demand.
+   pure real(wp) function factor_of(suspension, demand, k) result(factor)
+      type(suspension_t), intent(in) :: suspension
+      type(demand_t), intent(in) :: demand
+      integer, intent(in) :: k
+
+      factor = 1.0_wp
+      if (suspension%loads(k)%is_case) factor = merge(demand%value, 0.0_wp, k == demand%load)
+   end function factor_of
+
+   !> Whether a load that acts has no potential.
+   pure logical function has_skew_part(suspension, demand)
+      type(suspension_t), intent(in) :: suspension
+      type(demand_t), intent(in) :: demand
+      integer :: k
+
+      has_skew_part = .false.
+      do k = 1, size(suspension%loads)
+         if (.not. abs(factor_of(suspension, demand, k)) > 0.0_wp) cycle
+         has_skew_part = has_skew_part .or. suspension%loads(k)%follows .or. any(abs(suspension%loads(k)%moment) > 0.0_wp)
+      end do
+   end function has_skew_part
+
+   !> Solves with T + N, scaled like T; the columns come scaled and stay so.
+   subroutine solve_full(suspension, state, demand, kkt, self)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand
+      type(kkt_t), intent(in) :: kkt
+      type(compliance_t), intent(inout) :: self
+      real(wp) :: force(3), moment(3), arm(3), factor, least, most
+      integer :: i, j, k, at, info
+
+      if (.not. allocated(self%full)) then
+         allocate (self%full(kkt%n, kkt%n), source=0.0_wp)
+         allocate (self%pivots(kkt%n), source=0)
+      end if
+      do j = 1, kkt%n
+         self%full(j:, j) = kkt%matrix(j:, j)
+         self%full(j, j + 1:) = kkt%matrix(j + 1:, j)
+      end do
+      do k = 1, size(suspension%loads)
+         factor = factor_of(suspension, demand, k)
+         associate (load => suspension%loads(k))
+            at = 6*(load%body - 1)
+            if (load%follows) then
+               call wrench(load, state%poses(load%body + 1), force, moment, arm)
+               call add(at, at + 3, 0.5_wp*factor*force)
+               call add(at + 3, at, 0.5_wp*factor*force)
+               call add(at + 3, at + 3, 0.5_wp*factor*moment)
+            else
+               call add(at + 3, at + 3, -0.5_wp*factor*load%moment)
+            end if
+         end associate
+      end do
+      do j = 1, kkt%n
+         self%full(:, j) = self%full(:, j)*(kkt%scale*kkt%scale(j))
+      end do
+      call dgesv(kkt%n, size(self%columns, 2), self%full, kkt%n, self%pivots, self%columns, kkt%n, info)
+      least = huge(least)
+      most = 0.0_wp
+      do i = 1, kkt%n
+         least = min(least, abs(self%full(i, i)))
+         most = max(most, abs(self%full(i, i)))
+      end do
+      self%is_known = info == 0 .and. least > singular*most
+
+   contains
+
+      !> full(row+1:row+3, column+1:column+3) += p̃
+      subroutine add(row, column, p)
+         integer, intent(in) :: row, column
+         real(wp), intent(in) :: p(3)
+         self%full(row + 1:row + 3, column + 1:column + 3) = self%full(row + 1:row + 3, column + 1:column + 3) + skew(p)
+      end subroutine add
+
+   end subroutine solve_full
+
+end module ek_compliance
