@@ -8,7 +8,7 @@ module ek_attitude
    use ek_suspension, only: wheel_t
    implicit none(type, external)
    private
-   public :: attitude_t, attitude_of
+   public :: attitude_t, attitude_of, steer_axis_t, steer_axis_of
 
    !> What one wheel shows at one state. Changes are against design.
    type :: attitude_t
@@ -27,6 +27,14 @@ module ek_attitude
       real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre behind the axis
    end type attitude_t
 
+   !> A steer axis against wheel centre and patch; signs as in attitude_t. [rad, m]
+   type :: steer_axis_t
+      logical :: is_known = .false.
+      real(wp) :: caster = 0.0_wp, kingpin_inclination = 0.0_wp
+      real(wp) :: scrub_radius = 0.0_wp, caster_trail = 0.0_wp
+      real(wp) :: spindle_length = 0.0_wp, spindle_offset = 0.0_wp
+   end type steer_axis_t
+
 contains
 
    !> Attitude of a wheel whose carrier is now at a pose.
@@ -41,7 +49,8 @@ contains
       real(wp), intent(in) :: origin(3)     !! the carrier's reference point at design [m]
       type(pose_t), intent(in) :: now
       type(attitude_t) :: attitude
-      real(wp) :: w(3), contact(3), centre(3), lower(3), k(3), foot(3), abeam(3)
+      type(steer_axis_t) :: axis
+      real(wp) :: w(3), contact(3), centre(3), lower(3)
 
       centre = now%r + rotated(now%a, wheel%centre)
       contact = now%r + rotated(now%a, wheel%contact)
@@ -56,20 +65,39 @@ contains
       if (.not. wheel%has_steer_axis) return
 
       lower = now%r + rotated(now%a, wheel%steer_axis(:, 1))
-      k = rotated(now%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1))
-      if (k(3) < 0.0_wp) k = -k
-      attitude%caster = atan2(k(1), k(3))
-      attitude%kingpin_inclination = atan2(-wheel%side*k(2), k(3))
-      if (.not. k(3) > 0.0_wp) then
-         attitude%has_steer_axis = .false.
-         return
-      end if
-      foot = lower + k*((contact(3) - lower(3))/k(3))
-      attitude%scrub_radius = wheel%side*(contact(2) - foot(2))
-      attitude%caster_trail = contact(1) - foot(1)
-      abeam = lower + k*((centre(3) - lower(3))/k(3))
-      attitude%spindle_length = wheel%side*(centre(2) - abeam(2))
-      attitude%spindle_offset = centre(1) - abeam(1)
+      axis = steer_axis_of(wheel%side, lower, rotated(now%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), centre, contact)
+      attitude%has_steer_axis = axis%is_known
+      attitude%caster = axis%caster
+      attitude%kingpin_inclination = axis%kingpin_inclination
+      attitude%scrub_radius = axis%scrub_radius
+      attitude%caster_trail = axis%caster_trail
+      attitude%spindle_length = axis%spindle_length
+      attitude%spindle_offset = axis%spindle_offset
    end function attitude_of
+
+   !> Angles of a line, and its distances from patch and wheel centre, each in the level plane through them.
+   !>
+   !> is_known is false for a level line (the angles are then set all the same).
+   pure function steer_axis_of(side, point, direction, centre, contact) result(axis)
+      integer, intent(in) :: side                           !! −1 left, +1 right
+      real(wp), intent(in) :: point(3), direction(3)        !! of the line; any length, up or down
+      real(wp), intent(in) :: centre(3), contact(3)         !! m
+      type(steer_axis_t) :: axis
+      real(wp), parameter :: level = 1.0e-9_wp              ! of its length: such a line meets the ground beyond any road
+      real(wp) :: k(3), foot(3), abeam(3)
+
+      k = direction
+      if (k(3) < 0.0_wp) k = -k
+      axis%caster = atan2(k(1), k(3))
+      axis%kingpin_inclination = atan2(-side*k(2), k(3))
+      axis%is_known = k(3) > level*norm2(k)
+      if (.not. axis%is_known) return
+      foot = point + k*((contact(3) - point(3))/k(3))
+      axis%scrub_radius = side*(contact(2) - foot(2))
+      axis%caster_trail = contact(1) - foot(1)
+      abeam = point + k*((centre(3) - point(3))/k(3))
+      axis%spindle_length = side*(centre(2) - abeam(2))
+      axis%spindle_offset = centre(1) - abeam(1)
+   end function steer_axis_of
 
 end module ek_attitude

@@ -28,7 +28,7 @@ module ek_compliance
    use ek_rotation, only: cross, skew, identity3
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
-   use ek_kkt, only: kkt_t, assemble, factorise, wrench, whole_tangent
+   use ek_kkt, only: load_factor, kkt_t, assemble, factorise, wrench, whole_tangent
    use ek_lapack, only: dsytrs, dgesv
    implicit none(type, external)
    private
@@ -129,7 +129,6 @@ contains
 
       k = kkt%nq + row
       kkt%matrix(k, :k - 1) = 0.0_wp
-      kkt%matrix(k + 1:, k) = 0.0_wp
       kkt%matrix(k, k) = -1.0_wp/kkt%scale(k)**2
    end subroutine release
 
@@ -174,7 +173,7 @@ contains
       integer, intent(in) :: k
 
       factor = 1.0_wp
-      if (suspension%loads(k)%is_case) factor = merge(demand%value, 0.0_wp, k == demand%load)
+      if (suspension%loads(k)%is_case) factor = load_factor(demand, k)
    end function factor_of
 
    !> Whether a load that acts has no potential.

@@ -19,6 +19,8 @@ module ek_sweep_table
    use ek_path, only: path_t
    use ek_wheel_side, only: prefix_of
    use ek_attitude, only: attitude_t, attitude_of
+   use ek_vehicle, only: vehicle_of
+   use ek_kandc_columns, only: kandc_t, start_kandc, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
@@ -36,6 +38,9 @@ contains
 
    !> The table of a sweep: all states that were reached, and the first that was not on either side,
    !> marked by converged = 0 and values that are not numbers.
+   !>
+   !> Where the case wants all, the quantities of K&C come before the last three columns, from the compliance matrix
+   !> of every state.
    subroutine sweep_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -46,10 +51,12 @@ contains
       type(schedule_t) :: schedule
       type(demand_t) :: demand
       type(names_t) :: names
+      type(kandc_t) :: kandc
       real(wp) :: unit
       integer :: first, last, k, row
 
-      call column_names(suspension, names)
+      if (case%has_all) call start_kandc(suspension, vehicle_of(suspension), kandc)
+      call column_names(suspension, kandc, names)
       call reached_rows(path, first, last)
       table = new_table(names%list(:names%used), last - first + 1)
       state = design_state(suspension)
@@ -65,9 +72,12 @@ contains
          if (.not. path%is_reached(k)) cycle
          call unpack_state(path%packed(:, k), state)
          call assemble(suspension, state, demand, residual_only, kkt)
-         call fill_row(suspension, state, kkt, table%values(3:names%used - 3, row))
+         call fill_row(suspension, state, kkt, table%values(3:names%used - 3 - kandc%used, row))
          table%values(names%used, row) = norm2(kkt%values)
          if (norm2(kkt%values) > open_joints) table%values(names%used - 2, row) = 0.0_wp
+         if (.not. case%has_all) cycle
+         call tell_kandc(suspension, state, demand, kkt, kandc)
+         table%values(names%used - 2 - kandc%used:names%used - 3, row) = kandc%values
       end do
    end subroutine sweep_table
 
@@ -135,8 +145,9 @@ contains
    end function has_moment
 
    !> All names, in the order in which fill_row gives the values.
-   subroutine column_names(suspension, names)
+   subroutine column_names(suspension, kandc, names)
       type(suspension_t), intent(in) :: suspension
+      type(kandc_t), intent(in) :: kandc
       type(names_t), intent(inout) :: names
       character(:), allocatable :: prefix
       integer :: k
@@ -199,6 +210,9 @@ contains
                if (has_moment(suspension, joint)) call add_three(joint%name//'_m', 'nm')
             end if
          end associate
+      end do
+      do k = 1, kandc%used
+         call add(trim(kandc%names(k)))
       end do
       call add('converged')
       call add('iterations')

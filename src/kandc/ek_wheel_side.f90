@@ -3,7 +3,7 @@ module ek_wheel_side
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, height_name, left_and_right, prefix_of
+   public :: side_name, height_name, left_and_right, is_axle, prefix_of
 
 contains
 
@@ -32,18 +32,23 @@ contains
       end do
    end subroutine left_and_right
 
+   !> Whether a model is an axle: two wheels, one on either side.
+   pure logical function is_axle(suspension)
+      type(suspension_t), intent(in) :: suspension
+      is_axle = .false.
+      if (size(suspension%wheels) == 2) is_axle = suspension%wheels(1)%side /= suspension%wheels(2)%side
+   end function is_axle
+
    !> What the columns of a wheel begin with: 'left_' or 'right_' where there are two, nothing for one.
    pure function prefix_of(suspension, wheel) result(prefix)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel
       character(:), allocatable :: prefix
-      integer :: wheels(2)
 
       prefix = ''
       if (size(suspension%wheels) < 2) return
-      call left_and_right(suspension, wheels)
-      if (size(suspension%wheels) == 2 .and. all(wheels > 0)) then
-         prefix = trim(side_name(merge(1, 2, wheel == wheels(1))))//'_'
+      if (is_axle(suspension)) then
+         prefix = trim(side_name(merge(1, 2, suspension%wheels(wheel)%side < 0)))//'_'
       else
          prefix = suspension%wheels(wheel)%name//'_'
       end if

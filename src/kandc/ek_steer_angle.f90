@@ -1,0 +1,101 @@
+!> Steer angles of an axle and what is made of them: roll, inclination, Ackermann, turning circle.
+!>
+!> Steer is positive to the left on both wheels, axle roll positive when the left wheel is the higher one. SI, rad.
+module ek_steer_angle
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_units, only: degree
+   implicit none(type, external)
+   private
+   public :: steer_of, steer_rate, axle_roll, inclination_of
+   public :: ackermann_angle, ackermann_percent, ackermann_error, turning_circle
+
+   ! Below a degree the static toe, not the linkage, makes the difference of the two wheels: (δA − δo) is then
+   ! 0.01 deg, a toe of 0.1 deg ten times that
+   real(wp), parameter :: least_steer = degree
+   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: beyond that a car drives straight on
+
+contains
+
+   !> Steer angle: left −toe, right +toe.
+   pure real(wp) function steer_of(toe, side)
+      real(wp), intent(in) :: toe
+      integer, intent(in) :: side     !! −1 left, +1 right
+      steer_of = side*toe
+   end function steer_of
+
+   !> Change of the steer angle with a rotation θ of the carrier, spin axis w (unit, outboard).
+   !>
+   !>     steer = side·atan2(−w_x, side·w_y),  δw = θ×w:   δsteer = θ_z − w_z (θ_x w_x + θ_y w_y)/(w_x² + w_y²)
+   pure real(wp) function steer_rate(spin, turn) result(rate)
+      real(wp), intent(in) :: spin(3), turn(3)
+      rate = turn(3) - spin(3)*(turn(1)*spin(1) + turn(2)*spin(2))/(spin(1)**2 + spin(2)**2)
+   end function steer_rate
+
+   !> Roll of the line through both patches against the body: atan((z_left − z_right)/track).
+   pure real(wp) function axle_roll(left, right) result(roll)
+      real(wp), intent(in) :: left(3), right(3)   !! points below the wheel centres, or the centres [m]
+      roll = atan2(left(3) - right(3), right(2) - left(2))
+   end function axle_roll
+
+   !> Camber against the road: the road rolls with the wheels, by θ_x = −roll, and camber is −side·θ_x.
+   pure real(wp) function inclination_of(camber, side, roll) result(inclination)
+      real(wp), intent(in) :: camber, roll
+      integer, intent(in) :: side
+      inclination = camber - side*roll
+   end function inclination_of
+
+   !> Steer angles of the inner and the outer wheel of the turn, both positive into it.
+   pure subroutine sort(left, right, inner, outer)
+      real(wp), intent(in) :: left, right
+      real(wp), intent(out) :: inner, outer
+      inner = left
+      outer = right
+      if (left + right < 0.0_wp) then
+         inner = -right
+         outer = -left
+      end if
+   end subroutine sort
+
+   !> Inner angle that lets both wheels roll about one point of the rear axle's line:
+   !>
+   !>     δA = atan(L/(L/tan δo − t)), written as atan2(L tan δo, L − t tan δo): 0 at 0, no division
+   pure real(wp) function ackermann_angle(outer, wheelbase, track) result(inner)
+      real(wp), intent(in) :: outer, wheelbase, track
+      inner = atan2(wheelbase*tan(outer), wheelbase - track*tan(outer))
+   end function ackermann_angle
+
+   !> 100 (δi − δo)/(δA − δo) [%]: 100 for wheels that roll about one point, 0 for parallel steer. Not a number
+   !> below a degree of steer.
+   pure real(wp) function ackermann_percent(left, right, wheelbase, track) result(percent)
+      real(wp), intent(in) :: left, right, wheelbase, track
+      real(wp) :: inner, outer
+
+      call sort(left, right, inner, outer)
+      percent = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (outer < least_steer) return
+      percent = 100.0_wp*(inner - outer)/(ackermann_angle(outer, wheelbase, track) - outer)
+   end function ackermann_percent
+
+   !> δi − δA: positive where the inner wheel steers more than rolling asks for.
+   pure real(wp) function ackermann_error(left, right, wheelbase, track) result(error)
+      real(wp), intent(in) :: left, right, wheelbase, track
+      real(wp) :: inner, outer
+
+      call sort(left, right, inner, outer)
+      error = inner - ackermann_angle(outer, wheelbase, track)
+   end function ackermann_error
+
+   !> Diameter of the circle of the outer wheel, 2L/sin δo [m]: all wheels roll, the centre is on the rear axle's
+   !> line. Not a number when wider than a kilometre.
+   pure real(wp) function turning_circle(left, right, wheelbase) result(diameter)
+      real(wp), intent(in) :: left, right, wheelbase
+      real(wp) :: inner, outer
+
+      call sort(left, right, inner, outer)
+      diameter = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (sin(outer)*widest_circle <= 2.0_wp*wheelbase) return
+      diameter = 2.0_wp*wheelbase/sin(outer)
+   end function turning_circle
+
+end module ek_steer_angle
