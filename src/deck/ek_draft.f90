@@ -9,8 +9,9 @@ module ek_draft
    use ek_units, only: units_t
    use ek_curve, only: curve_t
    use ek_rotation, only: unit_vector
-   use ek_record, only: complaints_t, place_t, entry_index, is_given, place_of, line_words, own_name, single, left_twin
-   use ek_group, only: group_names, record_head, did_you_mean, point_group, body_group, word_length
+   use ek_record, only: complaints_t, place_t, entry_index, is_given, place_of, line_words, own_name, has_side, &
+      single, left_twin
+   use ek_group, only: group_names, record_head, did_you_mean, point_group, body_group, wheel_group, word_length
    use ek_deck, only: deck_t
    implicit none(type, external)
    private
@@ -91,33 +92,28 @@ contains
       find_card = 0
    end function find_card
 
-   !> All names of a group that record k may mean, for suggestions. What &mirror doubled has one name for those
-   !> that are doubled with it, and all its names for the others.
-   function names_of(draft, deck, group, k) result(names)
+   !> All names of a group that a wrong one in record k may mean, for suggestions. What &mirror doubled is
+   !> suggested as the deck has it, unless the wrong name is that of one side.
+   function names_of(draft, deck, group, k, wrong) result(names)
       type(draft_t), intent(in) :: draft
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: group, k
+      character(*), intent(in) :: wrong
       character(word_length), allocatable :: names(:)
-      integer :: j, used
+      logical :: is_sided
+      integer :: j
 
-      allocate (names(count(draft%cards%group == group) + count(draft%cards%group == group .and. &
-         deck%records(:size(draft%cards))%twin == left_twin)))
+      is_sided = deck%records(k)%twin == single .and. (group == wheel_group .or. has_side(wrong))
+      allocate (names(size(draft%cards)))
       names = ''
-      used = 0
       do j = 1, size(draft%cards)
          if (draft%cards(j)%group /= group) cycle
-         if (deck%records(j)%twin == left_twin) call take(own_name(deck%records(j)))
-         if (deck%records(j)%twin == single .or. deck%records(k)%twin == single) call take(draft%cards(j)%name)
+         if (is_sided .or. deck%records(j)%twin == single) then
+            names(j) = draft%cards(j)%name
+         else if (deck%records(j)%twin == left_twin) then
+            names(j) = own_name(deck%records(j))
+         end if
       end do
-
-   contains
-
-      subroutine take(name)
-         character(*), intent(in) :: name
-         used = used + 1
-         names(used) = name
-      end subroutine take
-
    end function names_of
 
    !> The record that a key of record k names; 0, with a message, if there is none.
@@ -136,10 +132,10 @@ contains
       if (may_be_meant(draft, group, name)) return
       if (group == body_group) then
          call complain(draft, deck, k, key, key//': there is no body '//quoted(name)// &
-            did_you_mean(name, [names_of(draft, deck, group, k), [character(word_length) :: 'chassis']]))
+            did_you_mean(name, [names_of(draft, deck, group, k, name), [character(word_length) :: 'chassis']]))
       else
          call complain(draft, deck, k, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
-            did_you_mean(name, names_of(draft, deck, group, k)))
+            did_you_mean(name, names_of(draft, deck, group, k, name)))
       end if
    end subroutine look_up
 

@@ -11,7 +11,7 @@ module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_record, only: record_t, entry_t, place_t, complaints_t, add_record, add_value, element, entry_index, &
-      place_of, line_words, left_twin, right_twin, twin_prefix
+      place_of, line_words, has_side, left_twin, right_twin, twin_prefix
    use ek_group, only: word_length, did_you_mean
    use ek_mirror_role, only: role_of, is_element, can_be_doubled, is_name, named_group, loads
    use ek_mirror_twin, only: reflect, complete_marker, number_of
@@ -162,13 +162,6 @@ contains
       integer, intent(in) :: k
       is_of_one = half%is_shared(k) .or. half%is_right(k) .or. has_side(half%names(k))
    end function is_of_one
-
-   !> Whether a name begins with left_ or right_.
-   pure logical function has_side(name)
-      character(*), intent(in) :: name
-      has_side = index(lower(name), trim(twin_prefix(left_twin))) == 1 .or. &
-         index(lower(name), trim(twin_prefix(right_twin))) == 1
-   end function has_side
 
    !> A point is doubled unless it lies in the plane; it must lie on the left.
    subroutine judge_point(point, half, is_doubled, complaints)

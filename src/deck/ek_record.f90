@@ -1,11 +1,11 @@
 !> What a deck says, before anybody asks what it means: records (namelist groups) of entries
 !> (`key = values`), with the file and line of each.
 module ek_record
-   use ek_text, only: str
+   use ek_text, only: str, lower
    implicit none(type, external)
    private
    public :: value_t, entry_t, record_t, place_t, complaints_t
-   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, place_in, line_words, own_name
+   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, place_in, line_words, own_name, has_side
    public :: single, left_twin, right_twin, twin_prefix
 
    ! what &mirror makes of a record
@@ -292,6 +292,13 @@ contains
       if (record%twin == single) return
       if (index(name, trim(twin_prefix(record%twin))) == 1) name = name(len_trim(twin_prefix(record%twin)) + 1:)
    end function own_name
+
+   !> Whether a name begins with left_ or right_.
+   pure logical function has_side(name)
+      character(*), intent(in) :: name
+      has_side = index(lower(name), trim(twin_prefix(left_twin))) == 1 .or. &
+         index(lower(name), trim(twin_prefix(right_twin))) == 1
+   end function has_side
 
    !> Where a record or one of its entries stands; --set comes after all files.
    pure subroutine place_of(record, entry, place)
