@@ -93,6 +93,7 @@ module ek_group
       key_t(bushing_group, 'x_vector', number, 3, 3, .false.), &
       key_t(bushing_group, 'kt', number, 3, 3, .false.), &
       key_t(bushing_group, 'kr', number, 3, 3, .false.), &
+      key_t(bushing_group, 'curve', word, 1, 6, .false.), &
       key_t(bushing_group, 'preload_force', number, 3, 3, .false.), &
       key_t(bushing_group, 'preload_moment', number, 3, 3, .false.), &
       key_t(spring_group, 'name', word, 1, 1, .true.), &

@@ -122,7 +122,9 @@ contains
 
          associate (entry => record%entries(k))
             call put(' '//entry%key)
-            if (entry%first > 1 .or. entry%used < key%least) call put('('//str(entry%first)//')')
+            ! a section, as one element followed by several values is an extension that -std=f2018 refuses
+            if (entry%first > 1 .or. entry%used < key%least) &
+               call put('('//str(entry%first)//':'//str(entry%first + entry%used - 1)//')')
             call put('=')
             do j = 1, entry%used
                if (j > 1) call put(',')

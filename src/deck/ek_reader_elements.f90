@@ -3,12 +3,13 @@ module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: cross, perpendicular, unit_vector
+   use ek_curve, only: curve_t
    use ek_elastic, only: bushing_t
    use ek_suspension, only: suspension_t, load_t
    use ek_builder, only: add_bushing, add_load
    use ek_group, only: bushing_group, load_group, word_length
    use ek_deck, only: deck_t
-   use ek_reader_curves, only: check_rate
+   use ek_reader_curves, only: find_curve, check_rate
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_body, find_bodies, &
       find_direction, to_internal, angle_between
    implicit none(type, external)
@@ -24,9 +25,10 @@ contains
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, bodies(2), at(2), z_axis(2), x_axis(2)
+      character(word_length) :: name, bodies(2), at(2), z_axis(2), x_axis(2), curve(6)
       real(wp) :: z_vector(3), x_vector(3), kt(3), kr(3), preload_force(3), preload_moment(3)
-      namelist /bushing/ name, bodies, at, z_axis, z_vector, x_axis, x_vector, kt, kr, preload_force, preload_moment
+      namelist /bushing/ name, bodies, at, z_axis, z_vector, x_axis, x_vector, kt, kr, curve, preload_force, &
+         preload_moment
       type(bushing_t) :: element
       real(wp) :: ends(3, 2)
       logical :: has_bodies, is_found
@@ -39,6 +41,7 @@ contains
          at = ''
          z_axis = ''
          x_axis = ''
+         curve = ''
          z_vector = 0.0_wp
          x_vector = 0.0_wp
          kt = 0.0_wp
@@ -52,12 +55,13 @@ contains
          call find_point(draft, deck, k, 'at', trim(at(1)), ends(:, 1), is_found)
          ends(:, 2) = ends(:, 1)
          if (at(2) /= '') call find_point(draft, deck, k, 'at', trim(at(2)), ends(:, 2), is_found)
-         if (.not. (has_key(deck, k, 'kt') .or. has_key(deck, k, 'kr'))) &
+         if (.not. (has_key(deck, k, 'kt') .or. has_key(deck, k, 'kr') .or. has_key(deck, k, 'curve'))) &
             call complain(draft, deck, k, '', "'kt' is missing (and 'kr' as well)")
          do j = 1, 3
             call check_rate(draft, deck, k, 'kt', '('//str(j)//')', kt(j))
             call check_rate(draft, deck, k, 'kr', '('//str(j)//')', kr(j))
          end do
+         call find_laws(draft, deck, k, curve, [kt, kr], element)
          call find_axes(draft, deck, k, z_axis, z_vector, x_axis, x_vector, element%axes)
          if (.not. draft%cards(k)%is_good) cycle
 
@@ -76,6 +80,57 @@ contains
          call add_bushing(suspension, element)
       end do
    end subroutine read_bushings
+
+   !> Curves of a bushing: words 'fx=c' or 'mz=-c', the minus for the curve reflected through the origin.
+   subroutine find_laws(draft, deck, k, words, rates, element)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: words(:)
+      real(wp), intent(in) :: rates(6)            !! deck units: a component has a rate or a curve
+      type(bushing_t), intent(inout) :: element
+      character(*), parameter :: components(6) = ['fx', 'fy', 'fz', 'mx', 'my', 'mz']
+      type(curve_t), allocatable :: curve
+      character(:), allocatable :: name
+      integer :: w, c, mark
+
+      element%has_curves = .false.
+      if (allocated(element%laws)) deallocate (element%laws)
+      if (all(words == '')) return
+      element%has_curves = .true.
+      allocate (element%laws(6))
+      do w = 1, size(words)
+         if (words(w) == '') cycle
+         mark = index(words(w), '=')
+         c = 0
+         if (mark > 0) c = findloc(components, lower(trim(adjustl(words(w) (:mark - 1)))), dim=1)
+         if (c == 0) then
+            call complain(draft, deck, k, 'curve', "curve must be like 'fx=name' or 'mz=-name' (fx, fy, fz, mx, my, mz), found "// &
+               quoted(words(w)))
+            cycle
+         end if
+         name = trim(adjustl(words(w) (mark + 1:)))
+         if (index(name, '-') == 1) then
+            element%laws(c)%sign = -1.0_wp
+            name = trim(adjustl(name(2:)))
+         end if
+         if (element%laws(c)%has_curve) then
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' is given twice')
+         else if (abs(rates(c)) > 0.0_wp) then
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' has a rate already; give 0 in '// &
+               merge('kt', 'kr', c <= 3)//' for it')
+         else if (name == '') then
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' has no name of a curve')
+         end if
+         if (c <= 3) then
+            call find_curve(draft, deck, k, 'curve', name, draft%units%length, draft%units%force, curve)
+         else
+            call find_curve(draft, deck, k, 'curve', name, draft%units%angle, draft%units%force*draft%units%length, curve)
+         end if
+         element%laws(c)%has_curve = .true.
+         if (allocated(curve)) element%laws(c)%curve = curve
+      end do
+   end subroutine find_laws
 
    !> The marker axes: z leads, x is made perpendicular to it, y = z × x. One given alone, the other is
    !> chosen by `perpendicular`; none given, they are the deck's global axes.

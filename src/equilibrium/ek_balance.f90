@@ -2,7 +2,8 @@
 !>
 !> `spring`: the spring preloads with which the wheels settle at their design height.
 !> `all`: spring and bushing preloads with which every body stays exactly at design; among all that do,
-!> the bushing preloads of least complementary energy Σ f²/2k. Dampers, stops and torsion springs keep theirs.
+!> the bushing preloads of least complementary energy Σ f²/2k (k of a curve: its slope at design).
+!> Dampers, stops and torsion springs keep theirs.
 module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model, exit_convergence
@@ -10,7 +11,7 @@ module ek_balance
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
    use ek_spring, only: axial_spring
-   use ek_elastic, only: set_bushing_axes
+   use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
@@ -129,10 +130,9 @@ contains
       ny = size(suspension%springs) + kkt%nc
       allocate (weighted(kkt%nq, nx), free(kkt%nq, ny), root(nx), column(kkt%nq), source=0.0_wp)
       do b = 1, size(suspension%bushings)
+         root(6*b - 5:6*b) = sqrt(max(design_rates(suspension%bushings(b)), 0.0_wp))
          do k = 1, 6
             call bushing_column(suspension, b, k, column)
-            root(6*(b - 1) + k) = sqrt(merge(suspension%bushings(b)%kt(min(k, 3)), &
-               suspension%bushings(b)%kr(max(k - 3, 1)), k <= 3))
             weighted(:, 6*(b - 1) + k) = column*root(6*(b - 1) + k)*kkt%scale(:kkt%nq)
          end do
       end do

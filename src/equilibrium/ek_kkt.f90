@@ -14,7 +14,7 @@ module ek_kkt
    use ek_turn, only: pose_t
    use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated
    use ek_spring, only: axial_spring, spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
-   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
+   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, design_rates
    use ek_rotation, only: cross, skew
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
@@ -81,7 +81,7 @@ contains
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length, stiffness
-      real(wp) :: sum_log, least, tension, slope
+      real(wp) :: sum_log, least, tension, slope, rates(6)
       integer :: k, count, axis
 
       least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
@@ -111,9 +111,10 @@ contains
          count = count + 1
       end do
       do k = 1, size(suspension%bushings)
+         rates = design_rates(suspension%bushings(k))
          do axis = 1, 3
-            if (suspension%bushings(k)%kt(axis) <= 0.0_wp) cycle
-            sum_log = sum_log + log(suspension%bushings(k)%kt(axis))
+            if (rates(axis) <= 0.0_wp) cycle
+            sum_log = sum_log + log(rates(axis))
             count = count + 1
          end do
       end do

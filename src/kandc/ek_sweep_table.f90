@@ -10,7 +10,7 @@ module ek_sweep_table
    use ek_joint, only: joint_t
    use ek_law, only: deflection
    use ek_spring, only: spring_tension, stop_spring, torsion_spring
-   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_elastic, only: bushing_view_t, look_bushing, bushing_load
    use ek_suspension, only: suspension_t, driver_row
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
@@ -310,9 +310,9 @@ contains
             call look_bushing(bushing, state%poses(bushing%body_i + 1), state%poses(bushing%body_j + 1), view)
             row(at + 1:at + 3) = to_marker(bushing%axes, view%gap)/millimetre
             row(at + 4:at + 6) = to_marker(bushing%axes, view%turn%theta)/degree
-            force = bushing%preload_force - bushing%kt*to_marker(bushing%axes, view%gap)
+            call bushing_load(bushing, view, force, moment)
             row(at + 7:at + 9) = force
-            row(at + 10:at + 12) = bushing%preload_moment - bushing%kr*to_marker(bushing%axes, view%turn%theta)
+            row(at + 10:at + 12) = moment
             at = at + 12
          end associate
       end do

@@ -2,11 +2,13 @@
 !>
 !> Springs: one measure, a distance or a rotation (ek_spring); named here too.
 !> Bushing: V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ, d the gap from marker I to marker J and θ the
-!>          relative rotation vector, both in the axes of marker I (fixed in body i).
+!>          relative rotation vector, both in the axes of marker I (fixed in body i). A component may have a
+!>          curve c instead of its rate: then ∫c in place of ½ k d².
 !>
 !> "Pull" below means the gradient of the energy, dV/dz: the force ON the bodies is minus that.
 module ek_elastic
    use ek_kinds, only: wp
+   use ek_law, only: law_t, look_up_law
    use ek_spring, only: spring_t, spring_tension, add_spring_tangent
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
    use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
@@ -15,9 +17,9 @@ module ek_elastic
    private
    public :: spring_t, bushing_t, bushing_view_t
    public :: spring_tension, add_spring_tangent, set_bushing_axes
-   public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
+   public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
-   !> A six-axis linear bushing from marker I on body i to marker J on body j. The markers are parallel
+   !> A six-axis bushing from marker I on body i to marker J on body j. The markers are parallel
    !> at design; where two points are given they may lie apart, and the design gap is free of force.
    type :: bushing_t
       character(:), allocatable :: name, where
@@ -32,6 +34,9 @@ module ek_elastic
       real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
       real(wp) :: force0(3) = 0.0_wp, moment0(3) = 0.0_wp
       real(wp) :: gap0(3) = 0.0_wp           !! design gap, axes of body i [m]
+      ! curves instead of rates, for some components: along x, y, z, about x, y, z of the marker
+      logical :: has_curves = .false.
+      type(law_t), allocatable :: laws(:)    !! six where has_curves; one without a curve leaves the rate in place
    end type bushing_t
 
    !> A bushing at one pair of poses.
@@ -42,6 +47,8 @@ module ek_elastic
       real(wp) :: force(3) = 0.0_wp      !! dV/dd, global [N]
       real(wp) :: moment(3) = 0.0_wp     !! dV/dθ, axes of body i [N m]
       type(turn_t) :: turn
+      ! only with curves: the slopes here, in the axes of body i
+      real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
    end type bushing_view_t
 
 contains
@@ -83,10 +90,83 @@ contains
       view%gap(1) = dot_product(pose_i%a(:, 1), view%d) - bushing%gap0(1)
       view%gap(2) = dot_product(pose_i%a(:, 2), view%d) - bushing%gap0(2)
       view%gap(3) = dot_product(pose_i%a(:, 3), view%d) - bushing%gap0(3)
-      view%force = rotated(pose_i%a, rotated(bushing%stiffness_t, view%gap) - bushing%force0)
       call relative_turn(pose_i, pose_j, view%turn)
+      if (bushing%has_curves) then
+         call look_curves(bushing, view)
+         return
+      end if
+      view%force = rotated(pose_i%a, rotated(bushing%stiffness_t, view%gap) - bushing%force0)
       view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
    end subroutine look_bushing
+
+   !> Force, moment and slopes of a bushing with curves, component by component in marker axes.
+   pure subroutine look_curves(bushing, view)
+      type(bushing_t), intent(in) :: bushing
+      type(bushing_view_t), intent(inout) :: view
+      real(wp) :: force(3), moment(3), slope_t(3), slope_r(3)
+
+      call look_components(bushing, view, force, moment, slope_t, slope_r)
+      view%force = rotated(view%frame, rotated(bushing%axes, force))
+      view%moment = rotated(bushing%axes, moment)
+      view%stiffness_t = in_body(bushing%axes, slope_t)
+      view%stiffness_r = in_body(bushing%axes, slope_r)
+   end subroutine look_curves
+
+   !> dV/d(component) in marker axes, the preload taken off; and the slopes.
+   pure subroutine look_components(bushing, view, force, moment, slope_t, slope_r)
+      type(bushing_t), intent(in) :: bushing
+      type(bushing_view_t), intent(in) :: view
+      real(wp), intent(out) :: force(3), moment(3), slope_t(3), slope_r(3)   !! N, N m, N/m, N m/rad
+      real(wp) :: deflection
+      integer :: k
+
+      slope_t = bushing%kt
+      slope_r = bushing%kr
+      do k = 1, 3
+         deflection = dot_product(bushing%axes(:, k), view%gap)
+         force(k) = slope_t(k)*deflection
+         if (bushing%laws(k)%has_curve) call look_up_law(bushing%laws(k), deflection, force(k), slope_t(k))
+         deflection = dot_product(bushing%axes(:, k), view%turn%theta)
+         moment(k) = slope_r(k)*deflection
+         if (bushing%laws(k + 3)%has_curve) call look_up_law(bushing%laws(k + 3), deflection, moment(k), slope_r(k))
+      end do
+      force = force - bushing%preload_force
+      moment = moment - bushing%preload_moment
+   end subroutine look_components
+
+   !> What the bushing exerts on body j, marker axes [N, N m].
+   pure subroutine bushing_load(bushing, view, force, moment)
+      type(bushing_t), intent(in) :: bushing
+      type(bushing_view_t), intent(in) :: view      !! of look_bushing
+      real(wp), intent(out) :: force(3), moment(3)
+      real(wp) :: slope(3), slope_r(3)
+      integer :: k
+
+      if (bushing%has_curves) then
+         call look_components(bushing, view, force, moment, slope, slope_r)
+         force = -force
+         moment = -moment
+         return
+      end if
+      do k = 1, 3
+         force(k) = bushing%preload_force(k) - bushing%kt(k)*dot_product(bushing%axes(:, k), view%gap)
+         moment(k) = bushing%preload_moment(k) - bushing%kr(k)*dot_product(bushing%axes(:, k), view%turn%theta)
+      end do
+   end subroutine bushing_load
+
+   !> The six rates at design, marker axes: slopes where there are curves [N/m, N m/rad].
+   pure function design_rates(bushing) result(rates)
+      type(bushing_t), intent(in) :: bushing
+      real(wp) :: rates(6), force
+      integer :: k
+
+      rates(1:3) = bushing%kt
+      rates(4:6) = bushing%kr
+      if (.not. bushing%has_curves) return
+      do k = 1, 6
+         if (bushing%laws(k)%has_curve) call look_up_law(bushing%laws(k), 0.0_wp, force, rates(k))
+      end do
+   end function design_rates
 
    !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
    pure function bushing_pull(view) result(pull)
@@ -106,15 +186,29 @@ contains
       type(bushing_view_t), intent(in) :: view
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
+
+      if (bushing%has_curves) then
+         call add_tangent(view%stiffness_t, view%stiffness_r, view, at_i, at_j, ld, matrix)
+      else
+         call add_tangent(bushing%stiffness_t, bushing%stiffness_r, view, at_i, at_j, ld, matrix)
+      end if
+   end subroutine add_bushing_tangent
+
+   !> The same with stiffnesses in the axes of body i.
+   pure subroutine add_tangent(stiffness_t, stiffness_r, view, at_i, at_j, ld, matrix)
+      real(wp), intent(in) :: stiffness_t(3, 3), stiffness_r(3, 3)
+      type(bushing_view_t), intent(in) :: view
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: g(3, 3), kg(3, 3), inner(3, 3)
       integer :: k, l
 
-      call add_link_stiffness(in_world(view%frame, bushing%stiffness_t, at_i), &
+      call add_link_stiffness(in_world(view%frame, stiffness_t, at_i), &
          view%a + view%d, view%b, at_i, at_j, ld, matrix)
       call add_gap_hessian(view%force, view%a, view%b, view%d, at_i, at_j, ld, matrix)
       g = turn_jacobian(view%turn)
       do k = 1, 3
-         kg(:, k) = rotated(bushing%stiffness_r, g(:, k))
+         kg(:, k) = rotated(stiffness_r, g(:, k))
       end do
       do k = 1, 3
          do l = k, 3
@@ -123,7 +217,7 @@ contains
          end do
       end do
       call add_turn_hessian(view%turn, view%moment, inner, view%frame, at_i, at_j, ld, matrix)
-   end subroutine add_bushing_tangent
+   end subroutine add_tangent
 
    !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], u over the three
    !> marker axes. No force enters, and the frame's own turning (u×d) is left out.
@@ -132,14 +226,28 @@ contains
       type(bushing_view_t), intent(in) :: view
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
+
+      if (bushing%has_curves) then
+         call add_material(view%stiffness_t, view%stiffness_r, view, at_i, at_j, ld, matrix)
+      else
+         call add_material(bushing%stiffness_t, bushing%stiffness_r, view, at_i, at_j, ld, matrix)
+      end if
+   end subroutine add_bushing_material
+
+   !> The same with stiffnesses in the axes of body i.
+   pure subroutine add_material(stiffness_t, stiffness_r, view, at_i, at_j, ld, matrix)
+      real(wp), intent(in) :: stiffness_t(3, 3), stiffness_r(3, 3)
+      type(bushing_view_t), intent(in) :: view
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: k(3, 3)
 
-      call add_link_stiffness(in_world(view%frame, bushing%stiffness_t, at_i), view%a, view%b, at_i, at_j, ld, matrix)
-      k = in_world(view%frame, bushing%stiffness_r, at_i)
+      call add_link_stiffness(in_world(view%frame, stiffness_t, at_i), view%a, view%b, at_i, at_j, ld, matrix)
+      k = in_world(view%frame, stiffness_r, at_i)
       call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
       call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
       if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
-   end subroutine add_bushing_material
+   end subroutine add_material
 
    !> A K Aᵀ; the chassis (at_i < 0) never turns.
    pure function in_world(a, k, at_i) result(world)
