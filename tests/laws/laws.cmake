@@ -1,13 +1,16 @@
-# What the tests share: random poses, difference quotients, models of the reference solutions, readings of a state.
+# What the tests share: random poses, difference quotients, models of the reference solutions, readings of a state,
+# tables of a deck on the rig, plane linkages.
 set(ek_laws_dir ${CMAKE_CURRENT_LIST_DIR})
 add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_random.f90
   ${ek_laws_dir}/ek_differences.f90
   ${ek_laws_dir}/ek_example.f90
   ${ek_laws_dir}/ek_axle.f90
-  ${ek_laws_dir}/ek_reading.f90)
+  ${ek_laws_dir}/ek_reading.f90
+  ${ek_laws_dir}/ek_rig_table.f90
+  ${ek_laws_dir}/ek_plane_linkage.f90)
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws
   INTERPROCEDURAL_OPTIMIZATION OFF)
 target_include_directories(ek_test_laws PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
-target_link_libraries(ek_test_laws PUBLIC ek_equilibrium)
+target_link_libraries(ek_test_laws PUBLIC ek_kandc ek_deck ek_equilibrium)
