@@ -9,6 +9,8 @@ program elastokin
    use ek_words, only: complain
    use ek_run, only: run
    use ek_check, only: check
+   use ek_report, only: report
+   use ek_compare, only: compare
    use ek_study_command, only: run_study_command
    use ek_bench, only: bench
    implicit none(type, external)
@@ -28,6 +30,10 @@ program elastokin
             call run(arguments, error)
          case ('check')
             call check(arguments, error)
+         case ('report')
+            call report(arguments, error)
+         case ('compare')
+            call compare(arguments, error)
          case ('study')
             call run_study_command(arguments, error)
          case ('bench')

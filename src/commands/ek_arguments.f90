@@ -6,9 +6,10 @@ module ek_arguments
    private
    public :: arguments_t, read_arguments, setting_t
 
-   character(*), parameter :: commands(4) = [character(5) :: 'run', 'check', 'study', 'bench']
-   character(*), parameter :: options(9) = [character(12) :: &
-      '--out', '--method', '--increments', '--case', '--set', '--plot', '--quiet', '--help', '--version']
+   character(*), parameter :: commands(6) = [character(7) :: 'run', 'check', 'report', 'compare', 'study', 'bench']
+   character(*), parameter :: command_words = 'run, check, report, compare, study or bench'
+   character(*), parameter :: options(12) = [character(12) :: '--out', '--method', '--increments', '--case', '--set', &
+      '--plot', '--no-plots', '--animate', '--window', '--quiet', '--help', '--version']
 
    !> A text of its own length.
    type :: setting_t
@@ -17,12 +18,15 @@ module ek_arguments
 
    !> What was asked for; texts that were not given are empty.
    type :: arguments_t
-      character(:), allocatable :: command      !! 'run', 'check', 'study', 'bench', or '' for help or version
+      character(:), allocatable :: command      !! one of `commands`, or '' for help or version
       character(:), allocatable :: file         !! deck or study; '-' is standard input
+      type(setting_t), allocatable :: files(:)  !! all files named, of which `file` is the first; only compare takes several
       character(:), allocatable :: out, method, case
       type(setting_t), allocatable :: settings(:)   !! path=value
+      type(setting_t), allocatable :: windows(:)    !! word=half width
       integer :: increments = 0                 !! 0: as in the deck
-      logical :: plot = .false., quiet = .false., help = .false., version = .false.
+      logical :: plot = .false., no_plots = .false., animate = .false.
+      logical :: quiet = .false., help = .false., version = .false.
    end type arguments_t
 
 contains
@@ -40,7 +44,7 @@ contains
       arguments%out = ''
       arguments%method = ''
       arguments%case = ''
-      allocate (arguments%settings(0))
+      allocate (arguments%settings(0), arguments%windows(0), arguments%files(0))
       if (command_argument_count() == 0) arguments%help = .true.
       value = ''
       k = 0
@@ -56,20 +60,25 @@ contains
                has_value = .true.
             end if
          end if
-         if (has_value .and. any(word == [character(9) :: '--plot', '--quiet', '--help', '--version'])) then
+         if (has_value .and. any(word == [character(10) :: '--plot', '--no-plots', '--animate', '--quiet', '--help', &
+            '--version'])) then
             call fail(error, exit_usage, word//' takes no value, found '//quoted(value))
             return
          end if
          select case (word)
          case ('--plot')
             arguments%plot = .true.
+         case ('--no-plots')
+            arguments%no_plots = .true.
+         case ('--animate')
+            arguments%animate = .true.
          case ('--quiet', '-q')
             arguments%quiet = .true.
          case ('--help', '-h')
             arguments%help = .true.
          case ('--version')
             arguments%version = .true.
-         case ('--out', '--method', '--case', '--increments', '--set')
+         case ('--out', '--method', '--case', '--increments', '--set', '--window')
             if (.not. has_value) then
                if (k == command_argument_count()) then
                   call fail(error, exit_usage, word//' needs a value after it')
@@ -87,6 +96,8 @@ contains
                arguments%case = value
             case ('--set')
                call add_setting(arguments%settings, value)
+            case ('--window')
+               call add_setting(arguments%windows, value)
             case ('--increments')
                read (value, *, iostat=status) arguments%increments
                if (status /= 0 .or. verify(value, '0123456789') /= 0 .or. arguments%increments < 1) then
@@ -101,12 +112,15 @@ contains
             else if (len(arguments%command) == 0) then
                if (.not. any(commands == word)) then
                   call fail(error, exit_usage, 'unknown command '//quoted(word)//suggestion(word, commands)// &
-                     '; expected run, check, study or bench')
+                     '; expected '//command_words)
                   return
                end if
                arguments%command = word
             else if (len(arguments%file) == 0) then
                arguments%file = word
+               call add_setting(arguments%files, word)
+            else if (arguments%command == 'compare') then
+               call add_setting(arguments%files, word)
             else
                call fail(error, exit_usage, 'one file at a time: found '//quoted(arguments%file)//' and '//quoted(word))
                return
@@ -115,7 +129,9 @@ contains
       end do
       if (arguments%help .or. arguments%version) return
       if (len(arguments%command) == 0) then
-         call fail(error, exit_usage, 'no command: expected run, check, study or bench')
+         call fail(error, exit_usage, 'no command: expected '//command_words)
+      else if (arguments%command == 'compare' .and. size(arguments%files) < 2) then
+         call fail(error, exit_usage, 'compare needs two results or more: elastokin compare A.csv B.csv, or two report folders')
       else if (len(arguments%file) == 0) then
          call fail(error, exit_usage, arguments%command//' needs a file: elastokin '//arguments%command//' FILE')
       else
@@ -132,8 +148,18 @@ contains
       unused = ''
       if (arguments%command /= 'run') then
          if (arguments%plot) unused = '--plot'
-         if (len(arguments%method) > 0) unused = '--method'
-         if (len(arguments%out) > 0 .and. arguments%command /= 'study') unused = '--out'
+         if (len(arguments%method) > 0 .and. arguments%command /= 'report') unused = '--method'
+         if (len(arguments%out) > 0 .and. any(arguments%command == [character(5) :: 'check', 'bench'])) unused = '--out'
+      end if
+      if (arguments%command /= 'report') then
+         if (arguments%animate) unused = '--animate'
+         if (size(arguments%windows) > 0 .and. arguments%command /= 'compare') unused = '--window'
+         if (arguments%no_plots .and. arguments%command /= 'compare') unused = '--no-plots'
+      end if
+      if (arguments%command == 'compare') then
+         if (size(arguments%settings) > 0) unused = '--set'
+         if (len(arguments%case) > 0) unused = '--case'
+         if (arguments%increments > 0) unused = '--increments'
       end if
       if (arguments%command == 'study') then
          if (len(arguments%case) > 0) unused = '--case'
@@ -147,6 +173,10 @@ contains
          call fail(error, exit_usage, arguments%command//' takes no '//unused)
       else if (arguments%plot .and. arguments%out == '-') then
          call fail(error, exit_usage, '--plot needs a folder, and --out - is none')
+      else if (arguments%out == '-' .and. any(arguments%command == [character(7) :: 'report', 'compare'])) then
+         call fail(error, exit_usage, arguments%command//' writes several files: --out needs a folder, and - is none')
+      else if (arguments%no_plots .and. arguments%animate) then
+         call fail(error, exit_usage, '--no-plots and --animate exclude each other')
       end if
    end subroutine refuse_unused
 

@@ -33,6 +33,28 @@ contains
             'Reads a deck, reports every mistake with file and line, and examines the model: bodies, unknowns,'//nl// &
             'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points.'//nl// &
             'Exit status 3 where the model cannot be solved.'
+      case ('report')
+         text = 'elastokin report DECK [options]'//nl//nl// &
+            'Runs the tests of a deck and writes, into DIR: report.html (one page, everything inside, nothing fetched), one'//nl// &
+            'CSV a test, gradients.csv and gradients.json (slopes with window, unit and sign), picture.png and picture.svg,'//nl// &
+            'and figures/ with every chart as SVG and the gnuplot script that drew it.'//nl//nl// &
+            '  --out DIR          where everything goes (default: out)'//nl// &
+            '  --animate          also animation.gif: the suspension moving through its travel and steering'//nl// &
+            '  --window what=half half width of the windows of the gradients; may be repeated; the defaults:'//nl// &
+            '                     travel=15 (mm) roll=1 (deg) force=1000 (N) torque=100 (N m) rack=10 (mm) wheel=20 (deg)'//nl// &
+            '  --case NAME        this test only'//nl// &
+            '  --method M, --increments N, --set path=value   as for run'//nl// &
+            '  --no-plots         tables only; gnuplot is not started'//nl// &
+            '  --quiet            no words but warnings and errors'
+      case ('compare')
+         text = 'elastokin compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …'//nl//nl// &
+            'Lays the results of one case, or two reports (folders written by report), over each other: compare.html'//nl// &
+            'with all common columns drawn together, and a table of the gradients of all against those of the first,'//nl// &
+            'which also goes to standard output and to differences.csv. Columns that one of them lacks are named.'//nl//nl// &
+            '  --out DIR          where everything goes (default: out)'//nl// &
+            '  --window what=half as for report, where gradients are made from CSV files'//nl// &
+            '  --no-plots         tables only; gnuplot is not started'//nl// &
+            '  --quiet            no words but warnings and errors'
       case ('study')
          text = 'elastokin study STUDY.nml [--out DIR] [--set path=value]… [--quiet]'//nl//nl// &
             'Runs a study: a convergence study (kind = ''step_size'') or a sweep of one or two factors of a deck'//nl// &
@@ -48,6 +70,8 @@ contains
             'usage: elastokin COMMAND FILE [options]'//nl//nl// &
             '  run DECK       sweep the cases of a deck, write CSV (and plots)'//nl// &
             '  check DECK     examine a deck and its model'//nl// &
+            '  report DECK    curves, gradients and key numbers of a deck as one page'//nl// &
+            '  compare A B    lay results over each other and list what differs'//nl// &
             '  study STUDY    step-size convergence or a sweep of factors'//nl// &
             '  bench DECK     time per increment, as a ratio to LAPACK''s solve alone'//nl//nl// &
             'elastokin COMMAND --help tells more. elastokin --version prints the version.'

@@ -8,11 +8,16 @@ module ek_gnuplot
    use ek_figure, only: figure_t, panel_t
    implicit none(type, external)
    private
-   public :: figure_script, write_figure, render_figures
+   public :: figure_script, write_figure, render_figures, run_gnuplot, gnuplot_text, palette, script_name_t
 
    !> Okabe and Ito's colours, which the colour-blind tell apart; the yellow is left out, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
       '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
+
+   !> Name of a script, with its extension.
+   type :: script_name_t
+      character(:), allocatable :: text
+   end type script_name_t
 
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! a longer legend stands on the right
@@ -37,29 +42,45 @@ contains
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message   !! '' when the pictures are there
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
+      type(script_name_t), allocatable :: scripts(:)
+      integer :: k
+
+      allocate (scripts(size(figures)))
+      do k = 1, size(figures)
+         scripts(k)%text = figures(k)%name//'.gp'
+      end do
+      call run_gnuplot(scripts, folder, message, error)
+   end subroutine render_figures
+
+   !> Run gnuplot once, in a folder, over scripts that are there.
+   subroutine run_gnuplot(scripts, folder, message, error)
+      type(script_name_t), intent(in) :: scripts(:)
+      character(*), intent(in) :: folder
+      character(:), allocatable, intent(out) :: message   !! '' when the pictures are there, else why not
+      type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
       character(:), allocatable :: command, log, said
       type(error_t), allocatable :: unread
       integer :: k, status, started
 
       message = ''
-      if (size(figures) == 0) return
+      if (size(scripts) == 0) return
       if (.not. program_exists('gnuplot')) then
-         message = 'gnuplot is not installed: '//str(size(figures))// &
+         message = 'gnuplot is not installed: '//str(size(scripts))// &
             ' scripts written, no pictures (later: gnuplot *.gp in '//folder//')'
          return
       end if
-      log = join_path(folder, figures(1)%name//'.gnuplot.log')
+      log = scripts(1)%text//'.log'
       command = 'cd '//shell_word(folder)//' && exec gnuplot'
-      do k = 1, size(figures)
-         command = command//' '//shell_word(figures(k)%name//'.gp')
+      do k = 1, size(scripts)
+         command = command//' '//shell_word(scripts(k)%text)
       end do
-      command = command//' >'//shell_word(figures(1)%name//'.gnuplot.log')//' 2>&1'
+      command = command//' >'//shell_word(log)//' 2>&1'
       call execute_command_line(command, exitstat=status, cmdstat=started)
-      call read_whole(log, said, unread)
-      call remove_file(log)
+      call read_whole(join_path(folder, log), said, unread)
+      call remove_file(join_path(folder, log))
       if (status == 0 .and. started == 0) return
       call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trim(said))
-   end subroutine render_figures
+   end subroutine run_gnuplot
 
    !> A word that no shell looks into.
    pure function shell_word(text) result(word)

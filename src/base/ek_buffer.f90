@@ -1,0 +1,71 @@
+!> A text that grows piece by piece: pages, scripts and tables of text are built in it.
+!>
+!> Room is doubled when it runs out, so that n letters cost n, however small the pieces are.
+module ek_buffer
+   implicit none(type, external)
+   private
+   public :: buffer_t
+
+   integer, parameter :: first_room = 4096   !! letters
+
+   type :: buffer_t
+      private
+      character(:), allocatable :: letters
+      integer :: used = 0
+   contains
+      procedure :: add => buffer_add
+      procedure :: line => buffer_line
+      procedure :: text => buffer_text
+      procedure :: length => buffer_length
+      procedure :: clear => buffer_clear
+   end type buffer_t
+
+contains
+
+   !> Append letters.
+   pure subroutine buffer_add(self, text)
+      class(buffer_t), intent(inout) :: self
+      character(*), intent(in) :: text
+      character(:), allocatable :: grown
+
+      if (.not. allocated(self%letters)) allocate (character(max(first_room, len(text))) :: self%letters)
+      if (self%used + len(text) > len(self%letters)) then
+         allocate (character(2*(self%used + len(text))) :: grown)
+         grown(:self%used) = self%letters(:self%used)
+         call move_alloc(grown, self%letters)
+      end if
+      self%letters(self%used + 1:self%used + len(text)) = text
+      self%used = self%used + len(text)
+   end subroutine buffer_add
+
+   !> Append letters and the end of a line.
+   pure subroutine buffer_line(self, text)
+      class(buffer_t), intent(inout) :: self
+      character(*), intent(in) :: text
+
+      call self%add(text)
+      call self%add(new_line('a'))
+   end subroutine buffer_line
+
+   !> All letters so far.
+   pure function buffer_text(self) result(text)
+      class(buffer_t), intent(in) :: self
+      character(:), allocatable :: text
+
+      text = ''
+      if (allocated(self%letters)) text = self%letters(:self%used)
+   end function buffer_text
+
+   !> How many letters there are.
+   pure integer function buffer_length(self) result(length)
+      class(buffer_t), intent(in) :: self
+      length = self%used
+   end function buffer_length
+
+   !> Forget all letters, keep the room.
+   pure subroutine buffer_clear(self)
+      class(buffer_t), intent(inout) :: self
+      self%used = 0
+   end subroutine buffer_clear
+
+end module ek_buffer

@@ -1,0 +1,185 @@
+!> The tests of a report: which ones, and how one is run.
+module ek_report_tests
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_model, exit_convergence
+   use ek_units, only: millimetre
+   use ek_text, only: str, quoted, plural
+   use ek_suspension, only: suspension_t, load_number
+   use ek_builder, only: add_case_driver
+   use ek_case, only: case_t
+   use ek_state, only: design_state
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_path, only: path_t, sweep
+   use ek_sweep_table, only: sweep_table, factor_unit
+   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
+   use ek_run, only: add_header
+   use ek_run_words, only: failure_words
+   implicit none(type, external)
+   private
+   public :: planned_test_t, planned_tests, run_planned, kind_of_case
+
+   !> A test before it is run.
+   type :: planned_test_t
+      character(:), allocatable :: name      !! unique; also of its CSV
+      character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; see ek_gradient
+      character(:), allocatable :: title     !! heading of its section
+      type(case_t) :: case
+      real(wp) :: factor_size = 1.0_wp       !! what 1 in the column `factor` is, in N, N m or mm
+      logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
+   end type planned_test_t
+
+contains
+
+   !> The tests of a deck: its own cases.
+   subroutine planned_tests(suspension, cases, tests)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(planned_test_t), allocatable, intent(out) :: tests(:)
+      integer :: k
+
+      allocate (tests(size(cases)))
+      do k = 1, size(cases)
+         tests(k)%name = cases(k)%name
+         tests(k)%case = cases(k)
+         call kind_of_case(suspension, cases(k), tests(k)%kind, tests(k)%factor_size)
+         tests(k)%title = title_of(cases(k)%name)
+      end do
+   end subroutine planned_tests
+
+   !> What a case of a deck amounts to, from what drives it.
+   subroutine kind_of_case(suspension, case, kind, factor_size)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      character(:), allocatable, intent(out) :: kind
+      real(wp), intent(out) :: factor_size      !! N or N m that a factor of 1 is
+      real(wp), parameter :: mostly = 0.99_wp   ! share of the load along one axis
+      real(wp) :: force(3), moment(3)
+      integer :: k
+
+      kind = 'other'
+      factor_size = 1.0_wp
+      if (case%drive == 'wheel_travel') kind = 'parallel_travel'
+      k = load_number(suspension, case%load)
+      if (k == 0) return
+      force = suspension%loads(k)%force
+      moment = suspension%loads(k)%moment
+      if (norm2(force) > 0.0_wp .and. norm2(moment) > 0.0_wp) return
+      if (abs(force(3)) > mostly*norm2(force)) then
+         kind = 'vertical_force'
+         factor_size = force(3)
+      else if (abs(force(2)) > mostly*norm2(force)) then
+         kind = 'lateral_force'
+         factor_size = force(2)
+      else if (abs(force(1)) > mostly*norm2(force)) then
+         kind = 'braking'
+         factor_size = force(1)
+         if (is_at_centre(suspension, k)) then
+            kind = 'traction'
+            factor_size = -force(1)
+         end if
+      else if (abs(moment(3)) > mostly*norm2(moment)) then
+         kind = 'aligning_torque'
+         factor_size = moment(3)
+      end if
+   end subroutine kind_of_case
+
+   !> Whether a load acts at the centre of a wheel.
+   pure logical function is_at_centre(suspension, load)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: load
+      real(wp), parameter :: same = 1.0e-6_wp     ! m
+      integer :: k
+
+      is_at_centre = .false.
+      do k = 1, size(suspension%wheels)
+         if (suspension%wheels(k)%body /= suspension%loads(load)%body) cycle
+         is_at_centre = is_at_centre .or. norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same
+      end do
+   end function is_at_centre
+
+   !> 'Wheel travel sweep' of 'wheel_travel_sweep'.
+   pure function title_of(name) result(title)
+      character(*), intent(in) :: name
+      character(:), allocatable :: title
+      integer :: k
+
+      title = name
+      do k = 1, len(title)
+         if (title(k:k) == '_') title(k:k) = ' '
+      end do
+      if (len(title) == 0) return
+      if (title(1:1) >= 'a' .and. title(1:1) <= 'z') title(1:1) = achar(iachar(title(1:1)) - 32)
+   end function title_of
+
+   !> Runs one test. What does not converge is told in its remarks; `error` then has exit_convergence (or
+   !> exit_model, where there is nothing to solve), and the states before it are in the table.
+   subroutine run_planned(base, planned, checksum, test, path, error)
+      type(suspension_t), intent(in) :: base
+      type(planned_test_t), intent(in) :: planned
+      character(*), intent(in) :: checksum
+      type(test_result_t), intent(out) :: test
+      type(path_t), intent(out) :: path            !! states, for pictures
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: suspension
+      type(kkt_t) :: kkt
+      type(diagnosis_t) :: diagnosis
+      character(:), allocatable :: words
+      integer :: side
+
+      test%name = planned%name
+      test%kind = planned%kind
+      test%title = planned%title
+      test%file = planned%name//'.csv'
+      test%factor_size = planned%factor_size
+      test%is_anti = planned%is_anti
+      test%is_iso = base%is_iso
+      suspension = base
+      call add_case_driver(suspension, planned%case)
+      kkt = new_kkt(suspension)
+      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      if (.not. diagnosis%is_solvable()) then
+         call fail(error, exit_model, 'case '//quoted(planned%name)//': the model cannot be solved'//new_line('a')// &
+            diagnosis%words())
+         return
+      end if
+      call sweep(suspension, planned%case, path, kkt)
+      words = ''
+      do side = 1, 2
+         if (path%failure(side)%state == 0) cycle
+         if (len(words) > 0) words = words//new_line('a')
+         words = words//failure_words(suspension, planned%case, path, path%failure(side), kkt)
+         call test%remarks%add(failure_words(suspension, planned%case, path, path%failure(side), kkt))
+      end do
+      call remark_instability(suspension, planned%case, path, test)
+      if (len(words) > 0) call fail(error, exit_convergence, words)
+
+      call sweep_table(suspension, planned%case, path, kkt, test%table)
+      call add_header(test%table, suspension, planned%case, checksum)
+      if (planned%is_anti) then
+         call test%table%header%add('test '//planned%kind//', anti phase, factor size '//str(planned%factor_size, 15))
+      else
+         call test%table%header%add('test '//planned%kind//', factor size '//str(planned%factor_size, 15))
+      end if
+      if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
+      if (.not. allocated(test%prefixes)) call find_wheels(test)
+      call choose_abscissa(test)
+   end subroutine run_planned
+
+   !> States that a real suspension would leave at once.
+   subroutine remark_instability(suspension, case, path, test)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(test_result_t), intent(inout) :: test
+      integer :: unstable, first
+
+      if (case%method == 'recursive') return
+      unstable = count(path%is_reached .and. .not. path%is_stable)
+      if (unstable == 0) return
+      first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
+      call test%remarks%add(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or '// &
+         'buckled), the first at factor '//str(path%value(first)/factor_unit(suspension, case)))
+   end subroutine remark_instability
+
+end module ek_report_tests

@@ -1,0 +1,248 @@
+!> The numbers one looks at first, from all tests of a report: attitude at design, rates, ride and roll, compliance,
+!> anti features, steering. What the tests do not hold is left out.
+module ek_key_numbers
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_table, only: column_index
+   use ek_test_result, only: test_result_t, design_row, converged_rows
+   use ek_gradient, only: gradient_t
+   implicit none(type, external)
+   private
+   public :: key_number_t, key_numbers
+
+   type :: key_number_t
+      character(:), allocatable :: group, quantity, unit, sign
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number where there is none
+      logical :: is_of_axle = .false.                !! one number, in `left`
+   end type key_number_t
+
+   !> Where a key number comes from.
+   type :: source_t
+      character(20) :: group = ''
+      character(36) :: quantity = ''
+      character(36) :: name = ''          !! column, or quantity of a gradient
+      character(8) :: how = ''            !! 'design': column at design; 'gradient'; 'largest', 'least': over a test
+      character(16) :: kind = ''          !! of the test; '': any
+      character(4) :: phase = ''          !! 'in', 'anti'; '': any
+      character(12) :: unit = ''
+      character(56) :: sign = ''
+   end type source_t
+
+   character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
+      comply = 'Compliance', anti = 'Anti features', steer = 'Steering'
+
+   type(source_t), parameter :: attitude_list(*) = [ &
+      source_t(attitude, 'toe', 'toe_deg', 'design', '', '', 'deg', '+ front edge inward'), &
+      source_t(attitude, 'camber', 'camber_deg', 'design', '', '', 'deg', '+ top outward'), &
+      source_t(attitude, 'caster', 'caster_deg', 'design', '', '', 'deg', '+ axis leans rearward at the top'), &
+      source_t(attitude, 'kingpin inclination', 'kingpin_inclination_deg', 'design', '', '', 'deg', '+ leans inward at the top'), &
+      source_t(attitude, 'scrub radius', 'scrub_radius_mm', 'design', '', '', 'mm', &
+      '+ axis meets the ground inboard of the patch'), &
+      source_t(attitude, 'caster trail', 'caster_trail_mm', 'design', '', '', 'mm', &
+      '+ axis meets the ground ahead of the patch'), &
+      source_t(attitude, 'spindle length', 'spindle_length_mm', 'design', '', '', 'mm', '+ wheel centre outboard of the axis'), &
+      source_t(attitude, 'spindle offset', 'spindle_offset_mm', 'design', '', '', 'mm', '+ wheel centre behind the axis'), &
+      source_t(attitude, 'caster, instant axis', 'instant_caster_deg', 'design', '', '', 'deg', '+ leans rearward at the top'), &
+      source_t(attitude, 'kingpin inclination, instant axis', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
+      '+ leans inward at the top'), &
+      source_t(attitude, 'scrub radius, instant axis', 'instant_scrub_radius_mm', 'design', '', '', 'mm', &
+      '+ inboard of the patch'), &
+      source_t(attitude, 'caster trail, instant axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &
+      '+ ahead of the patch'), &
+      source_t(attitude, 'wheel load', 'vertical_force_n', 'design', '', '', 'N', 'ground on wheel'), &
+      source_t(attitude, 'roll centre, height', 'roll_centre_z_mm', 'design', '', '', 'mm', 'z of the deck'), &
+      source_t(attitude, 'roll centre, lateral', 'roll_centre_y_mm', 'design', '', '', 'mm', 'y of the deck')]
+
+   type(source_t), parameter :: rates_list(*) = [ &
+      source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'both wheels in phase'), &
+      source_t(rates, 'wheel rate, slope of the wheel load', 'wheel rate', 'gradient', 'parallel_travel', '', 'N/mm', ''), &
+      source_t(rates, 'ride rate', 'ride_rate_n_per_mm', 'design', '', '', 'N/mm', 'with the tyre'), &
+      source_t(rates, 'vertical deflection', 'vertical deflection', 'gradient', 'vertical_force', '', 'mm/kN', '+ up'), &
+      source_t(rates, 'suspension roll rate', 'suspension_roll_rate_nm_per_deg', 'design', '', '', 'N m/deg', ''), &
+      source_t(rates, 'total roll rate', 'total_roll_rate_nm_per_deg', 'design', '', '', 'N m/deg', 'with the tyres'), &
+      source_t(rates, 'fore-aft stiffness', 'fore_aft_stiffness_n_per_mm', 'design', '', '', 'N/mm', 'at the wheel centre'), &
+      source_t(rates, 'lateral stiffness', 'lateral_stiffness_n_per_mm', 'design', '', '', 'N/mm', 'at the wheel centre'), &
+      source_t(rates, 'vertical stiffness', 'vertical_stiffness_n_per_mm', 'design', '', '', 'N/mm', 'at the wheel centre')]
+
+   type(source_t), parameter :: ride_list(*) = [ &
+      source_t(ride, 'bump steer', 'bump steer', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'bump toe', 'bump toe', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'bump camber', 'bump camber', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'bump caster', 'bump caster', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'half-track change', 'half-track change', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'wheelbase change', 'wheelbase change', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'roll-centre height change', 'roll-centre height change', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'side-view swing arm length', 'side_view_arm_length_mm', 'design', '', '', 'mm', ''), &
+      source_t(ride, 'side-view swing arm angle', 'side_view_arm_angle_deg', 'design', '', '', 'deg', ''), &
+      source_t(ride, 'front-view swing arm length', 'front_view_arm_length_mm', 'design', '', '', 'mm', ''), &
+      source_t(ride, 'front-view swing arm angle', 'front_view_arm_angle_deg', 'design', '', '', 'deg', ''), &
+      source_t(roll, 'roll steer', 'roll steer', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'roll camber', 'roll camber', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'roll inclination', 'roll inclination', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'roll caster', 'roll caster', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'wheel load in roll', 'wheel load in roll', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'roll rate', 'roll rate', 'gradient', 'roll', '', '', '')]
+
+   type(source_t), parameter :: comply_list(*) = [ &
+      source_t(comply, 'lateral deflection, in phase', 'lateral deflection', 'gradient', 'lateral_force', 'in', '', ''), &
+      source_t(comply, 'lateral force steer, in phase', 'lateral force steer', 'gradient', 'lateral_force', 'in', '', ''), &
+      source_t(comply, 'lateral force camber, in phase', 'lateral force camber', 'gradient', 'lateral_force', 'in', '', ''), &
+      source_t(comply, 'lateral deflection, anti phase', 'lateral deflection', 'gradient', 'lateral_force', 'anti', '', ''), &
+      source_t(comply, 'lateral force steer, anti phase', 'lateral force steer', 'gradient', 'lateral_force', 'anti', '', ''), &
+      source_t(comply, 'lateral force camber, anti phase', 'lateral force camber', 'gradient', 'lateral_force', 'anti', '', ''), &
+      source_t(comply, 'aligning torque steer, in phase', 'aligning torque steer', 'gradient', 'aligning_torque', 'in', '', ''), &
+      source_t(comply, 'aligning torque camber, in phase', 'aligning torque camber', 'gradient', 'aligning_torque', &
+      'in', '', ''), &
+      source_t(comply, 'aligning torque steer, anti phase', 'aligning torque steer', 'gradient', 'aligning_torque', &
+      'anti', '', ''), &
+      source_t(comply, 'braking deflection', 'braking deflection', 'gradient', 'braking', '', '', ''), &
+      source_t(comply, 'braking steer', 'braking steer', 'gradient', 'braking', '', '', ''), &
+      source_t(comply, 'braking caster', 'braking caster', 'gradient', 'braking', '', '', ''), &
+      source_t(comply, 'traction deflection', 'traction deflection', 'gradient', 'traction', '', '', ''), &
+      source_t(comply, 'traction steer', 'traction steer', 'gradient', 'traction', '', '', ''), &
+      source_t(comply, 'traction caster', 'traction caster', 'gradient', 'traction', '', '', '')]
+
+   type(source_t), parameter :: last_list(*) = [ &
+      source_t(anti, 'anti-dive', 'anti_dive_percent', 'design', '', '', '%', 'braking, front'), &
+      source_t(anti, 'anti-lift, drive', 'anti_lift_drive_percent', 'design', '', '', '%', 'drive, front'), &
+      source_t(anti, 'anti-lift, braking', 'anti_lift_brake_percent', 'design', '', '', '%', 'braking, rear'), &
+      source_t(anti, 'anti-squat', 'anti_squat_percent', 'design', '', '', '%', 'drive, rear'), &
+      source_t(steer, 'steering ratio', 'steering_ratio', 'design', '', '', '–', 'steering wheel over road wheel'), &
+      source_t(steer, 'steer per steering input', 'steer per steering input', 'gradient', 'steering', '', '', ''), &
+      source_t(steer, 'steer per steering wheel', 'steer per steering wheel', 'gradient', 'steering', '', '', ''), &
+      source_t(steer, 'largest steer to the left', 'steer_deg', 'largest', 'steering', '', 'deg', 'over the test'), &
+      source_t(steer, 'largest steer to the right', 'steer_deg', 'least', 'steering', '', 'deg', 'over the test'), &
+      source_t(steer, 'Ackermann at most', 'ackermann_percent', 'largest', 'steering', '', '%', 'over the test'), &
+      source_t(steer, 'turning circle, least', 'turning_circle_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'steer camber', 'steer camber', 'gradient', 'steering', '', '', '')]
+
+contains
+
+   !> All key numbers that the tests give.
+   subroutine key_numbers(tests, gradients, numbers)
+      type(test_result_t), intent(in) :: tests(:)
+      type(gradient_t), intent(in) :: gradients(:)
+      type(key_number_t), allocatable, intent(out) :: numbers(:)
+      type(key_number_t) :: number
+      integer :: used
+
+      allocate (numbers(size(attitude_list) + size(rates_list) + size(ride_list) + size(comply_list) + size(last_list)))
+      used = 0
+      call take(attitude_list)
+      call take(rates_list)
+      call take(ride_list)
+      call take(comply_list)
+      call take(last_list)
+      numbers = numbers(:used)
+
+   contains
+
+      subroutine take(list)
+         type(source_t), intent(in) :: list(:)
+         logical :: is_there
+         integer :: k
+
+         do k = 1, size(list)
+            number = key_number_t(trim(list(k)%group), trim(list(k)%quantity), trim(list(k)%unit), trim(list(k)%sign), &
+               nothing(), nothing(), .false.)
+            if (list(k)%how == 'gradient') then
+               call from_gradients(tests, gradients, list(k), number, is_there)
+            else
+               call from_tables(tests, list(k), number, is_there)
+            end if
+            if (.not. is_there) cycle
+            used = used + 1
+            numbers(used) = number
+         end do
+      end subroutine take
+
+   end subroutine key_numbers
+
+   !> A gradient of the first test of the kind and phase.
+   subroutine from_gradients(tests, gradients, source, number, is_there)
+      type(test_result_t), intent(in) :: tests(:)
+      type(gradient_t), intent(in) :: gradients(:)
+      type(source_t), intent(in) :: source
+      type(key_number_t), intent(inout) :: number
+      logical, intent(out) :: is_there
+      integer :: t, k
+
+      is_there = .false.
+      do t = 1, size(tests)
+         if (tests(t)%kind /= source%kind) cycle
+         if (len_trim(source%phase) > 0 .and. ((source%phase == 'anti') .neqv. tests(t)%is_anti)) cycle
+         do k = 1, size(gradients)
+            if (gradients(k)%test /= tests(t)%name .or. gradients(k)%quantity /= source%name) cycle
+            is_there = .true.
+            number%unit = gradients(k)%unit
+            number%sign = gradients(k)%sign//' (over '//gradients(k)%window//')'
+            if (gradients(k)%side == 'right') then
+               number%right = gradients(k)%value
+            else
+               number%left = gradients(k)%value
+               number%is_of_axle = len(gradients(k)%side) == 0 .and. size(tests(t)%prefixes) > 1
+            end if
+         end do
+         if (is_there) return
+      end do
+   end subroutine from_gradients
+
+   !> A column at design, or its largest or least value, in the first test that has it.
+   subroutine from_tables(tests, source, number, is_there)
+      type(test_result_t), intent(in) :: tests(:)
+      type(source_t), intent(in) :: source
+      type(key_number_t), intent(inout) :: number
+      logical, intent(out) :: is_there
+      integer :: t, wheel, place
+      real(wp) :: value
+
+      is_there = .false.
+      do t = 1, size(tests)
+         if (len_trim(source%kind) > 0 .and. tests(t)%kind /= source%kind) cycle
+         do wheel = 1, size(tests(t)%prefixes)
+            place = column_index(tests(t)%table, trim(tests(t)%prefixes(wheel))//source%name)
+            if (place == 0) cycle
+            value = value_of(tests(t), place, source%how)
+            if (.not. ieee_is_finite(value)) cycle
+            is_there = .true.
+            if (tests(t)%sides(wheel) > 0 .and. size(tests(t)%prefixes) > 1) then
+               number%right = value
+            else
+               number%left = value
+            end if
+         end do
+         place = column_index(tests(t)%table, source%name)
+         if (.not. is_there .and. place > 0) then
+            value = value_of(tests(t), place, source%how)
+            is_there = ieee_is_finite(value)
+            number%left = value
+            number%is_of_axle = size(tests(t)%prefixes) > 1
+         end if
+         if (is_there) return
+      end do
+   end subroutine from_tables
+
+   pure real(wp) function value_of(test, place, how) result(value)
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: place
+      character(*), intent(in) :: how
+      logical :: is_good(size(test%table%values, 2))
+      integer :: row
+
+      value = nothing()
+      if (how == 'design') then
+         row = design_row(test%table)
+         if (row > 0) value = test%table%values(place, row)
+         return
+      end if
+      is_good = converged_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
+      if (.not. any(is_good)) return
+      if (how == 'largest') value = maxval(test%table%values(place, :), mask=is_good)
+      if (how == 'least') value = minval(test%table%values(place, :), mask=is_good)
+   end function value_of
+
+   pure real(wp) function nothing()
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function nothing
+
+end module ek_key_numbers

@@ -1,0 +1,230 @@
+!> A small chart with its numbers, for a page of many: all charts of a page are one gnuplot script.
+!>
+!> Unlike a figure (ek_figure), which is a script of its own beside the result files, a chart carries its data, and
+!> has the abscissa to the right always: a page of small charts is read in one direction.
+module ek_chart
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_decimal, only: put_decimal, longest_decimal
+   use ek_gnuplot, only: gnuplot_text, palette
+   implicit none(type, external)
+   private
+   public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate
+
+   integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at letters of 13
+
+   !> One curve.
+   type :: trace_t
+      character(:), allocatable :: title
+      real(wp), allocatable :: x(:), y(:)
+      real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
+      integer :: colour = 1                  !! place in the palette
+      integer :: dash = 0                    !! 0 solid, 1 dashed, 2 dotted, 3 dash-dotted
+   end type trace_t
+
+   type :: chart_t
+      character(:), allocatable :: name      !! of the SVG, without extension
+      character(:), allocatable :: title     !! the quantity
+      character(:), allocatable :: y_label   !! its unit and sign
+      character(:), allocatable :: x_label
+      type(trace_t), allocatable :: traces(:)
+      logical :: has_key = .false.           !! the curves are named in the chart
+      real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
+   end type chart_t
+
+contains
+
+   pure type(chart_t) function new_chart(name, title, y_label, x_label) result(chart)
+      character(*), intent(in) :: name, title, y_label, x_label
+
+      chart%name = name
+      chart%title = title
+      chart%y_label = y_label
+      chart%x_label = x_label
+      allocate (chart%traces(0))
+   end function new_chart
+
+   pure subroutine add_trace(chart, trace)
+      type(chart_t), intent(inout) :: chart
+      type(trace_t), intent(in) :: trace
+      type(trace_t), allocatable :: grown(:)
+      integer :: n
+
+      n = size(chart%traces)
+      allocate (grown(n + 1))
+      grown(:n) = chart%traces
+      grown(n + 1) = trace
+      call move_alloc(grown, chart%traces)
+   end subroutine add_trace
+
+   pure subroutine append_chart(charts, chart)
+      type(chart_t), allocatable, intent(inout) :: charts(:)
+      type(chart_t), intent(in) :: chart
+      type(chart_t), allocatable :: grown(:)
+      integer :: n
+
+      n = size(charts)
+      allocate (grown(n + 1))
+      grown(:n) = charts
+      grown(n + 1) = chart
+      call move_alloc(grown, charts)
+   end subroutine append_chart
+
+   !> One script that draws every chart as <name>.svg in the folder where gnuplot runs.
+   pure function charts_script(charts) result(text)
+      type(chart_t), intent(in) :: charts(:)
+      character(:), allocatable :: text
+      type(buffer_t) :: script
+      integer :: k
+
+      call script%line('# The charts of a page. Run gnuplot in this folder to draw them again.')
+      call script%line('set encoding utf8')
+      call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
+         " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
+      call script%line("set border 3 linecolor rgb '#808080'")
+      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'")
+      call script%line("set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1")
+      call script%line("set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
+      call script%line("set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
+      call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.155')
+      call script%line("set xtics autofreq; set xtics font ',12'; set ytics font ',12'")
+      do k = 1, size(charts)
+         call add_chart(script, charts(k))
+      end do
+      call script%line('unset output')
+      text = script%text()
+   end function charts_script
+
+   !> Data and plot command of one chart.
+   pure subroutine add_chart(script, chart)
+      type(buffer_t), intent(inout) :: script
+      type(chart_t), intent(in) :: chart
+      character(:), allocatable :: line
+      real(wp) :: low, high
+      integer :: k, row, keys, plotted
+
+      if (size(chart%traces) == 0) return
+      call script%line('')
+      call script%line('$data << EOD')
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do k = 1, size(chart%traces)
+         associate (trace => chart%traces(k))
+            do row = 1, size(trace%x)
+               call add_pair(script, trace%x(row), trace%y(row))
+               if (.not. ieee_is_finite(trace%y(row))) cycle
+               low = min(low, trace%y(row))
+               high = max(high, trace%y(row))
+            end do
+            call script%line('')
+            call script%line('')
+            if (allocated(trace%mark)) then
+               call add_pair(script, trace%mark(1), trace%mark(2))
+            else
+               call script%line('NaN NaN')
+            end if
+            call script%line('')
+            call script%line('')
+         end associate
+      end do
+      call script%line('EOD')
+
+      call script%line('set output '//gnuplot_text(chart%name//'.svg'))
+      call script%line('set label 1 '//gnuplot_text(chart%title)// &
+         " at screen 0.02, screen 0.945 font 'sans-serif:Bold,15' textcolor rgb '#202020'")
+      call script%line('set label 2 '//gnuplot_text(chart%y_label)// &
+         " at screen 0.02, screen 0.875 font ',12' textcolor rgb '#606060'")
+      call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.4 font ',12' textcolor rgb '#606060'")
+      if (high >= low .and. high - low < chart%noise) then
+         call script%line('set yrange [* < '//str((low + high)/2 - chart%noise, 6)//' : '// &
+            str((low + high)/2 + chart%noise, 6)//' < *]')
+      else if (high >= low .and. high - low <= 0.0_wp) then
+         call script%line('set yrange ['//str(low - max(abs(low)/10, 1.0e-6_wp), 6)//' : '// &
+            str(low + max(abs(low)/10, 1.0e-6_wp), 6)//']')
+      else
+         call script%line('set yrange [*:*]')
+      end if
+      keys = 0
+      if (chart%has_key) keys = size(chart%traces)
+      if (keys > 0) then
+         call script%line("set key at screen 0.975, screen "//str(0.80_wp)// &
+            " right top vertical Right noreverse samplen 2 spacing 1.0 font ',11' maxrows 4 opaque fillcolor rgb '#FFFFFF'")
+         call script%line('set tmargin at screen 0.82')
+      else
+         call script%line('unset key')
+         call script%line('set tmargin at screen 0.82')
+      end if
+      plotted = size(chart%traces)
+      do k = 1, plotted
+         associate (trace => chart%traces(k))
+            line = '     '
+            if (k == 1) line = 'plot '
+            line = line//'$data index '//str(2*k - 2)//" using 1:2 with lines linecolor rgb '"// &
+               palette(modulo(trace%colour - 1, size(palette)) + 1)//"' linewidth 2.2"//dashes(trace%dash)
+            if (keys > 0) then
+               line = line//' title '//gnuplot_text(trace%title)
+            else
+               line = line//' notitle'
+            end if
+            call script%line(line//', \')
+            line = '     $data index '//str(2*k - 1)//" using 1:2 with points pointtype 6 pointsize 0.9 linewidth 1.6"// &
+               " linecolor rgb '#202020' notitle"
+            if (k < plotted) line = line//', \'
+            call script%line(line)
+         end associate
+      end do
+   end subroutine add_chart
+
+   pure function dashes(dash) result(words)
+      integer, intent(in) :: dash
+      character(:), allocatable :: words
+
+      select case (dash)
+      case (0)
+         words = ''
+      case (1)
+         words = ' dashtype (10, 6)'
+      case (2)
+         words = ' dashtype (2, 4)'
+      case default
+         words = ' dashtype (10, 4, 2, 4)'
+      end select
+   end function dashes
+
+   !> x and y with seven digits, more than a picture shows.
+   pure subroutine add_pair(script, x, y)
+      type(buffer_t), intent(inout) :: script
+      real(wp), intent(in) :: x, y
+
+      call add_coordinate(script, x, 7)
+      call script%add(' ')
+      call add_coordinate(script, y, 7)
+      call script%line('')
+   end subroutine add_pair
+
+   !> A number rounded to significant digits; NaN where it is none.
+   pure subroutine add_coordinate(script, value, digits)
+      type(buffer_t), intent(inout) :: script
+      real(wp), intent(in) :: value
+      integer, intent(in) :: digits
+      character(longest_decimal) :: number
+      real(wp) :: scale
+      integer :: used
+
+      if (.not. ieee_is_finite(value)) then
+         call script%add('NaN')
+         return
+      end if
+      used = 0
+      if (abs(value) < 1.0e-12_wp .or. abs(value) > 1.0e12_wp) then
+         call put_decimal(merge(0.0_wp, value, abs(value) < 1.0e-12_wp), number, used)
+      else
+         scale = 10.0_wp**(digits - 1 - floor(log10(abs(value))))
+         call put_decimal(anint(value*scale)/scale, number, used)
+      end if
+      call script%add(number(:used))
+   end subroutine add_coordinate
+
+end module ek_chart

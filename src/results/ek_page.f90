@@ -1,0 +1,344 @@
+!> A page of results in one file of HTML: headings, tables, pictures inside, nothing from anywhere else.
+!>
+!> No script, no font, no picture is fetched. It reads on a screen, in one column on a phone (tables scroll in their own
+!> box), and on paper (A4, each section on a new page). Every text that comes in is escaped here.
+module ek_page
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_svg, only: embedded_svg, escape_html
+   use ek_gnuplot, only: palette
+   implicit none(type, external)
+   private
+   public :: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts
+   public :: begin_table, begin_row, add_cell, end_row, add_group, end_table
+   public :: begin_charts, add_chart_picture, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
+
+   character(*), parameter :: nl = new_line('a')
+
+   type :: page_t
+      private
+      type(buffer_t) :: body, contents
+      character(:), allocatable :: title
+      integer :: pictures = 0, table_columns = 0
+   end type page_t
+
+contains
+
+   !> A page with its title.
+   pure subroutine begin_page(page, title, subtitle)
+      type(page_t), intent(out) :: page
+      character(*), intent(in) :: title, subtitle
+
+      page%title = title
+      call page%body%line('<header><h1>'//escape_html(title)//'</h1>')
+      if (len(subtitle) > 0) call page%body%line('<p class="subtitle">'//escape_html(subtitle)//'</p>')
+      call page%body%line('<!--contents--></header>')
+   end subroutine begin_page
+
+   !> A section; on paper it starts a page. `id` is letters, digits, _ and -.
+   pure subroutine begin_section(page, id, title)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: id, title
+
+      call page%body%line('<section id="'//escape_html(id)//'"><h2>'//escape_html(title)//'</h2>')
+      call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
+   end subroutine begin_section
+
+   pure subroutine end_section(page)
+      type(page_t), intent(inout) :: page
+      call page%body%line('</section>')
+   end subroutine end_section
+
+   pure subroutine add_paragraph(page, text)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: text
+      call page%body%line('<p>'//escape_html(text)//'</p>')
+   end subroutine add_paragraph
+
+   pure subroutine add_heading(page, text)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: text
+      call page%body%line('<h3>'//escape_html(text)//'</h3>')
+   end subroutine add_heading
+
+   !> A box with what is doubtful; none when the list is empty.
+   pure subroutine add_warnings(page, title, list)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: title
+      type(message_list_t), intent(in) :: list
+      integer :: k
+
+      if (list%count() == 0) return
+      call page%body%line('<div class="warning" role="note"><strong>'//escape_html(title)//'</strong><ul>')
+      do k = 1, list%count()
+         call page%body%line('<li>'//escape_html(list%line(k))//'</li>')
+      end do
+      call page%body%line('</ul></div>')
+   end subroutine add_warnings
+
+   !> Pairs of name and value, two lists of the same length.
+   pure subroutine add_facts(page, names, values)
+      type(page_t), intent(inout) :: page
+      type(message_list_t), intent(in) :: names, values
+      integer :: k
+
+      call page%body%line('<dl>')
+      do k = 1, names%count()
+         call page%body%line('<div><dt>'//escape_html(names%line(k))//'</dt><dd>'//escape_html(values%line(k))//'</dd></div>')
+      end do
+      call page%body%line('</dl>')
+   end subroutine add_facts
+
+   !> A table with its column heads; columns whose head begins with '>' hold numbers, to the right.
+   pure subroutine begin_table(page, heads)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: heads(:)
+      integer :: k
+
+      page%table_columns = size(heads)
+      call page%body%add('<div class="scroll"><table><thead><tr>')
+      do k = 1, size(heads)
+         if (index(heads(k), '>') == 1) then
+            call page%body%add('<th scope="col" class="n">'//escape_html(trim(heads(k) (2:)))//'</th>')
+         else
+            call page%body%add('<th scope="col">'//escape_html(trim(heads(k)))//'</th>')
+         end if
+      end do
+      call page%body%line('</tr></thead><tbody>')
+   end subroutine begin_table
+
+   !> A line across the table that names the rows below it.
+   pure subroutine add_group(page, title)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: title
+      call page%body%line('<tr class="group"><th colspan="'//str(page%table_columns)//'" scope="colgroup">'// &
+         escape_html(title)//'</th></tr>')
+   end subroutine add_group
+
+   pure subroutine begin_row(page)
+      type(page_t), intent(inout) :: page
+      call page%body%add('<tr>')
+   end subroutine begin_row
+
+   !> A cell of words, or of a number (kind 'n'), or of small words ('s').
+   pure subroutine add_cell(page, text, kind)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: text
+      character(1), intent(in), optional :: kind
+
+      if (present(kind)) then
+         call page%body%add('<td class="'//kind//'">'//escape_html(text)//'</td>')
+      else
+         call page%body%add('<td>'//escape_html(text)//'</td>')
+      end if
+   end subroutine add_cell
+
+   pure subroutine end_row(page)
+      type(page_t), intent(inout) :: page
+      call page%body%line('</tr>')
+   end subroutine end_row
+
+   pure subroutine end_table(page)
+      type(page_t), intent(inout) :: page
+      call page%body%line('</tbody></table></div>')
+   end subroutine end_table
+
+   !> Charts side by side, as many as fit.
+   pure subroutine begin_charts(page)
+      type(page_t), intent(inout) :: page
+      call page%body%line('<div class="charts">')
+   end subroutine begin_charts
+
+   pure subroutine end_charts(page)
+      type(page_t), intent(inout) :: page
+      call page%body%line('</div>')
+   end subroutine end_charts
+
+   !> One chart among others, from the SVG that gnuplot wrote.
+   pure subroutine add_chart_picture(page, svg, title)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: svg, title     !! content of the file; what it shows
+
+      page%pictures = page%pictures + 1
+      call page%body%add('<figure>')
+      call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
+      call page%body%line('</figure>')
+   end subroutine add_chart_picture
+
+   !> A picture over the whole width.
+   pure subroutine add_picture(page, svg, title, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: svg, title, caption
+
+      page%pictures = page%pictures + 1
+      call page%body%add('<figure class="wide">')
+      call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
+      if (len(caption) > 0) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
+      call page%body%line('</figure>')
+   end subroutine add_picture
+
+   !> A picture of points (GIF, PNG) inside the page, as base64.
+   pure subroutine add_data_picture(page, bytes, kind, title, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: bytes          !! content of the file
+      character(*), intent(in) :: kind           !! 'gif' or 'png'
+      character(*), intent(in) :: title, caption
+
+      page%pictures = page%pictures + 1
+      call page%body%add('<figure class="wide"><img alt="'//escape_html(title)//'" src="data:image/'//kind//';base64,')
+      call page%body%add(base64(bytes))
+      call page%body%add('">')
+      if (len(caption) > 0) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
+      call page%body%line('</figure>')
+   end subroutine add_data_picture
+
+   !> What the curves of the charts below are: names in the order of the palette, dashed from the second on.
+   pure subroutine add_legend(page, names, has_design)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: names(:)
+      logical, intent(in) :: has_design
+      integer :: k
+
+      call page%body%add('<p class="legend">')
+      do k = 1, size(names)
+         call page%body%add('<span><i style="border-top:3px '//trim(merge('dashed', 'solid ', k > 1))//' '// &
+            palette(modulo(k - 1, size(palette)) + 1)//'"></i>'//escape_html(trim(names(k)))//'</span>')
+      end do
+      if (has_design) call page%body%add('<span><b></b>design</span>')
+      call page%body%line('</p>')
+   end subroutine add_legend
+
+   !> The whole page.
+   pure function page_text(page) result(text)
+      type(page_t), intent(in) :: page
+      character(:), allocatable :: text
+      character(*), parameter :: mark = '<!--contents-->'
+      character(:), allocatable :: body
+      type(buffer_t) :: out
+      integer :: at
+
+      body = page%body%text()
+      at = index(body, mark)
+      call out%line('<!doctype html>')
+      call out%line('<html lang="en"><head><meta charset="utf-8">')
+      call out%line('<meta name="viewport" content="width=device-width, initial-scale=1">')
+      ! a browser asks for /favicon.ico unless the page has an icon of its own
+      call out%line('<link rel="icon" href="data:,">')
+      call out%line('<title>'//escape_html(page%title)//'</title>')
+      call out%line('<style>')
+      call add_style(out)
+      call out%line('</style></head><body><main>')
+      call out%add(body(:at - 1))
+      if (page%contents%length() > 0) call out%add('<nav aria-label="Contents"><ul>'//page%contents%text()//'</ul></nav>')
+      call out%add(body(at + len(mark):))
+      call out%line('</main></body></html>')
+      text = out%text()
+   end function page_text
+
+   pure subroutine add_style(out)
+      type(buffer_t), intent(inout) :: out
+
+      call out%line(':root{color-scheme:light dark;--ink:#1d2228;--soft:#5b6570;--line:#d9dee4;--paper:#fff;--band:#f4f6f8;'// &
+         '--warn:#fff4e0;--warnline:#e0a030;--link:#0b5cad}')
+      call out%line('@media(prefers-color-scheme:dark){:root{--ink:#e4e8ec;--soft:#9aa5b1;--line:#38414a;--paper:#15191d;'// &
+         '--band:#1f252b;--warn:#3a2d12;--warnline:#b8862d;--link:#7db7f0}}')
+      call out%line('*{box-sizing:border-box}html{-webkit-text-size-adjust:100%}')
+      call out%line('body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}')
+      call out%line('main{max-width:1280px;margin:0 auto;padding:24px 28px 64px}')
+      call out%line('h1{font-size:1.9rem;line-height:1.2;margin:0 0 4px;overflow-wrap:anywhere}'// &
+         'h2{font-size:1.35rem;margin:48px 0 12px;padding-top:12px;border-top:1px solid var(--line)}'// &
+         'h3{font-size:1.02rem;margin:22px 0 8px}')
+      call out%line('.subtitle{color:var(--soft);margin:0 0 14px}a{color:var(--link)}p{max-width:75ch}')
+      call out%line('nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:6px 18px;margin:10px 0;padding:0;font-size:.92rem}')
+      call out%line('dl{display:flex;flex-wrap:wrap;gap:6px 32px;margin:12px 0}dl div{min-width:0}'// &
+         'dt{color:var(--soft);font-size:.8rem}dd{margin:0;overflow-wrap:anywhere}')
+      call out%line('.scroll{overflow-x:auto;margin:10px 0;-webkit-overflow-scrolling:touch}'// &
+         'table{border-collapse:collapse;font-size:.9rem;min-width:100%}')
+      call out%line('th,td{text-align:left;padding:4px 14px 4px 0;border-bottom:1px solid var(--line);vertical-align:baseline}'// &
+         'thead th{color:var(--soft);font-weight:600;font-size:.8rem;white-space:nowrap}')
+      call out%line('td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}'// &
+         'td.s{color:var(--soft);font-size:.82rem}tr.group th{padding-top:16px;font-weight:650}')
+      call out%line('.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:14px}')
+      call out%line('figure{margin:0;background:#fff;border:1px solid var(--line);border-radius:6px;padding:4px}'// &
+         'figure.wide{margin:14px 0}svg,img{display:block;width:100%;height:auto}'// &
+         'figcaption{color:#5b6570;font-size:.82rem;padding:2px 10px 8px}')
+      call out%line('.legend{display:flex;flex-wrap:wrap;gap:4px 20px;color:var(--soft);font-size:.88rem;margin:8px 0}'// &
+         '.legend span{display:inline-flex;align-items:center;gap:7px}.legend i{display:inline-block;width:30px;height:0}'// &
+         '.legend b{display:inline-block;width:9px;height:9px;border:2px solid var(--ink);border-radius:50%}')
+      call out%line('.warning{background:var(--warn);border:1px solid var(--warnline);border-left-width:5px;border-radius:4px;'// &
+         'padding:10px 16px;margin:14px 0}.warning ul{margin:6px 0 0;padding-left:20px}.warning li{overflow-wrap:anywhere}')
+      call out%line('@media(max-width:700px){main{padding:16px 14px 48px}h1{font-size:1.45rem}h2{margin-top:34px}'// &
+         '.charts{grid-template-columns:1fr}table{font-size:.84rem}td.s{min-width:15em}}')
+      call out%line('@page{size:A4;margin:14mm}')
+      call out%line('@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--band:#fff;--warn:#fff;--link:#000}'// &
+         'body{font-size:10pt}main{max-width:none;padding:0}nav{display:none}section{break-before:page}'// &
+         'section:first-of-type{break-before:auto}h2{margin-top:0;border:0}h2,h3,.legend{break-after:avoid}'// &
+         '.charts{grid-template-columns:1fr 1fr;gap:8px}figure,tr{break-inside:avoid}.scroll{overflow:visible}'// &
+         'table{font-size:8pt}figure{border-color:#ddd}}')
+   end subroutine add_style
+
+   !> A number for a table: about four digits, no exponent where a person would write none; '–' where there is none.
+   pure function page_number(value) result(text)
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+      character(32) :: buffer
+      character(8) :: form
+      integer :: decimals
+
+      if (ieee_is_nan(value)) then
+         text = '–'
+         return
+      end if
+      if (.not. ieee_is_finite(value)) then
+         text = '∞'
+         if (value < 0.0_wp) text = '−∞'
+         return
+      end if
+      if (abs(value) >= 1.0e7_wp) then
+         text = str(value, 4)
+      else
+         decimals = 4
+         if (abs(value) >= 1.0_wp) decimals = 3
+         if (abs(value) >= 10.0_wp) decimals = 2
+         if (abs(value) >= 100.0_wp) decimals = 1
+         if (abs(value) >= 1000.0_wp) decimals = 0
+         write (form, '(a,i0,a)') '(f32.', decimals, ')'
+         write (buffer, form) value
+         text = trim(adjustl(buffer))
+         if (verify(text, '-0.') == 0) text = '0'
+         if (index(text, '.') == 1) text = '0'//text
+         if (index(text, '-.') == 1) text = '-0'//text(2:)
+         if (text(len(text):) == '.') text = text(:len(text) - 1)
+      end if
+      if (index(text, '-') == 1) text = '−'//text(2:)
+   end function page_number
+
+   !> RFC 4648.
+   pure function base64(bytes) result(text)
+      character(*), intent(in) :: bytes
+      character(:), allocatable :: text
+      character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'
+      integer :: k, l, three, left, at, sextet
+
+      allocate (character(4*((len(bytes) + 2)/3)) :: text)
+      at = 0
+      do k = 1, len(bytes), 3
+         left = min(3, len(bytes) - k + 1)
+         three = 0
+         do l = 0, 2
+            three = three*256
+            if (l < left) three = three + iachar(bytes(k + l:k + l))
+         end do
+         do l = 3, 0, -1
+            sextet = iand(ishft(three, -6*l), 63) + 1
+            at = at + 1
+            text(at:at) = letters(sextet:sextet)
+            if (3 - l > left) text(at:at) = '='
+         end do
+      end do
+   end function base64
+
+end module ek_page

@@ -1,0 +1,184 @@
+!> A picture drawn by gnuplot as SVG, made fit to stand inside a page.
+!>
+!> Many pictures share one page, so every id gets a prefix of its own; prolog, document type, scripts, mouse events and
+!> fixed sizes go; the view box stays, so that the page decides the width.
+module ek_svg
+   use ek_buffer, only: buffer_t
+   implicit none(type, external)
+   private
+   public :: embedded_svg, escape_html
+
+contains
+
+   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' when the text holds none.
+   pure function embedded_svg(text, prefix, title) result(svg)
+      character(*), intent(in) :: text       !! content of the file
+      character(*), intent(in) :: prefix     !! unique in the page: letters and digits
+      character(*), intent(in) :: title      !! what the picture shows, for who cannot see it
+      character(:), allocatable :: svg
+      type(buffer_t) :: out
+      character(:), allocatable :: box
+      integer :: at, last, finish, head
+
+      svg = ''
+      at = index(text, '<svg')
+      finish = index(text, '</svg>', back=.true.)
+      if (at == 0 .or. finish < at) return
+      head = at + index(text(at:), '>') - 1
+      box = attribute(text(at:head), 'viewBox')
+      if (len(box) == 0) box = '0 0 '//number_of(attribute(text(at:head), 'width'))//' '// &
+         number_of(attribute(text(at:head), 'height'))
+      ! no xmlns: a page knows what svg and xlink are
+      call out%add('<svg viewBox="'//box//'" role="img" aria-label="'//escape_html(title)//'">')
+      at = head + 1
+      do while (at < finish)
+         last = index(text(at:finish - 1), '<')
+         if (last == 0) then
+            call out%add(text(at:finish - 1))
+            exit
+         end if
+         call add_words(out, text(at:at + last - 2))
+         at = at + last - 1
+         if (begins(text, at, '<script')) then
+            at = past(text, at, '</script>')
+         else if (begins(text, at, '<title')) then
+            at = past(text, at, '</title>')
+         else if (begins(text, at, '<desc')) then
+            at = past(text, at, '</desc>')
+         else if (begins(text, at, '<filter')) then
+            at = past(text, at, '</filter>')
+         else if (begins(text, at, '<!--')) then
+            at = past(text, at, '-->')
+         else
+            last = past(text, at, '>') - 1
+            call add_tag(out, text(at:last), prefix)
+            at = last + 1
+         end if
+      end do
+      call out%add('</svg>')
+      svg = out%text()
+   end function embedded_svg
+
+   !> Text between tags; what is only blank becomes one line end.
+   pure subroutine add_words(out, words)
+      type(buffer_t), intent(inout) :: out
+      character(*), intent(in) :: words
+
+      if (verify(words, ' '//achar(9)//achar(10)//achar(13)) == 0) then
+         if (index(words, achar(10)) > 0) call out%add(achar(10))
+      else
+         call out%add(words)
+      end if
+   end subroutine add_words
+
+   !> A tag with its ids and references to ids renamed, its mouse events dropped.
+   pure subroutine add_tag(out, tag, prefix)
+      type(buffer_t), intent(inout) :: out
+      character(*), intent(in) :: tag, prefix
+      integer :: at, close
+
+      if (index(tag, 'id=') + index(tag, 'href=') + index(tag, 'url(#') + index(tag, ' on') == 0) then
+         call out%add(tag)                ! most of a picture: long paths
+         return
+      end if
+      at = 1
+      do while (at <= len(tag))
+         if (begins(tag, at, ' on') .and. at < len(tag) - 6) then      ! onclick="…", onmousemove='…'
+            close = index(tag(at:), '=')
+            if (close > 0) then
+               close = at + close
+               close = close + index(tag(close + 1:), tag(close:close))
+               if (close > at) then
+                  at = close + 1
+                  cycle
+               end if
+            end if
+         end if
+         if (begins(tag, at, " id='") .or. begins(tag, at, ' id="')) then
+            call out%add(tag(at:at + 4)//prefix//'_')
+            at = at + 5
+         else if (begins(tag, at, "href='#") .or. begins(tag, at, 'href="#')) then
+            call out%add(tag(at:at + 6)//prefix//'_')
+            at = at + 7
+         else if (begins(tag, at, 'url(#')) then
+            call out%add('url(#'//prefix//'_')
+            at = at + 5
+         else
+            call out%add(tag(at:at))
+            at = at + 1
+         end if
+      end do
+   end subroutine add_tag
+
+   pure logical function begins(text, at, word)
+      character(*), intent(in) :: text, word
+      integer, intent(in) :: at
+
+      begins = .false.
+      if (at + len(word) - 1 <= len(text)) begins = text(at:at + len(word) - 1) == word
+   end function begins
+
+   !> The place behind the next `word`, or behind the text.
+   pure integer function past(text, at, word)
+      character(*), intent(in) :: text, word
+      integer, intent(in) :: at
+
+      past = index(text(at:), word)
+      if (past == 0) then
+         past = len(text) + 1
+      else
+         past = at + past - 1 + len(word)
+      end if
+   end function past
+
+   !> Value of an attribute, '' when it is not there.
+   pure function attribute(tag, name) result(value)
+      character(*), intent(in) :: tag, name
+      character(:), allocatable :: value
+      integer :: at, last
+
+      value = ''
+      at = index(tag, ' '//name//'=')
+      if (at == 0) return
+      at = at + len(name) + 2
+      last = index(tag(at + 1:), tag(at:at))
+      if (last > 0) value = tag(at + 1:at + last - 1)
+   end function attribute
+
+   !> The leading digits of '460px'.
+   pure function number_of(text) result(digits)
+      character(*), intent(in) :: text
+      character(:), allocatable :: digits
+
+      digits = text(:verify(text//' ', '0123456789.') - 1)
+   end function number_of
+
+   !> A text with &, <, > and quotes escaped, for HTML content and attributes.
+   pure function escape_html(text) result(escaped)
+      character(*), intent(in) :: text
+      character(:), allocatable :: escaped
+      type(buffer_t) :: out
+      integer :: k
+
+      escaped = text
+      if (scan(text, '&<>"'//"'") == 0) return
+      do k = 1, len(text)
+         select case (text(k:k))
+         case ('&')
+            call out%add('&amp;')
+         case ('<')
+            call out%add('&lt;')
+         case ('>')
+            call out%add('&gt;')
+         case ('"')
+            call out%add('&quot;')
+         case ("'")
+            call out%add('&#39;')
+         case default
+            call out%add(text(k:k))
+         end select
+      end do
+      escaped = out%text()
+   end function escape_html
+
+end module ek_svg

@@ -1,0 +1,174 @@
+!> A test as it was run: its table, and what one has to know to read it.
+!>
+!> Charts, gradients and pages are made from this alone; a column that a table does not hold is left out.
+module ek_test_result
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
+   implicit none(type, external)
+   private
+   public :: test_result_t, find_wheels, choose_abscissa, converged_rows, design_row, wheel_column, travel_column
+
+   character(*), parameter :: travel_column = 'wheel_travel_mm'
+   real(wp), parameter :: least_stroke = 1.0_wp   !! mm; a wheel that moves less is not drawn over its travel
+
+   type :: test_result_t
+      character(:), allocatable :: name      !! of the case, unique in a report
+      character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; 'other'
+      character(:), allocatable :: title     !! for a heading
+      character(:), allocatable :: file      !! of the table, in the folder of the report
+      !> What charts stand over: a column, of each wheel or of all; its label with unit; unit per unit of the column
+      character(:), allocatable :: abscissa, label
+      real(wp) :: abscissa_size = 1.0_wp
+      real(wp) :: factor_size = 1.0_wp       !! what 1 in the column `factor` is, in N, N m or mm
+      logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
+      logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
+      character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
+      integer, allocatable :: sides(:)       !! of the wheels: −1 left, +1 right
+      type(table_t) :: table
+      type(message_list_t) :: remarks        !! what failed or is doubtful, in words
+   end type test_result_t
+
+contains
+
+   !> Sets prefixes and sides from the columns. A single wheel has no prefix; its side is as told.
+   pure subroutine find_wheels(test, side)
+      type(test_result_t), intent(inout) :: test
+      integer, intent(in), optional :: side      !! of a single wheel; none: left
+      integer :: k, place
+
+      if (allocated(test%prefixes)) deallocate (test%prefixes)
+      if (allocated(test%sides)) deallocate (test%sides)
+      allocate (test%prefixes(0), test%sides(0))
+      do k = 1, size(test%table%columns)
+         place = len_trim(test%table%columns(k)) - len(travel_column)
+         if (place < 0) cycle
+         if (test%table%columns(k) (place + 1:) /= travel_column) cycle
+         test%prefixes = [character(name_length) :: test%prefixes, test%table%columns(k) (:place)]
+         if (place == 0 .and. present(side)) then
+            test%sides = [test%sides, side]
+         else
+            test%sides = [test%sides, merge(1, -1, index(test%table%columns(k) (:place), 'right') > 0)]
+         end if
+      end do
+   end subroutine find_wheels
+
+   !> Sets what the charts of a kind of test stand over, from what the table holds. What the caller has set stays.
+   subroutine choose_abscissa(test)
+      type(test_result_t), intent(inout) :: test
+
+      if (allocated(test%abscissa)) return
+      test%abscissa_size = 1.0_wp
+      select case (test%kind)
+      case ('parallel_travel', 'opposite_travel')
+         call set(travel_column, 'wheel travel [mm]    (+ bump)')
+      case ('single_travel')
+         call set('left_'//travel_column, 'travel of the left wheel [mm]    (+ bump)')
+         if (stroke('right_'//travel_column) > stroke('left_'//travel_column)) &
+            call set('right_'//travel_column, 'travel of the right wheel [mm]    (+ bump)')
+      case ('roll')
+         call set('axle_roll_deg', 'axle roll [deg]    (+ left wheel up)')
+      case ('steering')
+         call set('steering_wheel_deg', 'steering wheel [deg]    (+ left)')
+         if (column_index(test%table, 'steering_wheel_deg') == 0) call set_factor('steering input [mm]    (+ left)')
+      case ('lateral_force')
+         call set_factor('lateral force [N]    (+ to the right)')
+         if (test%is_anti) call set_factor('lateral force on the left wheel [N]    (+ to the right)')
+      case ('braking')
+         call set_factor('braking force a wheel [N]    (+ rearward)')
+      case ('traction')
+         call set_factor('traction force a wheel [N]    (+ forward)')
+      case ('aligning_torque')
+         call set_factor('aligning torque [N m]    (+ to the left)')
+         if (test%is_anti) call set_factor('aligning torque on the left wheel [N m]    (+ to the left)')
+      case ('vertical_force')
+         call set_factor('vertical force [N]    (+ up)')
+      case default
+         call set(travel_column, 'wheel travel [mm]    (+ bump)')
+      end select
+      if (test%abscissa /= 'factor' .and. .not. is_there(test%abscissa)) call set_factor('load factor')
+      if (test%kind == 'other' .and. stroke(travel_column) < least_stroke) call set_factor('load factor')
+
+   contains
+
+      pure logical function is_there(name)
+         character(*), intent(in) :: name
+         integer :: k
+
+         is_there = column_index(test%table, name) > 0
+         do k = 1, size(test%prefixes)
+            is_there = is_there .or. column_index(test%table, trim(test%prefixes(k))//name) > 0
+         end do
+      end function is_there
+
+      !> Span of a column of any wheel.
+      pure real(wp) function stroke(name)
+         character(*), intent(in) :: name
+         real(wp) :: range(2)
+         integer :: k
+
+         stroke = 0.0_wp
+         range = column_range(test%table, name)
+         if (ieee_is_finite(range(1))) stroke = range(2) - range(1)
+         do k = 1, size(test%prefixes)
+            range = column_range(test%table, trim(test%prefixes(k))//name)
+            if (ieee_is_finite(range(1))) stroke = max(stroke, range(2) - range(1))
+         end do
+      end function stroke
+
+      subroutine set_factor(label)
+         character(*), intent(in) :: label
+         call set('factor', label)
+         test%abscissa_size = test%factor_size
+      end subroutine set_factor
+
+      subroutine set(name, label)
+         character(*), intent(in) :: name, label
+         test%abscissa = name
+         test%label = label
+         test%abscissa_size = 1.0_wp
+      end subroutine set
+
+   end subroutine choose_abscissa
+
+   !> The column of a wheel, or of the axle where the wheel has none of this name; 0 when there is neither.
+   pure integer function wheel_column(test, wheel, name) result(place)
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: wheel
+      character(*), intent(in) :: name
+
+      place = 0
+      if (wheel <= size(test%prefixes)) place = column_index(test%table, trim(test%prefixes(wheel))//name)
+      if (place == 0) place = column_index(test%table, name)
+   end function wheel_column
+
+   !> Which rows hold a state that was found.
+   pure function converged_rows(table) result(is_good)
+      type(table_t), intent(in) :: table
+      logical, allocatable :: is_good(:)
+      real(wp), allocatable :: converged(:)
+
+      converged = column(table, 'converged')
+      if (size(converged) == row_count(table)) then
+         is_good = converged > 0.5_wp
+      else
+         allocate (is_good(row_count(table)), source=.true.)
+      end if
+   end function converged_rows
+
+   !> The row of the design state, where `factor` is 0; 0 when there is none that was found.
+   pure integer function design_row(table) result(row)
+      type(table_t), intent(in) :: table
+      real(wp), allocatable :: factor(:)
+      logical, allocatable :: is_good(:)
+
+      factor = column(table, 'factor')
+      is_good = converged_rows(table)
+      do row = size(factor), 1, -1
+         if (abs(factor(row)) <= 0.0_wp .and. is_good(row)) return
+      end do
+      row = 0
+   end function design_row
+
+end module ek_test_result

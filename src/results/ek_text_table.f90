@@ -1,0 +1,234 @@
+!> A table of words as comma-separated text (RFC 4180): a line of column names, one line per row.
+!>
+!> A cell that holds a comma, a quote or a line end stands between quotes. Lines that begin with # are skipped.
+module ek_text_table
+   use ek_error, only: error_t, fail, exit_file
+   use ek_text, only: str, quoted, plural
+   use ek_buffer, only: buffer_t
+   use ek_file, only: read_whole
+   implicit none(type, external)
+   private
+   public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+
+   character(*), parameter :: line_end = new_line('a')
+
+   !> A text of its own length.
+   type :: cell_t
+      character(:), allocatable :: text
+   end type cell_t
+
+   type :: text_table_t
+      character(:), allocatable :: file             !! where it was read; for messages
+      character(32), allocatable :: columns(:)
+      type(cell_t), allocatable :: cells(:, :)      !! (column, row), the first `rows` rows
+      integer, allocatable :: lines(:)              !! line of each row in its file
+      integer :: rows = 0
+   end type text_table_t
+
+contains
+
+   !> A table without rows.
+   pure type(text_table_t) function new_text_table(columns) result(table)
+      character(*), intent(in) :: columns(:)
+
+      table%file = ''
+      table%columns = columns
+      allocate (table%cells(size(columns), 8), table%lines(8))
+   end function new_text_table
+
+   !> Begin a row of empty cells; the caller sets table%cells(k, table%rows)%text.
+   pure subroutine add_row(table, line)
+      type(text_table_t), intent(inout) :: table
+      integer, intent(in), optional :: line
+      type(cell_t), allocatable :: grown(:, :)
+      integer, allocatable :: lines(:)
+      integer :: k, r
+
+      if (table%rows == size(table%cells, 2)) then
+         allocate (grown(size(table%columns), 2*table%rows), lines(2*table%rows))
+         do r = 1, table%rows
+            do k = 1, size(table%columns)
+               call move_alloc(table%cells(k, r)%text, grown(k, r)%text)
+            end do
+         end do
+         lines(:table%rows) = table%lines
+         call move_alloc(grown, table%cells)
+         call move_alloc(lines, table%lines)
+      end if
+      table%rows = table%rows + 1
+      table%lines(table%rows) = 0
+      if (present(line)) table%lines(table%rows) = line
+      do k = 1, size(table%columns)
+         table%cells(k, table%rows)%text = ''
+      end do
+   end subroutine add_row
+
+   !> The cell of a row in the column of a name; '' where there is no such column.
+   pure function cell_of(table, row, column) result(text)
+      type(text_table_t), intent(in) :: table
+      integer, intent(in) :: row
+      character(*), intent(in) :: column
+      character(:), allocatable :: text
+      integer :: k
+
+      text = ''
+      do k = 1, size(table%columns)
+         if (table%columns(k) == column) text = table%cells(k, row)%text
+      end do
+   end function cell_of
+
+   !> The table as text.
+   pure function text_table_csv(table) result(text)
+      type(text_table_t), intent(in) :: table
+      character(:), allocatable :: text
+      type(buffer_t) :: buffer
+      integer :: k, row
+
+      do k = 1, size(table%columns)
+         if (k > 1) call buffer%add(',')
+         call buffer%add(protected_cell(trim(table%columns(k))))
+      end do
+      call buffer%add(line_end)
+      do row = 1, table%rows
+         do k = 1, size(table%columns)
+            if (k > 1) call buffer%add(',')
+            call buffer%add(protected_cell(table%cells(k, row)%text))
+         end do
+         call buffer%add(line_end)
+      end do
+      text = buffer%text()
+   end function text_table_csv
+
+   !> Between quotes where it has to be.
+   pure function protected_cell(text) result(cell)
+      character(*), intent(in) :: text
+      character(:), allocatable :: cell
+      integer :: k
+
+      cell = text
+      if (scan(text, ',"'//line_end//achar(13)) == 0 .and. index(text, '#') /= 1) return
+      cell = '"'
+      do k = 1, len(text)
+         if (text(k:k) == '"') cell = cell//'"'
+         cell = cell//text(k:k)
+      end do
+      cell = cell//'"'
+   end function protected_cell
+
+   !> Read a table back.
+   subroutine read_text_table(path, table, error)
+      character(*), intent(in) :: path
+      type(text_table_t), intent(out) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file: path:line: what is wrong
+      type(cell_t), allocatable :: fields(:)
+      character(:), allocatable :: text
+      integer :: at, line, first_line, used, k
+      logical :: has_names
+
+      table = new_text_table([character(1) ::])
+      table%file = path
+      call read_whole(path, text, error)
+      if (allocated(error)) return
+      allocate (fields(64))
+      has_names = .false.
+      at = 1
+      line = 1
+      do while (at <= len(text))
+         first_line = line
+         if (text(at:at) == '#' .or. text(at:at) == line_end) then
+            at = at + index(text(at:)//line_end, line_end)
+            line = line + 1
+            cycle
+         end if
+         call take_record(text, at, line, fields, used)
+         if (used < 1) then
+            call fail(error, exit_file, path//':'//str(first_line)//': a quoted cell has no end')
+            return
+         end if
+         if (.not. has_names) then
+            has_names = .true.
+            deallocate (table%columns, table%cells)
+            allocate (table%columns(used), table%cells(used, 8))
+            do k = 1, used
+               table%columns(k) = fields(k)%text
+            end do
+            cycle
+         end if
+         if (used /= size(table%columns)) then
+            call fail(error, exit_file, path//':'//str(first_line)//': '//plural(used, 'cell', 'cells')//' for '// &
+               plural(size(table%columns), 'column', 'columns'))
+            return
+         end if
+         call add_row(table, first_line)
+         do k = 1, used
+            call move_alloc(fields(k)%text, table%cells(k, table%rows)%text)
+         end do
+      end do
+      if (.not. has_names) call fail(error, exit_file, path//': there is no line of column names')
+   end subroutine read_text_table
+
+   !> The cells of one record, which may run over several lines; 0 cells when a quote is left open.
+   subroutine take_record(text, at, line, fields, used)
+      character(*), intent(in) :: text
+      integer, intent(inout) :: at, line
+      type(cell_t), allocatable, intent(inout) :: fields(:)
+      integer, intent(out) :: used
+      type(cell_t), allocatable :: grown(:)
+      type(buffer_t) :: cell
+      logical :: is_quoted
+      integer :: k
+
+      used = 0
+      is_quoted = .false.
+      do
+         if (at > len(text)) then
+            if (is_quoted) then
+               used = 0
+            else
+               call end_cell()
+            end if
+            return
+         end if
+         if (is_quoted) then
+            if (text(at:at) /= '"') then
+               call cell%add(text(at:at))
+               if (text(at:at) == line_end) line = line + 1
+            else if (text(at:min(at + 1, len(text))) == '""') then
+               call cell%add('"')
+               at = at + 1
+            else
+               is_quoted = .false.
+            end if
+         else if (text(at:at) == '"') then
+            is_quoted = .true.
+         else if (text(at:at) == ',') then
+            call end_cell()
+         else if (text(at:at) == line_end) then
+            call end_cell()
+            line = line + 1
+            at = at + 1
+            return
+         else if (text(at:at) /= achar(13)) then
+            call cell%add(text(at:at))
+         end if
+         at = at + 1
+      end do
+
+   contains
+
+      subroutine end_cell()
+         if (used == size(fields)) then
+            allocate (grown(2*used))
+            do k = 1, used
+               call move_alloc(fields(k)%text, grown(k)%text)
+            end do
+            call move_alloc(grown, fields)
+         end if
+         used = used + 1
+         fields(used)%text = cell%text()
+         call cell%clear()
+      end subroutine end_cell
+
+   end subroutine take_record
+
+end module ek_text_table
