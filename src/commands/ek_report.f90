@@ -8,7 +8,7 @@ module ek_report
    use ek_version, only: version
    use ek_file, only: make_folder, write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
+   use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
@@ -63,17 +63,20 @@ contains
       if (allocated(error)) return
       call load_deck(arguments, suspension, cases, checksum, error)
       if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
+      allocate (chosen(0))
+      if (size(cases) > 0) then
+         call chosen_cases(arguments, cases, chosen, error)
+         if (allocated(error)) return
+      end if
       folder = arguments%out
       if (len(folder) == 0) folder = 'out'
       call make_folder(join_path(folder, 'figures'), error)
       if (allocated(error)) return
-      call balance(suspension, chosen(1)%tolerance, error)
+      call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
 
-      call planned_tests(suspension, chosen, planned)
+      call planned_tests(suspension, chosen, len(arguments%case) > 0, planned)
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
       failed = 0
       code = exit_convergence

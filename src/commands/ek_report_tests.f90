@@ -5,7 +5,8 @@ module ek_report_tests
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t, load_number
-   use ek_builder, only: add_case_driver
+   use ek_rig, only: mount
+   use ek_standard_tests, only: standard_tests, test_title
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -31,19 +32,33 @@ module ek_report_tests
 
 contains
 
-   !> The tests of a deck: its own cases.
-   subroutine planned_tests(suspension, cases, tests)
+   !> The tests of an axle: the standard ones and the deck's own cases; or the one that is asked for.
+   subroutine planned_tests(suspension, own, only_these, tests)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)
+      type(case_t), intent(in) :: own(:)
+      logical, intent(in) :: only_these         !! no standard tests beside them
       type(planned_test_t), allocatable, intent(out) :: tests(:)
+      type(case_t), allocatable :: cases(:)
       integer :: k
 
+      if (only_these .or. size(suspension%wheels) == 0) then
+         cases = own
+      else
+         call standard_tests(suspension, own, cases)
+      end if
       allocate (tests(size(cases)))
       do k = 1, size(cases)
          tests(k)%name = cases(k)%name
          tests(k)%case = cases(k)
-         call kind_of_case(suspension, cases(k), tests(k)%kind, tests(k)%factor_size)
-         tests(k)%title = title_of(cases(k)%name)
+         tests(k)%case%has_all = .true.
+         if (len(cases(k)%test) > 0) then
+            tests(k)%kind = cases(k)%test
+            tests(k)%title = test_title(cases(k))
+            tests(k)%is_anti = cases(k)%is_anti
+         else
+            call kind_of_case(suspension, cases(k), tests(k)%kind, tests(k)%factor_size)
+            tests(k)%title = title_of(cases(k)%name)
+         end if
       end do
    end subroutine planned_tests
 
@@ -122,6 +137,7 @@ contains
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
+      type(case_t) :: case
       type(kkt_t) :: kkt
       type(diagnosis_t) :: diagnosis
       character(:), allocatable :: words
@@ -135,7 +151,9 @@ contains
       test%is_anti = planned%is_anti
       test%is_iso = base%is_iso
       suspension = base
-      call add_case_driver(suspension, planned%case)
+      case = planned%case
+      call mount(suspension, case, error)
+      if (allocated(error)) return
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) then
@@ -143,19 +161,19 @@ contains
             diagnosis%words())
          return
       end if
-      call sweep(suspension, planned%case, path, kkt)
+      call sweep(suspension, case, path, kkt)
       words = ''
       do side = 1, 2
          if (path%failure(side)%state == 0) cycle
          if (len(words) > 0) words = words//new_line('a')
-         words = words//failure_words(suspension, planned%case, path, path%failure(side), kkt)
-         call test%remarks%add(failure_words(suspension, planned%case, path, path%failure(side), kkt))
+         words = words//failure_words(suspension, case, path, path%failure(side), kkt)
+         call test%remarks%add(failure_words(suspension, case, path, path%failure(side), kkt))
       end do
-      call remark_instability(suspension, planned%case, path, test)
+      call remark_instability(suspension, case, path, test)
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
-      call sweep_table(suspension, planned%case, path, kkt, test%table)
-      call add_header(test%table, suspension, planned%case, checksum)
+      call sweep_table(suspension, case, path, kkt, test%table)
+      call add_header(test%table, suspension, case, checksum)
       if (planned%is_anti) then
          call test%table%header%add('test '//planned%kind//', anti phase, factor size '//str(planned%factor_size, 15))
       else

@@ -29,7 +29,7 @@ module ek_run
    use ek_words, only: say, complain, show_progress, clear_progress
    implicit none(type, external)
    private
-   public :: run, add_header, factor_name
+   public :: run, add_header
 
 contains
 

@@ -16,12 +16,11 @@ contains
    !> The standard tests of an axle, or of a single wheel as far as it has them.
    !>
    !> A test that the deck holds itself (same test, phase and offset, along the same vertical control) is taken from
-   !> there, with its range; other cases of the deck follow behind. `steering` is the driver joint of the rack, '' for none.
-   subroutine standard_tests(suspension, own, steering, rack_travel, tests)
+   !> there, with its range; other cases of the deck follow behind. Steering goes to the ends of the rack, where &steering
+   !> says how far that is.
+   subroutine standard_tests(suspension, own, tests)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
-      character(*), intent(in) :: steering
-      real(wp), intent(in) :: rack_travel            !! each way [m, rad]
       type(case_t), allocatable, intent(out) :: tests(:)
       logical :: is_taken(size(own)), is_axle
       integer :: wheels(2), k
@@ -33,7 +32,7 @@ contains
       call include('parallel_travel', .false., 0.0_wp, 80.0_wp*millimetre, 80)
       if (is_axle) call include('opposite_travel', .false., 0.0_wp, 60.0_wp*millimetre, 60)
       if (is_axle) call include('roll', .false., 0.0_wp, 3.0_wp*degree, 60)
-      if (len(steering) > 0) call include('steering', .false., 0.0_wp, rack_travel, 60)
+!TEMP      if (suspension%steering%is_given) call include('steering', .false., 0.0_wp, suspension%steering%travel, 60)
       call include_both('lateral_force', 0.0_wp, 2000.0_wp)
       call include_both('lateral_force', trail, 2000.0_wp)
       call include_both('aligning_torque', 0.0_wp, 100.0_wp)
@@ -73,7 +72,7 @@ contains
          this%where = 'the standard tests'
          this%load = ''
          this%drive = ''
-         if (test == 'steering') this%drive = steering
+!TEMP         if (test == 'steering') this%drive = suspension%steering%driver
          this%from = -reach
          this%to = reach
          this%increments = increments
