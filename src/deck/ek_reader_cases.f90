@@ -3,7 +3,7 @@ module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_case, only: case_t, method_names, most_increments
-   use ek_record, only: element, value_t
+   use ek_record, only: element, value_t, own_name, right_twin
    use ek_namelist, only: value_fault
    use ek_group, only: wheel_group, case_group, load_group, joint_group, number, word_length, note_length, most_loads, &
       did_you_mean
@@ -171,7 +171,7 @@ contains
       type(case_t), intent(inout) :: this
       real(wp), intent(inout) :: factor      !! unit of from and to → SI
       character(8), parameter :: test_keys(4) = [character(8) :: 'vertical', 'phase', 'offset', 'file']
-      integer :: j, loads
+      integer :: j, loads, refused
 
       if (has_key(deck, k, 'load') .and. has_key(deck, k, 'drive')) then
          call complain(draft, deck, k, 'drive', 'give either load or drive, not both')
@@ -183,6 +183,7 @@ contains
             trim(test_keys(j))//": only a case with a 'test' has one")
       end do
       loads = count(words%load /= '')
+      refused = 0
       do j = 1, loads
          if (any(words%load(:j - 1) == words%load(j))) then
             call complain(draft, deck, k, 'load', 'load '//quoted(words%load(j))//' is named twice')
@@ -221,8 +222,12 @@ contains
 
          call look_up(draft, deck, k, 'load', load_group, name, found)
          if (found == 0) return
-         if (.not. draft%cards(found)%is_used) call complain(draft, deck, k, 'load', 'load '//quoted(name)//' in '// &
-            line_of(deck, found, k)//" is constant; a case scales loads with factor = 'case'")
+         if (draft%cards(found)%is_used) return
+         ! of a load that &mirror doubled, once
+         if (.not. (deck%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, deck, k, 'load', &
+            'load '//quoted(own_name(deck%records(found)))//' in '//line_of(deck, found, k)// &
+            " is constant; a case scales loads with factor = 'case'")
+         refused = found
       end subroutine find_load
 
    end subroutine read_drive
