@@ -7,6 +7,7 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_example.f90
   ${ek_laws_dir}/ek_axle.f90
   ${ek_laws_dir}/ek_reading.f90
+  ${ek_laws_dir}/ek_trial.f90
   ${ek_laws_dir}/ek_rig_table.f90
   ${ek_laws_dir}/ek_plane_linkage.f90)
 set_target_properties(ek_test_laws PROPERTIES

@@ -1,0 +1,180 @@
+!> One case of a deck as `elastokin run` goes through it: read, put on the rig, swept, tabulated.
+!>
+!> Further groups may be appended to the deck; the last case is the one that runs. And what a test reads off
+!> its states without asking the code under test: the elastic energy, and what the chassis bears.
+module ek_trial
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_file, only: read_whole
+   use ek_deck, only: deck_t, parse_deck
+   use ek_reader, only: build_model
+   use ek_measure, only: measure_value, measure_gradient
+   use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_state, only: state_t, demand_t
+   use ek_schedule, only: new_schedule, demand_at
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_path, only: path_t, sweep
+   use ek_rig, only: mount
+   use ek_reading, only: state_of
+   use ek_sweep_table, only: sweep_table
+   use ek_table, only: table_t, new_table, column, column_index, row_count
+   use ek_wheel_force, only: vertical_force
+   implicit none(type, external)
+   private
+   public :: trial_t, try, values, elastic_energy, chassis_lift, wheel_force
+
+   type :: trial_t
+      type(suspension_t) :: suspension      !! on the rig
+      type(case_t) :: case
+      type(path_t) :: path
+      type(kkt_t) :: kkt
+      type(table_t) :: table                !! without rows when there is trouble
+      character(:), allocatable :: trouble  !! the error, '' for none
+      integer :: code = 0                   !! its code
+   end type trial_t
+
+contains
+
+   !> Runs the last case of a deck with more groups behind it.
+   subroutine try(file, groups, trial)
+      character(*), intent(in) :: file, groups
+      type(trial_t), intent(out) :: trial
+      type(deck_t) :: deck
+      type(case_t), allocatable :: cases(:)
+      type(error_t), allocatable :: error
+      character(:), allocatable :: text
+
+      trial%table = new_table([character(4) :: 'none'], 0)
+      trial%trouble = ''
+      call read_whole(file, text, error)
+      if (.not. allocated(error)) call parse_deck(text//new_line('a')//groups, file, deck, error)
+      if (.not. allocated(error)) call build_model(deck, trial%suspension, cases, error)
+      if (.not. allocated(error)) then
+         trial%case = cases(size(cases))
+         call mount(trial%suspension, trial%case, error)
+      end if
+      if (allocated(error)) then
+         trial%trouble = error%message
+         trial%code = error%code
+         return
+      end if
+      trial%kkt = new_kkt(trial%suspension)
+      call sweep(trial%suspension, trial%case, trial%path, trial%kkt)
+      call sweep_table(trial%suspension, trial%case, trial%path, trial%kkt, trial%table)
+      if (.not. all(trial%path%is_reached)) trial%trouble = 'not all states were reached'
+   end subroutine try
+
+   !> A column; one value that is not a number, which equals nothing, when it is not there.
+   function values(trial, name) result(list)
+      type(trial_t), intent(in) :: trial
+      character(*), intent(in) :: name
+      real(wp), allocatable :: list(:)
+
+      if (column_index(trial%table, name) > 0 .and. row_count(trial%table) > 0) then
+         list = column(trial%table, name)
+      else
+         allocate (list(1), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      end if
+   end function values
+
+   !> Energy of springs and bushings at each state [J]: ½ k e² − preload × e, component by component.
+   function elastic_energy(trial) result(energy)
+      type(trial_t), intent(in) :: trial
+      real(wp) :: energy(trial%path%states)
+      type(state_t) :: state
+      type(bushing_view_t) :: view
+      real(wp) :: e, d(3), turn(3)
+      integer :: s, k
+
+      energy = 0.0_wp
+      do s = 1, trial%path%states
+         state = state_of(trial%suspension, trial%path, s)
+         do k = 1, size(trial%suspension%springs)
+            associate (spring => trial%suspension%springs(k), m => trial%suspension%springs(k)%measure)
+               e = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)) - spring%design_length
+               energy(s) = energy(s) + 0.5_wp*spring%rate*e**2 - spring%preload*e
+            end associate
+         end do
+         do k = 1, size(trial%suspension%bushings)
+            associate (b => trial%suspension%bushings(k))
+               call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+               d = matmul(transpose(b%axes), view%gap)
+               turn = matmul(transpose(b%axes), view%turn%theta)
+               energy(s) = energy(s) + sum(0.5_wp*b%kt*d**2 - b%preload_force*d) &
+                  + sum(0.5_wp*b%kr*turn**2 - b%preload_moment*turn)
+            end associate
+         end do
+      end do
+   end function elastic_energy
+
+   !> What the chassis exerts upward on all bodies together, at each state [N]: by springs, bushings and the
+   !> deck's joints, not by the rig.
+   function chassis_lift(trial) result(lift)
+      type(trial_t), intent(in) :: trial
+      real(wp) :: lift(trial%path%states)
+      type(state_t) :: state
+      type(bushing_view_t) :: view
+      real(wp) :: tension, slope, gradient(12)
+      integer :: s, k, t
+
+      lift = 0.0_wp
+      do s = 1, trial%path%states
+         state = state_of(trial%suspension, trial%path, s)
+         do k = 1, size(trial%suspension%springs)
+            associate (m => trial%suspension%springs(k)%measure)
+               call spring_tension(trial%suspension%springs(k), &
+                  measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)), tension, slope)
+               gradient = tension*measure_gradient(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
+               call include(m%body_i, m%body_j)
+            end associate
+         end do
+         do k = 1, size(trial%suspension%bushings)
+            associate (b => trial%suspension%bushings(k))
+               call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+               gradient = 0.0_wp
+               gradient(3) = -view%force(3)
+               gradient(9) = view%force(3)
+               call include(b%body_i, b%body_j)
+            end associate
+         end do
+         do k = 1, size(trial%suspension%rows)
+            if (trial%suspension%joints(trial%suspension%rows(k)%joint)%is_rig) cycle
+            do t = trial%suspension%rows(k)%first, trial%suspension%rows(k)%first + trial%suspension%rows(k)%terms - 1
+               associate (term => trial%suspension%terms(t), m => trial%suspension%terms(t)%measure)
+                  gradient = state%reaction(k)*term%coefficient* &
+                     measure_gradient(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
+                  call include(m%body_i, m%body_j)
+               end associate
+            end do
+         end do
+      end do
+
+   contains
+
+      !> The force on the body that moves, of an element between it and the chassis.
+      subroutine include(body_i, body_j)
+         integer, intent(in) :: body_i, body_j
+         if (body_i == 0 .and. body_j > 0) lift(s) = lift(s) - gradient(9)
+         if (body_j == 0 .and. body_i > 0) lift(s) = lift(s) - gradient(3)
+      end subroutine include
+
+   end function chassis_lift
+
+   !> The vertical force of the ground on a wheel at each state [N].
+   function wheel_force(trial, wheel) result(force)
+      type(trial_t), intent(in) :: trial
+      integer, intent(in) :: wheel
+      real(wp) :: force(trial%path%states)
+      type(demand_t) :: demand
+      integer :: s
+
+      do s = 1, trial%path%states
+         call demand_at(new_schedule(trial%suspension, trial%case), trial%path%value(s), demand)
+         force(s) = vertical_force(trial%suspension, state_of(trial%suspension, trial%path, s), demand, wheel)
+      end do
+   end function wheel_force
+
+end module ek_trial
