@@ -48,7 +48,7 @@ contains
          ' columns, found '//str(size(table%columns)))
       if (allocated(error)) return
       do k = 1, size(table%columns)
-         if (column_index(table, trim(table%columns(k))) < k) then
+         if (column_index(table, trim(table%columns(k))) /= k) then
             call fail(error, exit_deck, case%file//': the column '//quoted(table%columns(k))//' is there twice')
             return
          end if
