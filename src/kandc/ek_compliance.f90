@@ -2,9 +2,10 @@
 !>
 !> With the whole tangent K = [T Φqᵀ; Φq 0] of a state, ports P (what is read) and loads B (what is applied), the
 !> response is R = Pᵀ K⁻¹ B. Ports are the six displacements [x y z, rotations about x y z] of every wheel centre in
-!> global axes, then the length of every spring. Loads are the unit loads of the same ports (virtual work: B = P; of
-!> a spring a pair of forces that pushes its ends apart), then a unit of the steering driver. The first
-!> 6 × wheels rows and columns are the compliance matrix C [m/N, rad/N, m/(N m), rad/(N m)], body fixed.
+!> global axes, then the length of every axial spring (not of dampers, stops, torsion springs). Loads are the unit
+!> loads of the same ports (virtual work: B = P; of a spring a pair of forces that pushes its ends apart), then a
+!> unit of the steering driver. The first 6 × wheels rows and columns are the compliance matrix C
+!> [m/N, rad/N, m/(N m), rad/(N m)], body fixed.
 !>
 !> Rows of Φ that belong to a rig (a jack that holds a wheel's height) are released: their reaction stays on
 !> the wheel as a dead force, with its geometric stiffness λ·Hess(φ), but the row restrains nothing. Its gradient
@@ -26,9 +27,10 @@ module ek_compliance
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
+   use ek_spring, only: axial_spring
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
-   use ek_kkt, only: load_factor, kkt_t, assemble, factorise, wrench, whole_tangent
+   use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
    use ek_lapack, only: dsytrs, dgesv
    implicit none(type, external)
    private
@@ -40,6 +42,7 @@ module ek_compliance
    type :: compliance_t
       integer :: wheels = 0, springs = 0
       integer, allocatable :: order(:)          !! wheel of the suspension at each place: left before right
+      integer, allocatable :: spring(:)         !! axial spring of the suspension at each place
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
       logical :: has_drive = .false.            !! the last column is that of a unit of the steering driver
       real(wp), allocatable :: response(:, :)   !! (port, load), see above
@@ -58,7 +61,8 @@ contains
       integer :: n, k, side, ports
 
       self%wheels = size(suspension%wheels)
-      self%springs = size(suspension%springs)
+      self%spring = pack([(k, k=1, size(suspension%springs))], suspension%springs%kind == axial_spring)
+      self%springs = size(self%spring)
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
@@ -155,7 +159,7 @@ contains
          end do
       end do
       do k = 1, self%springs
-         associate (m => suspension%springs(k)%measure)
+         associate (m => suspension%springs(self%spring(k))%measure)
             port = 6*self%wheels + k
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)

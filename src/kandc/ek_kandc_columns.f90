@@ -117,11 +117,11 @@ contains
       end do
       if (is_axle(suspension)) call list_axle(suspension, now, patch, radius, roll, track, tyre, self)
       call list_steering(suspension, state, self)
-      do k = 1, size(suspension%springs)
+      do k = 1, self%compliance%springs
          ratio = 0.0_wp
          if (self%compliance%is_known) ratio = motion_ratio(self%compliance%response(:n, :n), &
             self%compliance%response(n + k, :n))
-         call put_known(self, suspension%springs(k)%name//'_motion_ratio', ratio)
+         call put_known(self, suspension%springs(self%compliance%spring(k))%name//'_motion_ratio', ratio)
       end do
    end subroutine list
 
