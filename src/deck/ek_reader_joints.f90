@@ -104,8 +104,9 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, type, bodies(2), at(2), axis(2), axis_2(2), measure, measures(most_measures)
-      real(wp) :: axis_vector(3), axis_2_vector(3), ratios(most_measures)
-      namelist /joint/ name, type, bodies, at, axis, axis_vector, axis_2, axis_2_vector, measure, measures, ratios
+      real(wp) :: axis_vector(3), axis_2_vector(3), ratios(most_measures), stiffness
+      namelist /joint/ name, type, bodies, at, axis, axis_vector, axis_2, axis_2_vector, measure, measures, ratios, &
+         stiffness
       character(:), allocatable :: kind
       integer :: k, number, status
 
@@ -122,6 +123,7 @@ contains
          axis_vector = 0.0_wp
          axis_2_vector = 0.0_wp
          ratios = 0.0_wp
+         stiffness = 1.0_wp
          read (draft%cards(k)%text, nml=joint, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call choice(draft, deck, k, 'type', trim(type), joint_kinds, number)
@@ -191,14 +193,28 @@ contains
          call add_joint(suspension, trim(name), where_of(deck, k), kind, geometry)
       end subroutine make_joint
 
+      !> Stiffness: force/length, or moment/angle where the measure is an angle.
       subroutine make_driver()
+         real(wp) :: reaction_unit
          integer :: found
 
          call look_up(draft, deck, k, 'measure', measure_group, trim(measure), found)
          if (found == 0) return
          draft%cards(k)%factor = draft%cards(found)%factor
-         if (draft%cards(k)%is_good .and. draft%cards(found)%index > 0) &
-            call add_driver(suspension, trim(name), where_of(deck, k), draft%cards(found)%index)
+         if (.not. stiffness > 0.0_wp) &
+            call complain(draft, deck, k, 'stiffness', 'stiffness must be above 0, found '//str(stiffness))
+         associate (readout => draft%cards(found)%index)
+            if (.not. draft%cards(k)%is_good .or. readout == 0) return
+            if (.not. has_key(deck, k, 'stiffness')) then
+               call add_driver(suspension, trim(name), where_of(deck, k), readout)
+               return
+            end if
+            reaction_unit = draft%units%force
+            if (any(suspension%readouts(readout)%measure%kind == [axis_axis, rotation])) &
+               reaction_unit = reaction_unit*draft%units%length
+            call add_driver(suspension, trim(name), where_of(deck, k), readout, &
+               stiffness*reaction_unit/draft%cards(found)%factor)
+         end associate
       end subroutine make_driver
 
       !> Σ ratio × value is held in deck units; the row is scaled so that the first ratio stays.
@@ -243,10 +259,10 @@ contains
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       character(*), intent(in) :: kind
-      character(*), parameter :: joint_keys(9) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
-         'axis_2_vector', 'measure', 'measures', 'ratios']
+      character(*), parameter :: joint_keys(10) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
+         'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness']
       logical :: is_geometric
-      logical :: may(9), must(9)
+      logical :: may(10), must(10)
       integer :: j
 
       is_geometric = kind /= 'driver' .and. kind /= 'coupler'
@@ -255,9 +271,11 @@ contains
       may(5:6) = needs_second_axis(kind) .or. kind == 'parallel'
       may(7) = kind == 'driver'
       may(8:9) = kind == 'coupler'
+      may(10) = kind == 'driver'
       must = may
       must(2) = is_geometric .and. kind /= 'parallel' .and. kind /= 'perpendicular'
       must(3:6) = .false.
+      must(10) = .false.
       do j = 1, size(joint_keys)
          if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint has no such key')
          if (must(j) .and. .not. has_key(deck, k, trim(joint_keys(j)))) &

@@ -174,6 +174,9 @@ contains
       do s = 1, size(suspension%springs)
          if (suspension%springs(s)%kind == axial_spring) suspension%springs(s)%preload = y(s)
       end do
+      do k = 1, kkt%nc      ! what a driver with a stiffness is prescribed takes up its own deflection
+         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(size(suspension%springs) + k)
+      end do
       do b = 1, size(suspension%bushings)
          suspension%bushings(b)%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
          suspension%bushings(b)%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)

@@ -25,7 +25,8 @@ module ek_diagnosis
 
    !> Findings about a model at a state.
    type :: diagnosis_t
-      integer :: unknowns = 0, constraints = 0, rank = 0
+      integer :: unknowns = 0
+      integer :: constraints = 0, rank = 0       !! of rows that hold for certain: a driver with a stiffness is elastic
       integer :: freedoms = 0                    !! unknowns − rank: motions held by elastic elements or not at all
       real(wp) :: rcond = 0.0_wp                 !! reciprocal condition number of the scaled KKT matrix
       real(wp) :: softest = 0.0_wp               !! least stiffness of a free motion, of the characteristic one
@@ -63,17 +64,27 @@ contains
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt              !! work space of this model
       type(diagnosis_t), intent(out) :: diagnosis
-      real(wp) :: tangent(kkt%nq, kkt%nq), jacobian(kkt%nc, kkt%nq), singular(max(1, min(kkt%nc, kkt%nq)))
-      real(wp) :: left(kkt%nc, kkt%nc), right(kkt%nq, kkt%nq), copy(kkt%nc, kkt%nq)
+      real(wp) :: tangent(kkt%nq, kkt%nq), right(kkt%nq, kkt%nq), gradient(kkt%nq)
+      real(wp), allocatable :: jacobian(:, :), left(:, :), singular(:)
+      integer, allocatable :: rows(:)      ! that hold for certain: those without compliance
       integer :: i, j, rank
 
+      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
+      allocate (jacobian(size(rows), kkt%nq), left(size(rows), size(rows)), singular(max(1, min(size(rows), kkt%nq))))
       call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
       call assemble(suspension, state, demand_t(), whole_tangent, kkt)
       do j = 1, kkt%nq
          do i = 1, kkt%nq
             tangent(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
          end do
-         jacobian(:, j) = kkt%matrix(kkt%nq + 1:, j)*kkt%scale(kkt%nq + 1:)*kkt%scale(j)
+         jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
+      end do
+      do i = 1, kkt%nc       ! a driver with a stiffness is a spring
+         if (.not. suspension%rows(i)%compliance > 0.0_wp) cycle
+         gradient = kkt%matrix(kkt%nq + i, :kkt%nq)*kkt%scale(:kkt%nq)
+         do j = 1, kkt%nq
+            tangent(:, j) = tangent(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
+         end do
       end do
 
       left = 0.0_wp
@@ -82,16 +93,15 @@ contains
          right(j, j) = 1.0_wp
       end do
       rank = 0
-      if (kkt%nc > 0 .and. kkt%nq > 0) then
-         copy = jacobian
-         call decompose(copy, left, singular, right)
-         rank = count(singular(:min(kkt%nc, kkt%nq)) > rank_tolerance*singular(1))
+      if (size(rows) > 0 .and. kkt%nq > 0) then
+         call decompose(jacobian, left, singular, right)
+         rank = count(singular(:min(size(rows), kkt%nq)) > rank_tolerance*singular(1))
       end if
       diagnosis%unknowns = kkt%nq
-      diagnosis%constraints = kkt%nc
+      diagnosis%constraints = size(rows)
       diagnosis%rank = rank
       diagnosis%freedoms = kkt%nq - rank
-      if (rank < kkt%nc) call name_redundancies(suspension, left(:, rank + 1:), kkt%scale(kkt%nq + 1:), diagnosis)
+      if (rank < size(rows)) call name_redundancies(suspension, left(:, rank + 1:), rows, diagnosis)
       if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, right(:, rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
@@ -110,9 +120,10 @@ contains
    end subroutine decompose
 
    !> Names the joints of each left null vector of Φq.
-   subroutine name_redundancies(suspension, basis, scale, diagnosis)
+   subroutine name_redundancies(suspension, basis, rows, diagnosis)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: basis(:, :), scale(:)
+      real(wp), intent(in) :: basis(:, :)
+      integer, intent(in) :: rows(:)             !! the rows of the suspension that these are
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: vectors(size(basis, 1), size(basis, 2))
       logical :: is_part(size(suspension%joints)), seen(size(suspension%joints), size(basis, 2))
@@ -124,8 +135,8 @@ contains
       times = 0
       do k = 1, size(vectors, 2)
          is_part = .false.
-         do r = 1, size(scale)
-            if (abs(vectors(r, k)) > takes_part*maxval(abs(vectors(:, k)))) is_part(suspension%rows(r)%joint) = .true.
+         do r = 1, size(rows)
+            if (abs(vectors(r, k)) > takes_part*maxval(abs(vectors(:, k)))) is_part(suspension%rows(rows(r))%joint) = .true.
          end do
          do g = 1, groups
             if (all(seen(:, g) .eqv. is_part)) exit

@@ -1,8 +1,10 @@
 !> The one dense system of an increment: assembly and its factorisation by LAPACK.
 !>
 !>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
-!>     [ Φq  0  ] [Δλ] = [ c − Φ(q)            ]           FORMULATION.md 5, method 2
+!>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           FORMULATION.md 5, method 2
 !>
+!> C is zero but for drivers with a stiffness k: 1/k on the diagonal, Φ = c + λ/k. With C ≥ 0 a stable equilibrium still
+!> has one negative eigenvalue for each row.
 !> T is the Hessian of the energy along screw motions (see `move_as_screw` in ek_state): the increment of a
 !> body is then the same motion whatever point was made its reference.
 !> Unknowns: 6 a body [Δr Δπ], then the rows of Φ. Only the lower triangle is kept. The matrix is
@@ -271,13 +273,14 @@ contains
                end if
             end associate
          end do
-         values(k) = value - suspension%rows(k)%target
+         values(k) = value - suspension%rows(k)%target - suspension%rows(k)%compliance*reaction(k)
       end do
       do k = 1, demand%rows
          values(demand%row(k)) = values(demand%row(k)) - demand%change(k)
       end do
       do k = 1, size(suspension%rows)
          rhs(nq + k) = -values(k)
+         if (mode /= residual_only) matrix(nq + k, nq + k) = -suspension%rows(k)%compliance
       end do
 
       if (mode == whole_tangent) then

@@ -37,8 +37,9 @@ contains
 
    !> One increment of Kang (2005), eqs. (25)–(29), literally:
    !>
-   !>     [K(qⁿ) Φqᵀ; Φq 0][Δqⁿ; λⁿ] = [Δf; Δc] + [Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹; 0],  K = −(19)
+   !>     [K(qⁿ) Φqᵀ; Φq −C][Δqⁿ; λⁿ] = [Δf; Δc] + [Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹; −Cλⁿ⁻¹],  K = −(19)
    !>
+   !> (the paper knows no C: that is 1/stiffness of a driver that has one, zero otherwise)
    !> It never looks at the elastic force or at Φ(q) where the bodies are now; its bias is the paper's.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, carry)
       type(suspension_t), intent(in) :: suspension
@@ -52,6 +53,9 @@ contains
       call assemble(suspension, state, before, material_only, kkt)
       kkt%rhs(:kkt%nq) = carry%pull
       kkt%rhs(kkt%nq + 1:) = 0.0_wp
+      do k = 1, kkt%nc
+         if (suspension%rows(k)%compliance > 0.0_wp) kkt%rhs(kkt%nq + k) = -suspension%rows(k)%compliance*state%reaction(k)
+      end do
       do k = 1, after%loads
          associate (load => suspension%loads(after%load(k)))
             change = after%factor(k) - before%factor(k)

@@ -58,15 +58,17 @@ contains
       self%joints(size(self%joints))%arm_j = geometry%point_j
    end subroutine add_joint
 
-   !> A driver: readout number `readout` = its design value + what the case prescribes.
-   pure subroutine add_driver(self, name, where, readout)
+   !> A driver: readout number `readout` = its design value + what the case prescribes, + λ/stiffness if that is given.
+   pure subroutine add_driver(self, name, where, readout, stiffness)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
       integer, intent(in) :: readout
+      real(wp), intent(in), optional :: stiffness      !! N/m, N m/rad; above 0
       type(term_t) :: term
 
       term%measure = self%readouts(readout)%measure
       call append_joint(self, name, where, 'driver', [term], [1], .true.)
+      if (present(stiffness)) self%rows(size(self%rows))%compliance = 1.0_wp/stiffness
       self%joints(size(self%joints))%arm_j = term%measure%arm_j
       self%joints(size(self%joints))%is_of_measures = .true.
    end subroutine add_driver

@@ -14,7 +14,7 @@
 !> | in_line           | 2 gaps across a direction of the first body              | 2       |
 !> | perpendicular     | axis·axis2                                               | 1       |
 !> | parallel          | 2 axis·axis                                              | 2       |
-!> | driver            | a measure = its design value + what the case prescribes  | 1       |
+!> | driver            | a measure = its design value + what the case prescribes (+ λ/stiffness) | 1 |
 !> | coupler           | Σ ratio × measure = its design value                     | 1       |
 !>
 !> To add a joint: its rows in `joint_terms`, its name in `joint_kinds`, its row in the table above,
@@ -58,6 +58,7 @@ module ek_joint
       real(wp) :: target = 0.0_wp          !! value at design [m, - or rad]
       integer :: joint = 0                 !! whose row this is
       logical :: is_driver = .false.
+      real(wp) :: compliance = 0.0_wp      !! of a driver with a stiffness: Σ terms = target + compliance × λ [m/N, rad/(N m)]
    end type row_t
 
    !> What a joint is made from: design position, global axes, SI.
