@@ -33,6 +33,7 @@ module ek_draft
    type :: draft_t
       type(units_t) :: units
       logical :: is_iso = .false.
+      real(wp) :: gravity = 0.0_wp             !! m/s²
       type(complaints_t) :: complaints
       type(card_t), allocatable :: cards(:)    !! one per record of the deck
       type(curve_t), allocatable :: curves(:)  !! those of &curve, numbers as in the deck

@@ -56,12 +56,15 @@ module ek_group
       key_t(model_group, 'angle', word, 1, 1, .false.), &
       key_t(model_group, 'axes', word, 1, 1, .false.), &
       key_t(model_group, 'balance', word, 1, 1, .false.), &
+      key_t(model_group, 'gravity', number, 1, 1, .false.), &
       key_t(point_group, 'name', word, 1, 1, .true.), &
       key_t(point_group, 'note', prose, 1, 1, .false.), &
       key_t(point_group, 'at', number, 3, 3, .true.), &
       key_t(body_group, 'name', word, 1, 1, .true.), &
       key_t(body_group, 'note', prose, 1, 1, .false.), &
       key_t(body_group, 'origin', word, 1, 1, .false.), &
+      key_t(body_group, 'mass', number, 1, 1, .false.), &
+      key_t(body_group, 'centre', word, 1, 1, .false.), &
       key_t(measure_group, 'name', word, 1, 1, .true.), &
       key_t(measure_group, 'note', prose, 1, 1, .false.), &
       key_t(measure_group, 'type', word, 1, 1, .true.), &
@@ -143,7 +146,21 @@ module ek_group
       key_t(wheel_group, 'toe', number, 1, 1, .false.), &
       key_t(wheel_group, 'camber', number, 1, 1, .false.), &
       key_t(wheel_group, 'radius', number, 1, 1, .false.), &
+      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false.), &
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false.), &
+      key_t(axle_group, 'name', word, 1, 1, .false.), &
+      key_t(axle_group, 'note', prose, 1, 1, .false.), &
+      key_t(axle_group, 'position', word, 1, 1, .true.), &
+      key_t(axle_group, 'wheelbase', number, 1, 1, .true.), &
+      key_t(axle_group, 'cg_height', number, 1, 1, .true.), &
+      key_t(axle_group, 'brake_share', number, 1, 1, .true.), &
+      key_t(axle_group, 'drive_share', number, 1, 1, .false.), &
+      key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
+      key_t(steering_group, 'name', word, 1, 1, .false.), &
+      key_t(steering_group, 'note', prose, 1, 1, .false.), &
+      key_t(steering_group, 'driver', word, 1, 1, .true.), &
+      key_t(steering_group, 'ratio', number, 1, 1, .true.), &
+      key_t(steering_group, 'travel', number, 1, 1, .true.), &
       key_t(load_group, 'name', word, 1, 1, .true.), &
       key_t(load_group, 'note', prose, 1, 1, .false.), &
       key_t(load_group, 'body', word, 1, 1, .true.), &
@@ -235,7 +252,7 @@ contains
    !> Whether --set names a group without the name of a record: &model, and the groups that have no names.
    pure logical function is_single(group)
       integer, intent(in) :: group
-      is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name')
+      is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name' .and. keys%is_required)
    end function is_single
 
    !> The row of a key; is_known is false when the group has no such key.

@@ -13,15 +13,16 @@ module ek_reader
       word_length, note_length, record_head, did_you_mean
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
-   use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice
+   use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
    use ek_reader_joints, only: read_measures, read_joints
    use ek_reader_curves, only: read_curves
    use ek_reader_springs, only: read_springs, read_dampers, read_stops, read_torsions
    use ek_reader_elements, only: read_bushings, read_loads
    use ek_reader_wheels, only: read_wheels
+   use ek_reader_axle, only: read_axle, read_steering
    use ek_reader_cases, only: read_cases
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_point, add_body, complete
+   use ek_builder, only: add_point, add_body, add_gravity, complete
    use ek_case, only: case_t
    implicit none(type, external)
    private
@@ -78,6 +79,8 @@ contains
       call read_stops(deck, draft, suspension)
       call read_torsions(deck, draft, suspension)
       call read_wheels(deck, draft, suspension)
+      call read_axle(deck, draft, suspension)
+      call read_steering(deck, draft, suspension)
       call read_loads(deck, draft, suspension)
       call read_cases(deck, draft, cases)
       call check_bodies(deck, draft)
@@ -90,6 +93,7 @@ contains
             if (card%group == point_group) call add_point(suspension, trim(card%name), where_of(deck, k), card%at, card%is_used)
          end associate
       end do
+      call add_gravity(suspension, draft%gravity)
       call complete(suspension)
    end subroutine build_finished
 
@@ -180,7 +184,8 @@ contains
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, length, force, angle, axes, balance
       character(note_length) :: title
-      namelist /model/ name, title, length, force, angle, axes, balance
+      real(wp) :: gravity
+      namelist /model/ name, title, length, force, angle, axes, balance, gravity
       character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
          angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
          balances(3) = [character(6) :: 'none', 'spring', 'all']
@@ -204,6 +209,7 @@ contains
          angle = 'deg'
          axes = 'x-rear'
          balance = 'none'
+         gravity = 0.0_wp
          read (draft%cards(k)%text, nml=model, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call choice(draft, deck, k, 'length', trim(length), lengths, c)
@@ -213,6 +219,9 @@ contains
          call choice(draft, deck, k, 'axes', trim(axes), frames, c)
          draft%is_iso = c == 2
          call choice(draft, deck, k, 'balance', trim(balance), balances, c)
+         if (gravity < 0.0_wp) &
+            call complain(draft, deck, k, 'gravity', 'gravity must be 0 or more (m/s², downward), found '//str(gravity))
+         draft%gravity = gravity
          suspension%name = trim(name)
          suspension%title = trim(title)
          suspension%balance = lower(trim(balance))
@@ -246,10 +255,11 @@ contains
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, origin
-      namelist /body/ name, origin
-      real(wp) :: at(3)
-      logical :: is_found
+      character(word_length) :: name, origin, centre
+      real(wp) :: mass
+      namelist /body/ name, origin, mass, centre
+      real(wp) :: at(3), centre_at(3)
+      logical :: is_found, has_centre
       integer :: k, bodies, status
 
       bodies = 0
@@ -257,15 +267,22 @@ contains
          if (draft%cards(k)%group /= body_group) cycle
          name = ''
          origin = ''
+         centre = ''
+         mass = 1.0_wp
          read (draft%cards(k)%text, nml=body, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          bodies = bodies + 1
          draft%cards(k)%index = bodies
          call find_point(draft, deck, k, 'origin', trim(origin), at, is_found)
+         call find_point(draft, deck, k, 'centre', trim(centre), centre_at, has_centre)
+         if (.not. mass > 0.0_wp) call complain(draft, deck, k, 'mass', 'mass must be above 0 kg, found '//str(mass))
+         if (has_key(deck, k, 'mass') .neqv. has_key(deck, k, 'centre')) call complain(draft, deck, k, &
+            trim(merge('mass  ', 'centre', has_key(deck, k, 'mass'))), 'mass and centre (of gravity) go together')
+         if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
          if (is_found) then
-            call add_body(suspension, trim(name), where_of(deck, k), at)
+            call add_body(suspension, trim(name), where_of(deck, k), at, mass, centre_at)
          else
-            call add_body(suspension, trim(name), where_of(deck, k))
+            call add_body(suspension, trim(name), where_of(deck, k), mass=mass, centre=centre_at)
          end if
       end do
       if (bodies == 0 .and. all(draft%cards%group > 0)) &

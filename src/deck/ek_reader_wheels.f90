@@ -21,8 +21,8 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, body, side, centre, contact, steer_axis(2)
-      real(wp) :: spin_vector(3), toe, camber, radius
-      namelist /wheel/ name, body, side, centre, contact, spin_vector, toe, camber, radius, steer_axis
+      real(wp) :: spin_vector(3), toe, camber, radius, tyre_rate
+      namelist /wheel/ name, body, side, centre, contact, spin_vector, toe, camber, radius, tyre_rate, steer_axis
       type(wheel_t) :: this
       logical :: has_body, has_centre, has_contact, is_there(2)
       integer :: k, j, c, wheels, status
@@ -40,6 +40,7 @@ contains
          toe = 0.0_wp
          camber = 0.0_wp
          radius = 1.0_wp
+         tyre_rate = 1.0_wp
          read (draft%cards(k)%text, nml=wheel, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          wheels = wheels + 1
@@ -61,6 +62,10 @@ contains
             if (.not. this%radius > 0.0_wp) call complain(draft, deck, k, 'contact', &
                'the contact point must lie below the centre, found it '//str(-this%radius/draft%units%length)//' above')
          end if
+         if (.not. tyre_rate > 0.0_wp) &
+            call complain(draft, deck, k, 'tyre_rate', 'tyre_rate must be above 0, found '//str(tyre_rate))
+         this%tyre_rate = 0.0_wp
+         if (has_key(deck, k, 'tyre_rate')) this%tyre_rate = tyre_rate*(draft%units%force/draft%units%length)
          call find_spin()
          this%has_steer_axis = has_key(deck, k, 'steer_axis')
          do j = 1, 2

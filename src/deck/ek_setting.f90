@@ -142,7 +142,7 @@ contains
 
    end subroutine apply_setting
 
-   !> 'bushing.top_mount.kt(1)' → group, name, key and subscript; 'model.length' has no name.
+   !> 'bushing.top_mount.kt(1)' → group, name, key and subscript; 'model.length', 'axle.wheelbase' have no name.
    subroutine split_path(path, group, name, key, first, has_subscript, message)
       character(*), intent(in) :: path
       integer, intent(out) :: group, first
@@ -176,6 +176,7 @@ contains
          if (is_single(group)) message = 'expected '//trim(group_names(group))//'.key=value'
          return
       end if
+      if (message /= '') return
       if (dot < last) name = path(dot + 1:last - 1)
       key = lower(path(last + 1:))
       mark = index(key, '(')

@@ -91,8 +91,8 @@ contains
          case%place_name = 'braking force at each patch'
       case ('traction')
          call hold_heights('force')
-         call load_wheels([-1.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .false.)
-         case%place_name = 'traction force at each wheel centre'
+         call load_wheels([-1.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], suspension%axle%drives_at_patch)
+         case%place_name = 'traction force at each '//trim(merge('patch       ', 'wheel centre', suspension%axle%drives_at_patch))
       case ('aligning_torque')
          call hold_heights('force')
          call load_wheels([0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 1.0_wp], .true.)

@@ -32,7 +32,7 @@ contains
       call include('parallel_travel', .false., 0.0_wp, 80.0_wp*millimetre, 80)
       if (is_axle) call include('opposite_travel', .false., 0.0_wp, 60.0_wp*millimetre, 60)
       if (is_axle) call include('roll', .false., 0.0_wp, 3.0_wp*degree, 60)
-!TEMP      if (suspension%steering%is_given) call include('steering', .false., 0.0_wp, suspension%steering%travel, 60)
+      if (suspension%steering%has_steering) call include('steering', .false., 0.0_wp, suspension%steering%travel, 60)
       call include_both('lateral_force', 0.0_wp, 2000.0_wp)
       call include_both('lateral_force', trail, 2000.0_wp)
       call include_both('aligning_torque', 0.0_wp, 100.0_wp)
@@ -72,7 +72,7 @@ contains
          this%where = 'the standard tests'
          this%load = ''
          this%drive = ''
-!TEMP         if (test == 'steering') this%drive = suspension%steering%driver
+          if (test == 'steering') this%drive = suspension%steering%driver
          this%from = -reach
          this%to = reach
          this%increments = increments

@@ -1,7 +1,7 @@
 !> What the quantities of an axle need beyond the suspension itself: the vehicle around it.
 module ek_vehicle
    use ek_kinds, only: wp
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, driver_row
    implicit none(type, external)
    private
    public :: vehicle_t, vehicle_of
@@ -25,7 +25,21 @@ contains
    pure type(vehicle_t) function vehicle_of(suspension) result(vehicle)
       type(suspension_t), intent(in) :: suspension
 
-      allocate (vehicle%tyre_rate(size(suspension%wheels)), source=0.0_wp)
+      associate (axle => suspension%axle, steering => suspension%steering)
+         vehicle%has_axle = axle%has_axle
+         vehicle%is_front = axle%is_front
+         vehicle%wheelbase = axle%wheelbase
+         vehicle%cg_height = axle%cg_height
+         vehicle%brake_share = axle%brake_share
+         vehicle%drive_share = axle%drive_share
+         vehicle%drives_at_patch = axle%drives_at_patch
+         if (steering%has_steering) then
+            vehicle%steer_row = driver_row(suspension, steering%driver)
+            vehicle%steer_ratio = abs(steering%ratio)
+         end if
+      end associate
+      allocate (vehicle%tyre_rate(size(suspension%wheels)))
+      vehicle%tyre_rate = suspension%wheels%tyre_rate
    end function vehicle_of
 
 end module ek_vehicle

@@ -25,7 +25,7 @@ contains
       do k = 1, size(suspension%loads)
          associate (load => suspension%loads(k))
             share = share_of(load%body, load%arm)
-            if (.not. share > 0.0_wp) cycle
+            if (.not. share > 0.0_wp .or. load%is_weight) cycle
             factor = 1.0_wp
             if (load%is_case) factor = load_factor(demand, k)
             call wrench(load, state%poses(load%body + 1), f, moment, arm)

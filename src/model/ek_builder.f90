@@ -11,21 +11,25 @@ module ek_builder
    implicit none(type, external)
    private
    public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_element, add_bushing
-   public :: add_travel_driver, add_height_driver, add_load, add_wheel, add_readout, complete
+   public :: add_travel_driver, add_height_driver, add_load, add_gravity, add_wheel, add_readout, complete
 
 contains
 
    !> A body; without `origin` its reference point will be the mean of its attachment points.
-   pure subroutine add_body(self, name, where, origin)
+   pure subroutine add_body(self, name, where, origin, mass, centre)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
       real(wp), intent(in), optional :: origin(3)
+      real(wp), intent(in), optional :: mass         !! kg
+      real(wp), intent(in), optional :: centre(3)    !! of gravity, design point [m]
       type(body_t) :: body
 
       body%name = name
       body%where = where
       body%has_origin = present(origin)
       if (present(origin)) body%origin = origin
+      if (present(mass)) body%mass = mass
+      if (present(centre)) body%centre = centre
       if (.not. allocated(self%bodies)) allocate (self%bodies(0))
       self%bodies = [self%bodies, body]
    end subroutine add_body
@@ -202,6 +206,28 @@ contains
       self%loads = [self%loads, load]
    end subroutine add_load
 
+   !> The weight of every body with a mass, as a constant load at its centre of gravity; on design points.
+   !>
+   !> Its name has blanks, so that it is never one of the deck's.
+   pure subroutine add_gravity(self, gravity)
+      type(suspension_t), intent(inout) :: self
+      real(wp), intent(in) :: gravity       !! m/s², acts along −z
+      type(load_t) :: load
+      integer :: k
+
+      if (.not. gravity > 0.0_wp) return
+      do k = 1, size(self%bodies)
+         if (.not. self%bodies(k)%mass > 0.0_wp) cycle
+         load%name = 'weight of '//self%bodies(k)%name
+         load%where = self%bodies(k)%where
+         load%body = k
+         load%arm = self%bodies(k)%centre
+         load%force = [0.0_wp, 0.0_wp, -self%bodies(k)%mass*gravity]
+         load%is_weight = .true.
+         call add_load(self, load)
+      end do
+   end subroutine add_gravity
+
    !> A wheel; centre, contact and steer axis as design points.
    pure subroutine add_wheel(self, wheel)
       type(suspension_t), intent(inout) :: self
@@ -248,6 +274,9 @@ contains
             b%arm_j = b%arm_j - origin_of(self, b%body_j)
          end associate
          call set_bushing_axes(self%bushings(k))
+      end do
+      do k = 1, size(self%bodies)
+         self%bodies(k)%centre = self%bodies(k)%centre - self%bodies(k)%origin
       end do
       do k = 1, size(self%loads)
          self%loads(k)%arm = self%loads(k)%arm - origin_of(self, self%loads(k)%body)
@@ -353,6 +382,7 @@ contains
       if (.not. allocated(self%readouts)) allocate (self%readouts(0))
       if (.not. allocated(self%balance)) self%balance = 'none'
       if (.not. allocated(self%title)) self%title = ''
+      if (.not. allocated(self%steering%driver)) self%steering%driver = ''
    end subroutine ensure_allocated
 
 end module ek_builder

@@ -12,7 +12,7 @@ module ek_suspension
    use ek_elastic, only: bushing_t
    implicit none(type, external)
    private
-   public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t
+   public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
    public :: body_name, design_poses, driver_row, load_number
 
    !> A rigid body.
@@ -20,6 +20,8 @@ module ek_suspension
       character(:), allocatable :: name, where
       real(wp) :: origin(3) = 0.0_wp      !! reference point r at design [m]
       logical :: has_origin = .false.     !! given by the deck; else the mean of its attachment points
+      real(wp) :: mass = 0.0_wp           !! kg
+      real(wp) :: centre(3) = 0.0_wp      !! of gravity: arm from the reference point, body axes [m]; where there is a mass
    end type body_t
 
    !> A named hardpoint, design position.
@@ -38,6 +40,7 @@ module ek_suspension
       real(wp) :: moment(3) = 0.0_wp      !! N m
       logical :: follows = .false.        !! turns with the body
       logical :: is_case = .false.        !! scaled by the case that names it; else always on
+      logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
    end type load_t
 
    !> A wheel on its carrier.
@@ -49,6 +52,7 @@ module ek_suspension
       real(wp) :: contact(3) = 0.0_wp
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! unit, outboard, body axes
       real(wp) :: radius = 0.0_wp         !! m
+      real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
    end type wheel_t
@@ -59,6 +63,26 @@ module ek_suspension
       type(measure_t) :: measure
       real(wp) :: design_value = 0.0_wp   !! m, - or rad
    end type readout_t
+
+   !> What the axle is part of: for the figures that need the whole car.
+   type :: axle_t
+      logical :: has_axle = .false.       !! the deck has an &axle
+      logical :: is_front = .true.
+      real(wp) :: wheelbase = 0.0_wp      !! m
+      real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
+      real(wp) :: brake_share = 0.0_wp    !! of the braking force of the car that acts on the FRONT axle, 0 to 1
+      real(wp) :: drive_share = 1.0_wp    !! of the driving force of the car that acts on THIS axle, 0 to 1
+      logical :: drives_at_patch = .false.   !! drive torque is taken by the axle (solid axle): traction acts at the patch,
+                                             !! else (independent) at the wheel centre
+   end type axle_t
+
+   !> From the steering wheel to the driver that moves the rack.
+   type :: steering_t
+      logical :: has_steering = .false.   !! the deck has a &steering
+      character(:), allocatable :: driver !! name of the driver joint; its row: driver_row
+      real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; its sign as the deck gives it
+      real(wp) :: travel = 0.0_wp         !! largest rack travel each way [m]
+   end type steering_t
 
    type :: suspension_t
       character(:), allocatable :: name, title
@@ -74,6 +98,8 @@ module ek_suspension
       type(load_t), allocatable :: loads(:)
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
+      type(axle_t) :: axle
+      type(steering_t) :: steering
    contains
       procedure :: unknowns                    !! 6 × bodies
       procedure :: constraints                 !! number of rows

@@ -1,0 +1,139 @@
+!> &axle and &steering: what the suspension is part of. At most one of each.
+module ek_reader_axle
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower, quoted
+   use ek_measure, only: axis_axis, rotation
+   use ek_suspension, only: suspension_t
+   use ek_record, only: element
+   use ek_group, only: group_names, axle_group, steering_group, joint_group, measure_group, word_length
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, line_of, choice, look_up, find_card
+   implicit none(type, external)
+   private
+   public :: read_axle, read_steering
+
+contains
+
+   !> &axle: front or rear, and the shares of braking and driving force that reach it.
+   subroutine read_axle(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, position, drive_reaction
+      real(wp) :: wheelbase, cg_height, brake_share, drive_share
+      namelist /axle/ name, position, wheelbase, cg_height, brake_share, drive_share, drive_reaction
+      integer :: k, c, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= axle_group) cycle
+         if (is_second(draft, deck, k)) cycle
+         name = ''
+         position = ''
+         drive_reaction = 'wheel_centre'
+         wheelbase = 1.0_wp
+         cg_height = 1.0_wp
+         brake_share = 0.0_wp
+         drive_share = 1.0_wp
+         read (draft%cards(k)%text, nml=axle, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+         call check_positive(draft, deck, k, 'wheelbase', wheelbase)
+         call check_positive(draft, deck, k, 'cg_height', cg_height)
+         call check_share(draft, deck, k, 'brake_share', brake_share)
+         call check_share(draft, deck, k, 'drive_share', drive_share)
+         associate (this => suspension%axle)
+            call choice(draft, deck, k, 'position', trim(position), [character(5) :: 'front', 'rear'], c)
+            this%is_front = c == 1
+            call choice(draft, deck, k, 'drive_reaction', trim(drive_reaction), [character(12) :: 'wheel_centre', 'patch'], c)
+            this%drives_at_patch = c == 2
+            this%has_axle = .true.
+            this%wheelbase = wheelbase*draft%units%length
+            this%cg_height = cg_height*draft%units%length
+            this%brake_share = brake_share
+            this%drive_share = drive_share
+         end associate
+      end do
+   end subroutine read_axle
+
+   !> &steering: the driver of the rack, and what the steering wheel has to do with it.
+   subroutine read_steering(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+      character(word_length) :: name, driver
+      real(wp) :: ratio, travel
+      namelist /steering/ name, driver, ratio, travel
+      integer :: k, found, status
+
+      do k = 1, deck%used
+         if (draft%cards(k)%group /= steering_group) cycle
+         if (is_second(draft, deck, k)) cycle
+         name = ''
+         driver = ''
+         ratio = 1.0_wp
+         travel = 1.0_wp
+         read (draft%cards(k)%text, nml=steering, iostat=status)
+         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+         if (.not. abs(ratio) > 0.0_wp) call complain(draft, deck, k, 'ratio', 'ratio must not be zero')
+         call check_positive(draft, deck, k, 'travel', travel)
+         call look_up(draft, deck, k, 'driver', joint_group, trim(driver), found)
+         if (found > 0) call check_driver()
+         suspension%steering%has_steering = .true.
+         suspension%steering%driver = trim(driver)
+         suspension%steering%ratio = ratio*draft%units%length
+         suspension%steering%travel = travel*draft%units%length
+      end do
+
+   contains
+
+      !> A driver, and one of a length: ratio and travel are lengths.
+      subroutine check_driver()
+         integer :: measure
+
+         if (lower(element(deck%records(found), 'type', 1)) /= 'driver') then
+            call complain(draft, deck, k, 'driver', 'driver: the joint '//quoted(driver)//' in line '// &
+               str(deck%records(found)%line)//' is not a driver')
+            return
+         end if
+         measure = find_card(draft, measure_group, element(deck%records(found), 'measure', 1))
+         if (measure == 0) return
+         associate (index => draft%cards(measure)%index)
+            if (index == 0) return
+            if (any(suspension%readouts(index)%measure%kind == [axis_axis, rotation])) call complain(draft, deck, k, &
+               'driver', 'driver: '//quoted(driver)//' must move along a length, but its measure is an angle')
+         end associate
+      end subroutine check_driver
+
+   end subroutine read_steering
+
+   !> Whether a group that may be there once was there before; then that is a mistake.
+   logical function is_second(draft, deck, k)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      integer :: first
+
+      first = findloc(draft%cards%group, draft%cards(k)%group, dim=1)
+      is_second = first < k
+      if (is_second) call complain(draft, deck, k, '', 'a second &'//trim(group_names(draft%cards(k)%group))// &
+         '; the first is in '//line_of(deck, first, k))
+   end function is_second
+
+   subroutine check_positive(draft, deck, k, key, value)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: key
+      real(wp), intent(in) :: value
+      if (.not. value > 0.0_wp) call complain(draft, deck, k, key, key//' must be above 0, found '//str(value))
+   end subroutine check_positive
+
+   subroutine check_share(draft, deck, k, key, value)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      character(*), intent(in) :: key
+      real(wp), intent(in) :: value
+      if (value < 0.0_wp .or. value > 1.0_wp) call complain(draft, deck, k, key, key//' must be 0 to 1, found '//str(value))
+   end subroutine check_share
+
+end module ek_reader_axle
