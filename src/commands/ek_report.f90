@@ -24,6 +24,7 @@ module ek_report
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_report_tests, only: planned_test_t, planned_tests, run_planned
+   use ek_report_files, only: write_contents, contents_file
    use ek_report_page, only: chart_set_t, report_page
    use ek_run_words, only: say_preloads
    use ek_words, only: say, complain
@@ -106,6 +107,9 @@ contains
       if (allocated(error)) return
       write (output_unit, '(a)') join_path(folder, 'gradients.csv')
       write (output_unit, '(a)') join_path(folder, 'gradients.json')
+
+      call write_contents(tests, join_path(folder, contents_file), error)
+      if (allocated(error)) return
 
       message = ''
       call draw(arguments, suspension, tests, films, sets, folder, message, error)

@@ -15,6 +15,7 @@ module ek_report_tests
    use ek_sweep_table, only: sweep_table, factor_unit
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
+   use ek_report_files, only: test_line
    use ek_run_words, only: failure_words
    implicit none(type, external)
    private
@@ -174,11 +175,7 @@ contains
 
       call sweep_table(suspension, case, path, kkt, test%table)
       call add_header(test%table, suspension, case, checksum)
-      if (planned%is_anti) then
-         call test%table%header%add('test '//planned%kind//', anti phase, factor size '//str(planned%factor_size, 15))
-      else
-         call test%table%header%add('test '//planned%kind//', factor size '//str(planned%factor_size, 15))
-      end if
+      call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
       if (.not. allocated(test%prefixes)) call find_wheels(test)
       call choose_abscissa(test)

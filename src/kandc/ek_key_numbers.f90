@@ -174,6 +174,7 @@ contains
          do k = 1, size(gradients)
             if (gradients(k)%test /= tests(t)%name .or. gradients(k)%quantity /= source%name) cycle
             is_there = .true.
+            if (size(tests(t)%prefixes) < 2) number%quantity = trim(source%name)    ! one wheel has no phase
             number%unit = gradients(k)%unit
             number%sign = gradients(k)%sign//' (over '//gradients(k)%window//')'
             if (gradients(k)%side == 'right') then

@@ -55,13 +55,17 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          kind = part_arm
-         if (carries_wheel(suspension, body)) kind = part_carrier
+         if (carries_wheel(suspension, body)) then
+            kind = part_carrier
+         else if (slides(suspension, body)) then
+            kind = part_damper
+         end if
          do k = 1, skeleton%count
             a = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
             b = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
             call add_tube(scene, kind, a, b, merge(1.25_wp, 1.0_wp, kind == part_carrier)*arm_radius, sides)
          end do
-         if (kind == part_arm) call add_plate(scene, suspension, state, body, skeleton)
+         if (kind == part_arm .and. .not. plain) call add_plate(scene, suspension, state, body, skeleton)
       end do
       call add_joints(scene, suspension, state, plain)
       do k = 1, size(suspension%springs)
@@ -160,6 +164,15 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          longest = 0.0_wp
+         if (count(skeleton%nodes(:skeleton%used)%is_held) == 2 .and. skeleton%used > 2) then    ! a wishbone: in its middle
+            longest = 1.0_wp
+            at = 0.0_wp
+            do k = 1, skeleton%used
+               at = at + place_of(suspension, state, body, skeleton%nodes(k)%arm)/skeleton%used
+            end do
+            call name_at(suspension%bodies(body)%name)
+            cycle
+         end if
          do k = 1, skeleton%count
             a = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
             b = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
@@ -168,7 +181,11 @@ contains
             longest = length
             at = (a + b)/2
          end do
-         if (longest > 0.0_wp) call name_at(suspension%bodies(body)%name)
+         if (longest > 0.0_wp .and. slides(suspension, body) .and. .not. carries_wheel(suspension, body)) then
+            call name_at(suspension%bodies(body)%name, 5.0_wp)       ! beside the coil around it
+         else if (longest > 0.0_wp) then
+            call name_at(suspension%bodies(body)%name)
+         end if
       end do
       do k = 1, size(suspension%joints)
          if (suspension%joints(k)%kind /= 'distance') cycle
@@ -179,13 +196,14 @@ contains
       do k = 1, size(suspension%springs)
          call ends_of(suspension%springs(k)%measure, state, a, b)
          at = 0.3_wp*a + 0.7_wp*b
-         call name_at(suspension%springs(k)%name)
+         call name_at(suspension%springs(k)%name, 5.0_wp)
       end do
 
    contains
 
-      subroutine name_at(name)
+      subroutine name_at(name, aside)
          character(*), intent(in) :: name
+         real(wp), intent(in), optional :: aside
          character(:), allocatable :: words
          integer :: letter
 
@@ -195,7 +213,7 @@ contains
          do letter = 1, len(words)
             if (words(letter:letter) == '_') words(letter:letter) = ' '
          end do
-         call add_words(scene, at, words)
+         call add_words(scene, at, words, aside)
       end subroutine name_at
 
    end subroutine add_names
@@ -456,6 +474,22 @@ contains
          carries_wheel = carries_wheel .or. suspension%wheels(k)%body == body
       end do
    end function carries_wheel
+
+   !> Whether a body slides along another that moves too: a damper's rod.
+   pure logical function slides(suspension, body)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: body
+      integer :: k
+
+      slides = .false.
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k))
+            if (joint%kind /= 'cylindrical' .and. joint%kind /= 'translational') cycle
+            if (joint%body_i == 0 .or. joint%body_j == 0) cycle
+            slides = slides .or. joint%body_i == body .or. joint%body_j == body
+         end associate
+      end do
+   end function slides
 
    !> The first measure of a joint: it has the joint's points, whatever the kind.
    pure function first_measure(suspension, joint) result(measure)

@@ -88,8 +88,8 @@ contains
       call script%line("set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1")
       call script%line("set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
       call script%line("set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
-      call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.155')
-      call script%line("set xtics autofreq; set xtics font ',12'; set ytics font ',12'")
+      call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
+      call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)
          call add_chart(script, charts(k))
       end do
@@ -103,7 +103,7 @@ contains
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: line
       real(wp) :: low, high
-      integer :: k, row, keys, plotted
+      integer :: k, row, keys, plotted, across, rows
 
       if (size(chart%traces) == 0) return
       call script%line('')
@@ -136,7 +136,7 @@ contains
          " at screen 0.02, screen 0.945 font 'sans-serif:Bold,15' textcolor rgb '#202020'")
       call script%line('set label 2 '//gnuplot_text(chart%y_label)// &
          " at screen 0.02, screen 0.875 font ',12' textcolor rgb '#606060'")
-      call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.4 font ',12' textcolor rgb '#606060'")
+      call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.65 font ',12' textcolor rgb '#606060'")
       if (high >= low .and. high - low < chart%noise) then
          call script%line('set yrange [* < '//str((low + high)/2 - chart%noise, 6)//' : '// &
             str((low + high)/2 + chart%noise, 6)//' < *]')
@@ -149,9 +149,15 @@ contains
       keys = 0
       if (chart%has_key) keys = size(chart%traces)
       if (keys > 0) then
-         call script%line("set key at screen 0.975, screen "//str(0.80_wp)// &
-            " right top vertical Right noreverse samplen 2 spacing 1.0 font ',11' maxrows 4 opaque fillcolor rgb '#FFFFFF'")
-         call script%line('set tmargin at screen 0.82')
+         across = 3
+         do k = 1, keys
+            if (len(chart%traces(k)%title) > 13) across = 2
+         end do
+         across = min(across, keys)
+         rows = (keys + across - 1)/across
+         call script%line('set key at screen 0.02, screen 0.845 left top vertical Left reverse samplen 1.6 spacing 1.0 '// &
+            "width -1 font ',11' textcolor rgb '#404040' maxrows "//str(rows))
+         call script%line('set tmargin at screen '//str(0.81_wp - 0.05_wp*rows, 3))
       else
          call script%line('unset key')
          call script%line('set tmargin at screen 0.82')

@@ -263,7 +263,7 @@ contains
          'td.s{color:var(--soft);font-size:.82rem}tr.group th{padding-top:16px;font-weight:650}')
       call out%line('.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:14px}')
       call out%line('figure{margin:0;background:#fff;border:1px solid var(--line);border-radius:6px;padding:4px}'// &
-         'figure.wide{margin:14px 0}svg,img{display:block;width:100%;height:auto}'// &
+         'figure.wide{margin:14px 0}svg,img{display:block;width:100%;height:auto}img{max-width:760px;margin:0 auto}'// &
          'figcaption{color:#5b6570;font-size:.82rem;padding:2px 10px 8px}')
       call out%line('.legend{display:flex;flex-wrap:wrap;gap:4px 20px;color:var(--soft);font-size:.88rem;margin:8px 0}'// &
          '.legend span{display:inline-flex;align-items:center;gap:7px}.legend i{display:inline-block;width:30px;height:0}'// &
@@ -271,13 +271,13 @@ contains
       call out%line('.warning{background:var(--warn);border:1px solid var(--warnline);border-left-width:5px;border-radius:4px;'// &
          'padding:10px 16px;margin:14px 0}.warning ul{margin:6px 0 0;padding-left:20px}.warning li{overflow-wrap:anywhere}')
       call out%line('@media(max-width:700px){main{padding:16px 14px 48px}h1{font-size:1.45rem}h2{margin-top:34px}'// &
-         '.charts{grid-template-columns:1fr}table{font-size:.84rem}td.s{min-width:15em}}')
+         '.charts{grid-template-columns:1fr}table{font-size:.84rem}td.s{min-width:15em}td:first-child{min-width:9em}}')
       call out%line('@page{size:A4;margin:14mm}')
       call out%line('@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--band:#fff;--warn:#fff;--link:#000}'// &
          'body{font-size:10pt}main{max-width:none;padding:0}nav{display:none}section{break-before:page}'// &
          'section:first-of-type{break-before:auto}h2{margin-top:0;border:0}h2,h3,.legend{break-after:avoid}'// &
          '.charts{grid-template-columns:1fr 1fr;gap:8px}figure,tr{break-inside:avoid}.scroll{overflow:visible}'// &
-         'table{font-size:8pt}figure{border-color:#ddd}}')
+         'table,td.s,thead th{font-size:8pt}th,td{padding:2px 10px 2px 0}figure{border-color:#ddd}}')
    end subroutine add_style
 
    !> A number for a table: about four digits, no exponent where a person would write none; '–' where there is none.

@@ -77,7 +77,7 @@ contains
       character(*), intent(in) :: tag, prefix
       integer :: at, close
 
-      if (index(tag, 'id=') + index(tag, 'href=') + index(tag, 'url(#') + index(tag, ' on') == 0) then
+      if (index(tag, 'id=') + index(tag, 'href=') + index(tag, 'url(#') + index(tag, ' on') + index(tag, ':Bold') == 0) then
          call out%add(tag)                ! most of a picture: long paths
          return
       end if
@@ -100,6 +100,9 @@ contains
          else if (begins(tag, at, "href='#") .or. begins(tag, at, 'href="#')) then
             call out%add(tag(at:at + 6)//prefix//'_')
             at = at + 7
+         else if (begins(tag, at, ':Bold"')) then          ! gnuplot's way to name a font
+            call out%add('" font-weight="600"')
+            at = at + 6
          else if (begins(tag, at, 'url(#')) then
             call out%add('url(#'//prefix//'_')
             at = at + 5

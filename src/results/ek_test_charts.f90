@@ -9,7 +9,7 @@ module ek_test_charts
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
-   public :: quantity_t, quantities_of, quantity_named, test_charts, quantity_chart, wheel_word
+   public :: quantity_t, all_quantities, quantities_of, quantity_named, test_charts, quantity_chart, wheel_word
 
    !> A quantity as it is drawn: column without the wheel's name, title, unit and sign.
    type :: quantity_t

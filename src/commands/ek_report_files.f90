@@ -1,0 +1,143 @@
+!> A report folder, and a table of results, as they are read back: what was a test, and what its table says of itself.
+module ek_report_files
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_file
+   use ek_text, only: quoted
+   use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
+   use ek_csv, only: read_csv
+   use ek_decimal, only: get_decimal
+   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
+   use ek_gradient, only: gradient_t, windows_t, test_gradients
+   use ek_gradient_file, only: read_gradients
+   implicit none(type, external)
+   private
+   public :: results_t, read_results, read_test, write_contents, test_line, contents_file
+
+   character(*), parameter :: contents_file = 'tests.csv'
+   character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = 'anti phase'
+
+   !> What compare lays over another of its kind.
+   type :: results_t
+      character(:), allocatable :: path, label
+      logical :: is_report = .false.         !! a folder; else one table
+      type(test_result_t), allocatable :: tests(:)
+      type(gradient_t), allocatable :: gradients(:)
+   end type results_t
+
+contains
+
+   !> The line of a table's header that says what the test was.
+   pure function test_line(kind, is_anti, factor_size) result(line)
+      character(*), intent(in) :: kind
+      logical, intent(in) :: is_anti
+      real(wp), intent(in) :: factor_size
+      character(:), allocatable :: line
+      character(24) :: number
+
+      write (number, '(es23.15)') factor_size
+      line = mark//kind//', '
+      if (is_anti) line = line//anti_mark//', '
+      line = line//size_mark//trim(adjustl(number))
+   end function test_line
+
+   !> tests.csv: the tests of a report and their files.
+   subroutine write_contents(tests, path, error)
+      type(test_result_t), intent(in) :: tests(:)
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(out) :: error
+      type(text_table_t) :: table
+      integer :: k
+
+      table = new_text_table([character(8) :: 'test', 'kind', 'title', 'file'])
+      do k = 1, size(tests)
+         if (.not. allocated(tests(k)%table%columns)) cycle
+         call add_row(table)
+         table%cells(1, table%rows)%text = tests(k)%name
+         table%cells(2, table%rows)%text = tests(k)%kind
+         table%cells(3, table%rows)%text = tests(k)%title
+         table%cells(4, table%rows)%text = tests(k)%file
+      end do
+      call write_whole(path, text_table_csv(table), error)
+   end subroutine write_contents
+
+   !> A report folder, or one CSV file, whose gradients are then made anew.
+   subroutine read_results(path, windows, results, error)
+      character(*), intent(in) :: path
+      type(windows_t), intent(in) :: windows
+      type(results_t), intent(out) :: results
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: path:line: what is wrong
+      type(text_table_t) :: contents
+      integer :: k
+
+      results%path = path
+      results%label = label_of(path)
+      results%is_report = folder_exists(path)
+      if (.not. results%is_report) then
+         allocate (results%tests(1))
+         call read_test(path, 'results', results%tests(1), error)
+         if (allocated(error)) return
+         call test_gradients(results%tests(1), windows, results%gradients)
+         return
+      end if
+      if (.not. file_exists(join_path(path, contents_file))) then
+         call fail(error, exit_file, quoted(path)//' is no folder of a report: it has no '//contents_file)
+         return
+      end if
+      call read_text_table(join_path(path, contents_file), contents, error)
+      if (allocated(error)) return
+      allocate (results%tests(contents%rows))
+      do k = 1, contents%rows
+         call read_test(join_path(path, cell_of(contents, k, 'file')), cell_of(contents, k, 'test'), results%tests(k), error)
+         if (allocated(error)) return
+         results%tests(k)%title = cell_of(contents, k, 'title')
+      end do
+      call read_gradients(join_path(path, 'gradients.csv'), results%gradients, error)
+   end subroutine read_results
+
+   !> A table, and what its header says of the test.
+   subroutine read_test(path, name, test, error)
+      character(*), intent(in) :: path, name
+      type(test_result_t), intent(out) :: test
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: line
+      logical :: is_number
+      integer :: k, at
+
+      test%name = name
+      test%title = base_name(path)
+      test%file = path
+      test%kind = 'other'
+      call read_csv(path, test%table, error)
+      if (allocated(error)) return
+      do k = 1, test%table%header%count()
+         line = test%table%header%line(k)
+         if (index(line, mark) /= 1 .or. index(line, size_mark) == 0) cycle
+         at = index(line, ',')
+         test%kind = line(len(mark) + 1:at - 1)
+         test%is_anti = index(line, anti_mark) > 0
+         call get_decimal(line(index(line, size_mark) + len(size_mark):), test%factor_size, is_number)
+         if (is_number) is_number = ieee_is_finite(test%factor_size)
+         if (.not. is_number) test%factor_size = 1.0_wp
+      end do
+      call find_wheels(test)
+      call choose_abscissa(test)
+      ! a table of `run` does not tell its kind: one that stands over the travel is read like parallel travel
+      if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
+   end subroutine read_test
+
+   !> The last part of a path, without extension: what stands in a legend.
+   pure function label_of(path) result(label)
+      character(*), intent(in) :: path
+      character(:), allocatable :: label
+
+      label = path
+      do while (len(label) > 1)
+         if (label(len(label):) /= '/') exit
+         label = label(:len(label) - 1)
+      end do
+      label = base_name(label)
+   end function label_of
+
+end module ek_report_files
