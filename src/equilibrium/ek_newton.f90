@@ -1,8 +1,8 @@
 !> A state of equilibrium by Newton's method, from a guess.
 !>
 !> Each iteration assembles T, factorises once, and takes one full step. When the step was already
-!> small, the same factors serve a second, cheaper step with a fresh residual: its length is what
-!> was still missing, so convergence is measured, not hoped for.
+!> small, the same factors serve further, cheaper steps with fresh residuals, as long as each is much shorter
+!> than the one before: its length is what was still missing, so convergence is measured, not hoped for.
 module ek_newton
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -13,6 +13,8 @@ module ek_newton
    public :: outcome_t, find_equilibrium
 
    integer, parameter :: most_iterations = 15   !! Newton is quadratic: more would not help
+   integer, parameter :: most_chords = 4        !! steps with old factors: three cost less than one factorisation
+   real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with less gain new factors are cheaper
 
    !> How an iteration ended.
    type :: outcome_t
@@ -35,8 +37,8 @@ contains
       type(state_t), intent(inout) :: state   !! guess → equilibrium
       type(kkt_t), intent(inout) :: kkt
       type(outcome_t), intent(out) :: outcome
-      real(wp) :: largest, previous
-      integer :: iteration
+      real(wp) :: largest, previous, before
+      integer :: iteration, chord
 
       ! a correction longer than a quarter of the mechanism is no correction: halve the increment
       largest = 0.25_wp*kkt%length + 0.05_wp
@@ -55,12 +57,16 @@ contains
          if (outcome%last <= tolerance) exit
          if (0.5_wp*outcome%last > previous) return   ! not 2*previous: huge at first
          previous = outcome%last
-         if (outcome%last < 0.01_wp*kkt%length) then
+         do chord = 1, most_chords
+            if (.not. outcome%last < 0.01_wp*kkt%length) exit
+            before = outcome%last
             call assemble(suspension, state, demand, residual_only, kkt)
             call take_step(state, kkt, outcome%last)
             if (outcome%last <= tolerance) exit
             if (.not. outcome%last <= largest) return
-         end if
+            if (outcome%last > good_chord*before) exit
+         end do
+         if (outcome%last <= tolerance) exit
       end do
       outcome%is_converged = outcome%last <= tolerance
    end subroutine find_equilibrium
