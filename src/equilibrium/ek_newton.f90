@@ -14,6 +14,7 @@ module ek_newton
 
    integer, parameter :: most_iterations = 15   !! Newton is quadratic: more would not help
    integer, parameter :: most_chords = 4        !! steps with old factors: three cost less than one factorisation
+   real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance, that a state found by them may be off
    real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with less gain new factors are cheaper
 
    !> How an iteration ended.
@@ -62,9 +63,10 @@ contains
             before = outcome%last
             call assemble(suspension, state, demand, residual_only, kkt)
             call take_step(state, kkt, outcome%last)
-            if (outcome%last <= tolerance) exit
             if (.not. outcome%last <= largest) return
             if (outcome%last > good_chord*before) exit
+            ! what is left after this step is about last × last/before
+            if (outcome%last*outcome%last <= rest*tolerance*before) exit
          end do
          if (outcome%last <= tolerance) exit
       end do
