@@ -266,14 +266,14 @@ contains
       call put(self, 'steering_wheel_deg', sign(per_rack, rate)*row_change(suspension, state, self%vehicle%steer_row)/degree)
    end subroutine list_steering
 
-   !> How far a row's measure is from its design value [m, rad].
+   !> What a driver's row prescribes at a state, from design [m, rad]: its measure less what its own compliance gives way.
    pure real(wp) function row_change(suspension, state, row) result(change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: row
       integer :: t
 
-      change = -suspension%rows(row)%target
+      change = -suspension%rows(row)%target - suspension%rows(row)%compliance*state%reaction(row)
       do t = suspension%rows(row)%first, suspension%rows(row)%first + suspension%rows(row)%terms - 1
          associate (m => suspension%terms(t)%measure)
             change = change + suspension%terms(t)%coefficient* &
