@@ -121,7 +121,9 @@ contains
          lacking = ''
          do k = 1, size(rows)
             if (rows(k)%is_there(b)) cycle
-            lacking = lacking//', '//trim(rows(k)%test//' '//trim(rows(k)%quantity//' '//rows(k)%side))
+            lacking = lacking//', '
+            if (results(b)%is_report) lacking = lacking//trim(rows(k)%test)//' '
+            lacking = lacking//trim(rows(k)%quantity//' '//rows(k)%side)
          end do
          if (len(lacking) > 0) call missing%add(results(b)%label//' has no gradient'//lacking(2:))
       end do

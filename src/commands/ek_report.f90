@@ -115,7 +115,7 @@ contains
       call draw(arguments, suspension, tests, films, sets, folder, message, error)
       if (allocated(error)) return
       if (len(message) > 0) then
-         call say(arguments%quiet, message)
+         if (.not. arguments%no_plots) call say(arguments%quiet, message)
          call warnings%add('The page has no pictures: '//message)
       end if
       call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
@@ -181,7 +181,7 @@ contains
          end do
       end do
       if (arguments%no_plots) then
-         message = '--no-plots'
+         message = 'none were asked for (--no-plots)'
          return
       end if
       n = 0
@@ -228,7 +228,7 @@ contains
       call add_solid(scenes(1), suspension, state)
       call add_ground(scenes(1), suspension, state)
       call add_names(scenes(1), suspension, state)
-      film = moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force'])
+      film = moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel'])
       if (film > 0) then
          associate (path => films(film)%path)
             last = findloc(path%is_reached, .true., dim=1)
@@ -241,7 +241,7 @@ contains
             scenes(1)%bump = end_name(suspension, state)
          end associate
       end if
-      call fit_camera(camera, scenes, 3.0_wp, 2.0_wp)
+      call fit_camera(camera, scenes, 3.0_wp, 2.0_wp, footer=0.11_wp)
       call write_whole(join_path(folder, 'figures/picture.gp'), scene_script(scenes(1), camera, '../picture', &
          suspension%name//': design, and the ends of its travel'), error)
    end subroutine write_picture
@@ -260,7 +260,7 @@ contains
       type(state_t) :: state
       integer :: chosen(2), frames, each, k, f, n, at, first, last
 
-      chosen = [moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force']), &
+      chosen = [moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']), &
          moving_film(tests, films, [character(16) :: 'steering'])]
       frames = most_frames/max(1, count(chosen > 0))
       allocate (scenes(frames*count(chosen > 0)), captions(frames*count(chosen > 0)))
@@ -283,7 +283,7 @@ contains
          end associate
       end do
       fitted = camera
-      call fit_camera(fitted, scenes, 4.0_wp, 3.0_wp)
+      call fit_camera(fitted, scenes, 4.0_wp, 3.0_wp, footer=0.06_wp)
       call write_whole(join_path(folder, 'figures/animation.gp'), animation_script(scenes, captions, fitted, '../animation', &
          suspension%name), error)
    end subroutine write_animation

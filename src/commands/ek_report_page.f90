@@ -200,7 +200,7 @@ contains
       do k = 1, size(gradients)
          associate (g => gradients(k))
             if (g%test /= test%name) cycle
-            if (len(g%note) > 0) call words%add(trim(g%quantity//' '//g%side)//': '//g%note)
+            if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call words%add(noted(gradients(k:))//': '//g%note)
             if (g%side == 'right') cycle                   ! told with its left twin
             is_axle = len(g%side) == 0 .and. has_sides
             has_twin = .false.
@@ -221,5 +221,32 @@ contains
       call end_table(page)
       call add_warnings(page, 'No slope', words)
    end subroutine add_gradients
+
+   !> Whether the last of a list is the first of its test and side with its note.
+   pure logical function is_first_note(list)
+      type(gradient_t), intent(in) :: list(:)
+      integer :: k, n
+
+      n = size(list)
+      is_first_note = .true.
+      do k = 1, n - 1
+         if (list(k)%test == list(n)%test .and. list(k)%side == list(n)%side .and. list(k)%note == list(n)%note) &
+            is_first_note = .false.
+      end do
+   end function is_first_note
+
+   !> 'right: bump toe, bump camber': all of a list with the note, test and side of its first.
+   pure function noted(list) result(text)
+      type(gradient_t), intent(in) :: list(:)
+      character(:), allocatable :: text
+      integer :: k
+
+      text = list(1)%quantity
+      if (len(list(1)%side) > 0) text = list(1)%side//' '//text
+      do k = 2, size(list)
+         if (list(k)%test == list(1)%test .and. list(k)%side == list(1)%side .and. list(k)%note == list(1)%note) &
+            text = text//', '//list(k)%quantity
+      end do
+   end function noted
 
 end module ek_report_page

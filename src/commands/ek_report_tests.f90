@@ -75,7 +75,10 @@ contains
 
       kind = 'other'
       factor_size = 1.0_wp
-      if (case%drive == 'wheel_travel') kind = 'parallel_travel'
+      if (case%drive == 'wheel_travel') then
+         kind = 'parallel_travel'
+         if (size(suspension%wheels) > 1) kind = 'single_travel'
+      end if
       k = load_number(suspension, case%load)
       if (k == 0) return
       force = suspension%loads(k)%force

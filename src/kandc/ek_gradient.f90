@@ -276,7 +276,10 @@ contains
       gradient%note = ''
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
-         gradient%note = str(gradient%points)//' of at least '//str(least_points)//' different states in the window'
+         gradient%note = 'no state lies in the window'
+         if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(least_points)// &
+            ' states in the window'
+         if (gradient%points >= least_points) gradient%note = trim(gradient%over)//' does not change'
          return
       end if
       gradient%value = slope*definition%size*turn_of(test, definition, side)

@@ -23,7 +23,7 @@ module ek_scene
       part_spring = 7, part_damper = 8, part_bushing = 9, part_ball = 10, part_mount = 11, parts = 11
    integer, parameter :: line_bump = 1, line_rebound = 2, line_ground = 3, line_kinds = 3
 
-   character(7), parameter :: part_colours(parts) = ['#DDE3E8', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', &
+   character(7), parameter :: part_colours(parts) = ['#E9EEF2', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', &
       '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B']
    real(wp), parameter :: part_solidity(parts) = [0.35_wp, 0.16_wp, 0.22_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, &
       1.0_wp, 1.0_wp]
@@ -252,12 +252,14 @@ contains
    !> Sets centre, span and zoom so that all faces and lines of some scenes fill a picture of this shape.
    !>
    !> gnuplot draws the longest edge of its box a certain share of the shorter side of the picture long, times the zoom.
-   subroutine fit_camera(camera, scenes, width, height)
+   subroutine fit_camera(camera, scenes, width, height, footer)
       type(camera_t), intent(inout) :: camera     !! tilt and turn are given
       type(scene_t), intent(in) :: scenes(:)
-      real(wp), intent(in) :: width, height       !! of the room for it, any unit
+      real(wp), intent(in) :: width, height       !! of the picture, any unit
+      real(wp), intent(in) :: footer              !! share of the height that is kept free below
       real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, and letters of 12 to 13
-      real(wp) :: right(3), up(3), low(2), high(2), p(2)
+      real(wp), parameter :: above_middle = 0.014_wp   ! where it puts the centre, in heights of the picture; likewise
+      real(wp) :: right(3), up(3), low(2), high(2), p(2), scale
       integer :: s, k
 
       right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
@@ -276,7 +278,8 @@ contains
       end do
       if (low(1) > high(1)) return
       p = (low + high)/2
-      camera%centre = right*p(1) + up*p(2)
+      scale = 0.95_wp*min(width/max(high(1) - low(1), 1.0e-3_wp), height*(1 - footer)/max(high(2) - low(2), 1.0e-3_wp))
+      camera%centre = right*p(1) + up*(p(2) - (footer/2 - above_middle)*height/scale)
       ! the box must hold every vertex, or gnuplot would cut there
       do s = 1, size(scenes)
          do k = 1, scenes(s)%faces%used
@@ -286,8 +289,7 @@ contains
             camera%span = max(camera%span, 2.1_wp*maxval(abs(scenes(s)%lines%at(:, k) - camera%centre)))
          end do
       end do
-      camera%zoom = 0.95_wp*camera%span/(box_share*min(width, height))* &
-         min(width/max(high(1) - low(1), 1.0e-3_wp), height/max(high(2) - low(2), 1.0e-3_wp))
+      camera%zoom = scale*camera%span/(box_share*min(width, height))
 
    contains
 
@@ -316,7 +318,7 @@ contains
          "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
          gnuplot_text(name//'.svg')//' }')
       call add_splot(script, scene, .true.)
-      call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.4 "// &
+      call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
          'linewidth 1.5 noenhanced; set output '//gnuplot_text(name//'.png')//'; replot; unset output }')
       text = script%text()
    end function scene_script
@@ -431,8 +433,7 @@ contains
             str(scene%words(k)%at(3)/millimetre, 5)//" front font ',11' textcolor rgb '#30343B' offset "// &
             str(scene%words(k)%aside, 3)//', 0.5')
       end do
-      if (has_legend) call script%line("set key at screen 0.985, screen 0.975 right top Right noreverse samplen 1.6 "// &
-         "spacing 1.05 font ',12' textcolor rgb '#30343B'")
+      if (has_legend) call add_legend(script, scene)
       line = 'splot '
       do kind = 1, line_kinds
          if (.not. has_kind(scene%lines, kind)) cycle
@@ -445,19 +446,42 @@ contains
          call script%line(line//'$part'//str(kind)//' using 1:2:3 with polygons '//fill(kind)//' notitle, \')
          line = '      '
       end do
-      if (has_legend) then
-         do kind = 2, parts
-            if (.not. has_kind(scene%faces, kind) .or. len_trim(part_names(kind)) == 0) cycle
-            call script%line("      keyentry with lines linewidth 9 linecolor rgb '"//key_colour(kind)//"' title '"// &
-               trim(part_names(kind))//"', \")
-         end do
-         if (allocated(scene%bump)) call script%line("      keyentry with lines linecolor rgb '"//line_colours(line_bump)// &
-            "' linewidth 2 title "//gnuplot_text(scene%bump)//', \')
-         if (allocated(scene%rebound)) call script%line("      keyentry with lines linecolor rgb '"// &
-            line_colours(line_rebound)//"' linewidth 2 title "//gnuplot_text(scene%rebound)//', \')
-      end if
       call script%line("      1/0 notitle")
    end subroutine add_splot
+
+   !> Swatches and names below the picture. (gnuplot's own legend loses entries in splot when it has several columns.)
+   pure subroutine add_legend(script, scene)
+      type(buffer_t), intent(inout) :: script
+      type(scene_t), intent(in) :: scene
+      integer, parameter :: in_a_row = 6
+      integer :: kind, used
+
+      used = 0
+      do kind = 1, parts
+         if (has_kind(scene%faces, kind) .and. len_trim(part_names(kind)) > 0) &
+            call add_entry(script, used, trim(part_names(kind)), key_colour(kind), 0.012_wp, in_a_row)
+      end do
+      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp, in_a_row)
+      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp, in_a_row)
+   end subroutine add_legend
+
+   !> One swatch and its name.
+   pure subroutine add_entry(script, used, name, colour, height, in_a_row)
+      type(buffer_t), intent(inout) :: script
+      integer, intent(inout) :: used
+      character(*), intent(in) :: name, colour
+      real(wp), intent(in) :: height              !! of the swatch, share of the picture
+      integer, intent(in) :: in_a_row
+      character(:), allocatable :: x, y
+
+      x = str(0.045_wp + 0.158_wp*modulo(used, in_a_row), 4)
+      y = str(0.075_wp - 0.04_wp*(used/in_a_row), 4)
+      used = used + 1
+      call script%line('set object '//str(used)//' rectangle center screen '//x//', screen '//y//' size screen 0.024, screen '// &
+         str(height)//" fillcolor rgb '"//colour//"' fillstyle solid noborder")
+      call script%line('set label '//str(used)//' '//gnuplot_text(name)//' at screen '//x//', screen '//y// &
+         " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
+   end subroutine add_entry
 
    !> The colour of a part on white.
    pure function key_colour(kind) result(colour)
