@@ -14,7 +14,8 @@ module ek_newton
 
    integer, parameter :: most_iterations = 15   !! Newton is quadratic: more would not help
    integer, parameter :: most_chords = 4        !! steps with old factors: three cost less than one factorisation
-   real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance, that a state found by them may be off
+   real(wp), parameter :: rest = 1.0e-3_wp      !! of the tolerance: a step with old factors as short as that is the last
+   real(wp), parameter :: great_chord = 1.0e-5_wp   !! of the step before: likewise
    real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with less gain new factors are cheaper
 
    !> How an iteration ended.
@@ -40,6 +41,7 @@ contains
       type(outcome_t), intent(out) :: outcome
       real(wp) :: largest, previous, before
       integer :: iteration, chord
+      logical :: is_done
 
       ! a correction longer than a quarter of the mechanism is no correction: halve the increment
       largest = 0.25_wp*kkt%length + 0.05_wp
@@ -58,6 +60,7 @@ contains
          if (outcome%last <= tolerance) exit
          if (0.5_wp*outcome%last > previous) return   ! not 2*previous: huge at first
          previous = outcome%last
+         is_done = .false.
          do chord = 1, most_chords
             if (.not. outcome%last < 0.01_wp*kkt%length) exit
             before = outcome%last
@@ -65,10 +68,10 @@ contains
             call take_step(state, kkt, outcome%last)
             if (.not. outcome%last <= largest) return
             if (outcome%last > good_chord*before) exit
-            ! what is left after this step is about last × last/before
-            if (outcome%last*outcome%last <= rest*tolerance*before) exit
+            is_done = outcome%last <= rest*tolerance .or. outcome%last <= great_chord*min(before, 1.0e4_wp*tolerance)
+            if (is_done) exit
          end do
-         if (outcome%last <= tolerance) exit
+         if (is_done) exit
       end do
       outcome%is_converged = outcome%last <= tolerance
    end subroutine find_equilibrium

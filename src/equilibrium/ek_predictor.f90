@@ -1,12 +1,14 @@
 !> Guesses the next state from earlier ones: the polynomial through the last few, in Lagrange's form.
 !>
 !> Positions, quaternions and reactions are all smooth along a path, so each packed number is
-!> extrapolated by itself; the quaternions are brought back to unit length afterwards.
+!> extrapolated by itself; the quaternions are brought back to unit length afterwards. Smooth but for the places where a
+!> stop is met or a curve has a corner: behind those a polynomial through many states swings out widely. So after a guess
+!> that was not good, the number of states that would have guessed best is taken for the next one.
 module ek_predictor
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: predictor_t, new_predictor, remember, predict, forget
+   public :: predictor_t, new_predictor, remember, predict, judge, forget
 
    integer, parameter, public :: depth = 6   !! states kept; more would amplify rounding (Σ|w| = 2^depth − 1)
 
@@ -16,6 +18,7 @@ module ek_predictor
       real(wp), allocatable :: guess(:)       !! work space: one packed state
       real(wp) :: abscissa(depth) = 0.0_wp
       integer :: newest = 0, count = 0
+      integer :: trusted = depth              !! how many states to guess from
    end type predictor_t
 
 contains
@@ -32,6 +35,7 @@ contains
       type(predictor_t), intent(inout) :: self
       self%newest = 0
       self%count = 0
+      self%trusted = depth
    end subroutine forget
 
    !> Add a state at a place of the path.
@@ -53,9 +57,59 @@ contains
       real(wp), intent(in) :: abscissa
       integer, intent(in) :: most
       real(wp) :: weight(depth)
-      integer :: slot(depth), n, j, k
+      integer :: slot(depth), n, j
 
       n = min(self%count, most)
+      call find_weights(self, abscissa, n, slot, weight)
+      self%guess = 0.0_wp
+      do j = 1, n
+         self%guess = self%guess + weight(j)*self%packed(:, slot(j))
+      end do
+   end subroutine predict
+
+   !> Learns from a state that was found, before it is remembered: after a good guess one state more is trusted, after a
+   !> bad one as many as would have been best. `used`: how many numbers of a packed state are compared, the poses.
+   pure subroutine judge(self, abscissa, packed, used, is_good)
+      type(predictor_t), intent(inout) :: self
+      real(wp), intent(in) :: abscissa
+      real(wp), contiguous, intent(in) :: packed(:)
+      integer, intent(in) :: used
+      logical, intent(in) :: is_good
+      real(wp) :: weight(depth), error, least, expected
+      integer :: slot(depth), n, j, k
+
+      if (is_good) then
+         self%trusted = min(self%trusted + 1, depth)
+         return
+      end if
+      least = huge(least)
+      do n = 1, self%count
+         call find_weights(self, abscissa, n, slot, weight)
+         error = 0.0_wp
+         do k = 1, used
+            expected = 0.0_wp
+            do j = 1, n
+               expected = expected + weight(j)*self%packed(k, slot(j))
+            end do
+            error = max(error, abs(expected - packed(k)))
+         end do
+         if (error >= least) cycle
+         least = error
+         self%trusted = n
+      end do
+      ! the state itself will be one more; all that are there were best: nothing is wrong with the polynomial
+      if (self%trusted == self%count) self%trusted = depth
+   end subroutine judge
+
+   !> Lagrange's weights at a place, of the newest n states, and where these are kept.
+   pure subroutine find_weights(self, abscissa, n, slot, weight)
+      type(predictor_t), intent(in) :: self
+      real(wp), intent(in) :: abscissa
+      integer, intent(in) :: n
+      integer, intent(out) :: slot(depth)
+      real(wp), intent(out) :: weight(depth)
+      integer :: j, k
+
       do j = 1, n
          slot(j) = modulo(self%newest - j, depth) + 1
       end do
@@ -66,10 +120,6 @@ contains
             weight(j) = weight(j)*(abscissa - self%abscissa(slot(k)))/(self%abscissa(slot(j)) - self%abscissa(slot(k)))
          end do
       end do
-      self%guess = 0.0_wp
-      do j = 1, n
-         self%guess = self%guess + weight(j)*self%packed(:, slot(j))
-      end do
-   end subroutine predict
+   end subroutine find_weights
 
 end module ek_predictor

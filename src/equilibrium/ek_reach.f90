@@ -7,7 +7,7 @@ module ek_reach
    use ek_schedule, only: schedule_t, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_predictor, only: predictor_t, new_predictor, remember, predict, depth
+   use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge
    implicit none(type, external)
    private
    public :: failure_t, reach, settle
@@ -61,7 +61,7 @@ contains
       call assemble(suspension, state, demand_t(), residual_only, kkt)
       kkt%imbalance = kkt%rhs(:kkt%nq)
       predictor = new_predictor(coordinates(suspension))
-      call store(predictor, 0.0_wp, state)
+      call store(predictor, 0.0_wp, state, .true.)
       call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, state, kkt, iterations, failure)
    end subroutine settle
 
@@ -85,7 +85,7 @@ contains
       here = predictor%abscissa(predictor%newest)
       iterations = 0
       halvings = 0
-      points = depth
+      points = predictor%trusted
       do
          place = here + (goal - here)*0.5_wp**halvings
          if (halvings == 0) place = goal
@@ -99,12 +99,12 @@ contains
          call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
          iterations = iterations + outcome%factorisations
          if (outcome%is_converged) then
-            call store(predictor, place, state)
+            call store(predictor, place, state, outcome%factorisations == 1)
             here = place
             if (halvings == 0) return
             halvings = halvings - 1
          else
-            points = 2     ! a bold guess may itself be the trouble
+            points = min(points, 2)     ! a bold guess may itself be the trouble
             halvings = halvings + 1
             if (halvings > most_halvings) exit
          end if
@@ -112,13 +112,15 @@ contains
       call blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
    end subroutine follow
 
-   !> Hands an equilibrium to the predictor.
-   pure subroutine store(predictor, place, state)
+   !> Hands an equilibrium to the predictor, and whether the guess of it was good.
+   pure subroutine store(predictor, place, state, is_good)
       type(predictor_t), intent(inout) :: predictor
       real(wp), intent(in) :: place
       type(state_t), intent(in) :: state
+      logical, intent(in) :: is_good
 
       call pack_state(state, predictor%guess)
+      call judge(predictor, place, predictor%guess, 7*(size(state%poses) - 1), is_good)
       call remember(predictor, place, predictor%guess)
    end subroutine store
 
