@@ -317,15 +317,25 @@ contains
    !> A zero pivot is told by is_singular; the caller asks the diagnosis for its name.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
-      integer :: k, info
+      integer :: info
 
-      do k = 1, kkt%n
-         kkt%matrix(k:, k) = kkt%matrix(k:, k)*(kkt%scale(k)*kkt%scale(k:))
-      end do
+      call scale_lower(kkt%n, kkt%scale, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio)
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
+
+   !> D S D of the lower triangle.
+   pure subroutine scale_lower(n, scale, matrix)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: scale(n)
+      real(wp), intent(inout) :: matrix(n, n)
+      integer :: j
+
+      do j = 1, n
+         matrix(j:n, j) = matrix(j:n, j)*(scale(j)*scale(j:n))
+      end do
+   end subroutine scale_lower
 
    !> Negative eigenvalues, and least over largest |eigenvalue| of the block-diagonal factor.
    !>

@@ -14,8 +14,7 @@ module ek_newton
 
    integer, parameter :: most_iterations = 15   !! Newton is quadratic: more would not help
    integer, parameter :: most_chords = 4        !! steps with old factors: three cost less than one factorisation
-   real(wp), parameter :: rest = 1.0e-3_wp      !! of the tolerance: a step with old factors as short as that is the last
-   real(wp), parameter :: great_chord = 1.0e-5_wp   !! of the step before: likewise
+   real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance: what a state found with old factors may be off
    real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with less gain new factors are cheaper
 
    !> How an iteration ended.
@@ -68,7 +67,8 @@ contains
             call take_step(state, kkt, outcome%last)
             if (.not. outcome%last <= largest) return
             if (outcome%last > good_chord*before) exit
-            is_done = outcome%last <= rest*tolerance .or. outcome%last <= great_chord*min(before, 1.0e4_wp*tolerance)
+            ! the next step would be shorter in the same proportion
+            is_done = outcome%last**2 <= rest*tolerance*before
             if (is_done) exit
          end do
          if (is_done) exit
