@@ -1,8 +1,10 @@
 !> elastokin check: what a deck holds, and whether its model can be solved.
 module ek_check
    use, intrinsic :: iso_fortran_env, only: output_unit
+   use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model
    use ek_text, only: str, quoted, plural
+   use ek_spring, only: axial_spring, stop_spring, torsion_spring
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
    use ek_case, only: case_t
@@ -85,7 +87,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(diagnosis_t), intent(in) :: diagnosis
       character(*), intent(in) :: checksum
-      character(:), allocatable :: unused
+      character(:), allocatable :: held, unused
       integer :: k
 
       call tell('model', suspension%name//' (checksum '//checksum//')')
@@ -93,9 +95,15 @@ contains
       call tell('unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
       call tell('constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
          ', rank '//str(diagnosis%rank))
-      call tell('degrees of freedom', str(diagnosis%freedoms)//', held by '// &
-         plural(size(suspension%bushings), 'bushing', 'bushings')//' and '// &
-         plural(size(suspension%springs), 'spring', 'springs'))
+      held = plural(size(suspension%bushings), 'bushing', 'bushings')//' and '// &
+         plural(count(suspension%springs%kind == axial_spring), 'spring', 'springs')
+      k = count(suspension%springs%kind == torsion_spring)
+      if (k > 0) held = held//', '//plural(k, 'torsion spring', 'torsion springs')
+      k = count(suspension%springs%kind == stop_spring)
+      if (k > 0) held = held//', '//plural(k, 'stop', 'stops')
+      k = count(suspension%rows%compliance > 0.0_wp)
+      if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
+      call tell('degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
       unused = ''
       do k = 1, size(suspension%points)
          if (suspension%points(k)%is_used) cycle

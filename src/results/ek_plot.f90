@@ -150,7 +150,7 @@ contains
       call append(figures, figure)
    end subroutine add_quantities
 
-   !> Force of every spring: columns <name>_force_n.
+   !> Force of every spring, damper and stop: columns <name>_force_n beside <name>_length_mm or <name>_gap_mm.
    pure subroutine add_springs(figures, table, view)
       type(figure_t), allocatable, intent(inout) :: figures(:)
       type(table_t), intent(in) :: table
@@ -166,6 +166,8 @@ contains
          place = len_trim(table%columns(k)) - len(tail)
          if (place < 1 .or. size(panel%curves) >= most_curves) cycle
          if (table%columns(k) (place + 1:) /= tail) cycle
+         if (column_index(table, table%columns(k) (:place)//'_length_mm') == 0 .and. &     ! the force of a wheel has neither
+            column_index(table, table%columns(k) (:place)//'_gap_mm') == 0) cycle
          if (.not. any(ieee_is_finite(table%values(k, :)))) cycle
          call add_curve(panel, new_curve(view%file, abscissa_of(view, table%columns(k)), &
             trim(table%columns(k)), table%columns(k) (:place)))
