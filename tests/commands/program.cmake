@@ -1,5 +1,7 @@
-# test_program runs the built program, which it finds by this variable, under either test runner.
-if(TEST test_program)
-  set_property(TEST test_program APPEND PROPERTY ENVIRONMENT "EK_PROGRAM=$<TARGET_FILE:elastokin>")
-  add_dependencies(test_program elastokin)
-endif()
+# These tests run the built program, which they find by this variable, under either test runner.
+foreach(name test_program test_report)
+  if(TEST ${name})
+    set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "EK_PROGRAM=$<TARGET_FILE:elastokin>")
+    add_dependencies(${name} elastokin)
+  endif()
+endforeach()
