@@ -90,11 +90,7 @@ contains
             call warnings%add(planned(k)%title//': '//trouble%message)
          end if
          allocate (sets(k)%charts(0))
-         if (.not. allocated(tests(k)%table%columns)) then
-            tests(k)%label = 'nothing: it was not run'
-            allocate (tests(k)%prefixes(0), tests(k)%sides(0))
-            cycle
-         end if
+         if (.not. tests(k)%is_run) cycle
          films(k)%is_there = .true.
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
          if (allocated(error)) return
@@ -371,6 +367,8 @@ contains
          settings = settings//arguments%settings(k)%text//' '
       end do
       if (len(settings) > 0) call fact('Changed by --set', trim(settings))
+      if (size(suspension%wheels) > 0) call fact('Road at design', 'z = '//str(( &
+         suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call fact('Deck checksum', checksum)
       call fact('Program', 'elastokin '//version)
       call fact('Date', date)

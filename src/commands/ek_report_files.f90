@@ -52,7 +52,7 @@ contains
 
       table = new_text_table([character(8) :: 'test', 'kind', 'title', 'file'])
       do k = 1, size(tests)
-         if (.not. allocated(tests(k)%table%columns)) cycle
+         if (.not. tests(k)%is_run) cycle
          call add_row(table)
          table%cells(1, table%rows)%text = tests(k)%name
          table%cells(2, table%rows)%text = tests(k)%kind

@@ -141,7 +141,7 @@ contains
 
       call begin_section(page, 'test-'//test%name, test%title)
       call add_warnings(page, 'This test has states that failed or are doubtful', test%remarks)
-      if (allocated(test%table%columns)) then
+      if (test%is_run) then
          found = count(converged_rows(test%table))
          call add_paragraph(page, plural(found, 'state', 'states')//' in equilibrium, over: '//test%label// &
             '. All columns: '//test%file//'.')

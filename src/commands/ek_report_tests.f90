@@ -13,6 +13,7 @@ module ek_report_tests
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t, sweep
    use ek_sweep_table, only: sweep_table, factor_unit
+   use ek_table, only: new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line
@@ -154,18 +155,26 @@ contains
       test%factor_size = planned%factor_size
       test%is_anti = planned%is_anti
       test%is_iso = base%is_iso
+      test%is_run = .false.
+      test%table = new_table([character(1) ::], 0)
+      allocate (test%prefixes(0), test%sides(0))
       suspension = base
       case = planned%case
       call mount(suspension, case, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         call test%remarks%add(error%message)
+         return
+      end if
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) then
          call fail(error, exit_model, 'case '//quoted(planned%name)//': the model cannot be solved'//new_line('a')// &
             diagnosis%words())
+         call test%remarks%add(error%message)
          return
       end if
       call sweep(suspension, case, path, kkt)
+      test%is_run = .true.
       words = ''
       do side = 1, 2
          if (path%failure(side)%state == 0) cycle

@@ -7,7 +7,8 @@ module ek_picture
    use ek_units, only: pi
    use ek_block, only: rotated
    use ek_turn, only: pose_t
-   use ek_measure, only: measure_t
+   use ek_measure, only: measure_t, rotation
+   use ek_spring, only: axial_spring, stop_spring
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_face, add_line, add_words, add_tube, add_surface, add_coil, add_ball, &
@@ -69,8 +70,7 @@ contains
       end do
       call add_joints(scene, suspension, state, plain)
       do k = 1, size(suspension%springs)
-         call ends_of(suspension%springs(k)%measure, state, a, b)
-         call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
+         call add_elastic(scene, suspension, state, k, plain)
       end do
       do k = 1, size(suspension%bushings)
          associate (bushing => suspension%bushings(k))
@@ -83,6 +83,33 @@ contains
          call add_wheel(scene, suspension, state, k, plain)
       end do
    end subroutine add_solid
+
+   !> A coil, a damper as two tubes, or the rubber of a stop; a torsion spring sits in the bars that it joins.
+   subroutine add_elastic(scene, suspension, state, k, plain)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      logical, intent(in) :: plain
+      real(wp), parameter :: rubber = 0.045_wp        ! m
+      real(wp) :: a(3), b(3), length
+
+      associate (spring => suspension%springs(k))
+         if (spring%measure%kind == rotation) return
+         call ends_of(spring%measure, state, a, b)
+         length = norm2(b - a)
+         if (length < same_point) return
+         if (spring%kind == axial_spring) then
+            call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
+         else if (spring%kind == stop_spring) then
+            if (plain) return
+            call add_tube(scene, part_bushing, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)
+         else
+            call add_tube(scene, part_damper, a, a + 0.58_wp*(b - a), 0.022_wp, merge(5, 10, plain))
+            call add_tube(scene, part_damper, a + 0.5_wp*(b - a), b, 0.009_wp, merge(4, 6, plain))
+         end if
+      end associate
+   end subroutine add_elastic
 
    !> Everything as thin lines.
    subroutine add_ghost(scene, suspension, state, kind)
@@ -194,6 +221,7 @@ contains
          call name_at(suspension%joints(k)%name)
       end do
       do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%measure%kind == rotation .or. suspension%springs(k)%kind == stop_spring) cycle
          call ends_of(suspension%springs(k)%measure, state, a, b)
          at = 0.3_wp*a + 0.7_wp*b
          call name_at(suspension%springs(k)%name, 5.0_wp)
@@ -246,6 +274,7 @@ contains
       end do
       do k = 1, size(suspension%springs)
          measure = suspension%springs(k)%measure
+         if (measure%kind == rotation) cycle           ! it has no points
          if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
          if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)
       end do

@@ -32,6 +32,7 @@ module ek_chart
       type(trace_t), allocatable :: traces(:)
       logical :: has_key = .false.           !! the curves are named in the chart
       real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
+      real(wp) :: cap = 0.0_wp               !! what lies beyond ± this is cut off; 0: nothing
    end type chart_t
 
 contains
@@ -143,6 +144,8 @@ contains
       else if (high >= low .and. high - low <= 0.0_wp) then
          call script%line('set yrange ['//str(low - max(abs(low)/10, 1.0e-6_wp), 6)//' : '// &
             str(low + max(abs(low)/10, 1.0e-6_wp), 6)//']')
+      else if (chart%cap > 0.0_wp) then
+         call script%line('set yrange ['//str(-chart%cap)//' < * : * < '//str(chart%cap)//']')
       else
          call script%line('set yrange [*:*]')
       end if

@@ -51,13 +51,30 @@ contains
             at = past(text, at, '-->')
          else
             last = past(text, at, '>') - 1
-            call add_tag(out, text(at:last), prefix)
+            if (begins(text, at, '<g ')) then            ! gnuplot writes many groups with nothing in them
+               if (begins(text, last + 2, '</g>') .and. text(last + 1:last + 1) == achar(10)) then
+                  at = last + 6
+                  cycle
+               end if
+            end if
+            if (.not. is_unused(text, text(at:last))) call add_tag(out, text(at:last), prefix)
             at = last + 1
          end if
       end do
       call out%add('</svg>')
       svg = out%text()
    end function embedded_svg
+
+   !> A point symbol that nothing refers to: gnuplot defines all sixteen in every picture.
+   pure logical function is_unused(text, tag)
+      character(*), intent(in) :: text, tag
+      character(:), allocatable :: id
+
+      is_unused = .false.
+      if (index(tag, 'gpPt') + index(tag, 'gpDot') == 0 .or. tag(max(1, len(tag) - 1):) /= '/>') return
+      id = attribute(tag, 'id')
+      if (len(id) > 0) is_unused = index(text, '#'//id//"'") == 0
+   end function is_unused
 
    !> Text between tags; what is only blank becomes one line end.
    pure subroutine add_words(out, words)
@@ -72,11 +89,17 @@ contains
    end subroutine add_words
 
    !> A tag with its ids and references to ids renamed, its mouse events dropped.
-   pure subroutine add_tag(out, tag, prefix)
+   pure recursive subroutine add_tag(out, tag, prefix)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: tag, prefix
+      character(*), parameter :: defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
       integer :: at, close
 
+      if (begins(tag, 1, '<g ') .and. index(tag, defaults) > 0) then
+         at = index(tag, defaults)
+         call add_tag(out, tag(:at - 1)//tag(at + len(defaults):), prefix)
+         return
+      end if
       if (index(tag, 'id=') + index(tag, 'href=') + index(tag, 'url(#') + index(tag, ' on') + index(tag, ':Bold') == 0) then
          call out%add(tag)                ! most of a picture: long paths
          return

@@ -19,6 +19,7 @@ module ek_test_charts
       real(wp) :: noise = 0.0_wp         !! unit of the column; a smaller span is drawn flat
    end type quantity_t
 
+   real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is as good as none, and passes infinity
    integer, parameter :: most_curves = 8       !! in one chart, then it becomes a thicket
 
    ! Every quantity with a name of its own, once
@@ -169,6 +170,7 @@ contains
 
       chart = new_chart(test%name//'_'//trim(quantity%column), trim(quantity%title), trim(quantity%label), test%label)
       chart%noise = quantity%noise
+      if (index(quantity%column, '_arm_length_mm') > 0) chart%cap = longest_arm
       place = column_index(test%table, quantity%column)
       if (place > 0) then
          call add_column(chart, test, 1, place, '', merge(1, 3, size(test%prefixes) < 2), 0)

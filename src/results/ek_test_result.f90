@@ -26,6 +26,7 @@ module ek_test_result
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
       character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
       integer, allocatable :: sides(:)       !! of the wheels: −1 left, +1 right
+      logical :: is_run = .true.             !! else the model could not be solved, and the table is empty
       type(table_t) :: table
       type(message_list_t) :: remarks        !! what failed or is doubtful, in words
    end type test_result_t
