@@ -20,11 +20,10 @@ module ek_reader_cases
 
    !> What one &case says, in the deck's words and units.
    type :: words_t
-      character(word_length) :: name = '', load(most_loads) = '', drive = '', wheel = '', method = 'equilibrium'
-      character(word_length) :: test = '', vertical = '', phase = 'in', quantities = 'basic'
-      character(note_length) :: file = '', target = ''
-      real(wp) :: from = 0.0_wp, to = 0.0_wp, offset = 0.0_wp, tolerance = 0.0_wp
-      integer :: increments = 0
+      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities
+      character(note_length) :: file, target
+      real(wp) :: from, to, offset, tolerance
+      integer :: increments
    end type words_t
 
 contains
@@ -43,9 +42,6 @@ contains
       do k = 1, deck%used
          if (draft%cards(k)%group /= case_group) cycle
          used = used + 1
-         words = words_t()
-         words%tolerance = cases(used)%tolerance/draft%units%length
-         words%increments = cases(used)%increments
          call read_words(deck, k, draft, words)
 
          factor = 1.0_wp
@@ -117,49 +113,37 @@ contains
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       type(draft_t), intent(inout) :: draft
-      type(words_t), intent(inout) :: words
+      type(words_t), intent(out) :: words
       character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities
       character(note_length) :: file, target
       real(wp) :: from, to, tolerance, offset
       integer :: increments, status
       namelist /case/ name, load, drive, wheel, from, to, increments, method, tolerance, test, vertical, phase, offset, &
          file, target, quantities
+      type(case_t) :: usual
 
-      name = words%name
-      load = words%load
-      drive = words%drive
-      wheel = words%wheel
-      method = words%method
-      test = words%test
-      vertical = words%vertical
-      phase = words%phase
-      quantities = words%quantities
+      name = ''
+      load = ''
+      drive = ''
+      wheel = ''
+      method = 'equilibrium'
+      test = ''
+      vertical = ''
+      phase = 'in'
+      quantities = 'basic'
       if (has_key(deck, k, 'test')) quantities = 'all'
-      file = words%file
-      target = words%target
-      from = words%from
-      to = words%to
-      tolerance = words%tolerance
-      offset = words%offset
-      increments = words%increments
+      file = ''
+      target = ''
+      from = 0.0_wp
+      to = 0.0_wp
+      tolerance = usual%tolerance/draft%units%length
+      offset = 0.0_wp
+      increments = usual%increments
       read (draft%cards(k)%text, nml=case, iostat=status)
       if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-      words%name = name
-      words%load = load
-      words%drive = drive
-      words%wheel = wheel
-      words%method = method
-      words%test = lower(test)
-      words%vertical = lower(vertical)
-      words%phase = phase
-      words%quantities = quantities
-      words%file = file
-      words%target = target
-      words%from = from
-      words%to = to
-      words%tolerance = tolerance
-      words%offset = offset
-      words%increments = increments
+      words = words_t(name=name, load=load, drive=drive, wheel=wheel, method=method, test=lower(test), vertical=lower(vertical), &
+         phase=phase, quantities=quantities, file=file, target=target, from=from, to=to, offset=offset, tolerance=tolerance, &
+         increments=increments)
    end subroutine read_words
 
    !> A case that names what it scales or drives.
