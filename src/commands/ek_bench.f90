@@ -87,6 +87,7 @@ contains
       end do
       case%method = 'equilibrium'
       call sweep(suspension, case, path, kkt)
+      write (output_unit, '(a,i0)') 'equilibrium: converged states a second ', nint(1.0_wp/best(3))
       write (output_unit, '(a,f5.3,a,i0)') 'equilibrium: factorisations a state ', &
          real(sum(path%iterations), wp)/path%states, ', at most ', maxval(path%iterations)
       case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default

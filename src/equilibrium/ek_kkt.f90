@@ -20,7 +20,8 @@ module ek_kkt
    use ek_rotation, only: cross, skew
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
-   use ek_lapack, only: dsytrf, dsytrs, dsycon
+   use ek_lapack, only: dsytrf, dsycon
+   use ek_substitution, only: substitute
    implicit none(type, external)
    private
    public :: kkt_t, new_kkt, assemble, factorise, solve, condition, wrench, load_factor
@@ -379,10 +380,9 @@ contains
    !> Solves with the last factors; kkt%rhs becomes [Δq; Δλ].
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
-      integer :: info
 
       kkt%rhs = kkt%rhs*kkt%scale
-      call dsytrs('L', kkt%n, 1, kkt%matrix, kkt%n, kkt%pivots, kkt%rhs, kkt%n, info)
+      call substitute(kkt%n, kkt%matrix, kkt%pivots, kkt%rhs)
       kkt%rhs = kkt%rhs*kkt%scale
    end subroutine solve
 
