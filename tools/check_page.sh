@@ -19,8 +19,9 @@ for page in "$@"; do
   bad=
   grep -q '</html>' "$work/dom.html" || bad+=" it did not open;"
   grep -q 'CONSOLE' "$work/log.txt" && bad+=" $(grep -o 'CONSOLE.*' "$work/log.txt" | head -3);"
-  # every request leaves its address in the log; the page itself and data: are not fetched from the network
-  requests=$(grep -oE '"url":"[^"]*"' "$work/net.json" | grep -E '"(https?|wss?|ftp)://' | sort -u)
+  # every request is in the log; those of the page (not the browser's own) stand under its file:// key
+  requests=$(grep -oE '"network_isolation_key":"file:.{0,400}"url":"[^"]*"' "$work/net.json" | grep -oE '"url":"[^"]*"' |
+    grep -E '"(https?|wss?|ftp)://' | sort -u)
   [ -n "$requests" ] && bad+=" it asks for $requests;"
   grep -qi '<script' "$work/dom.html" && bad+=" it holds a script;"
   twice=$(grep -oE " id=[\"'][^\"']*" "$work/dom.html" | sort | uniq -d | head -3)

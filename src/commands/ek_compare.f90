@@ -274,7 +274,8 @@ contains
 
       if (quantity%column == results(1)%tests(test)%abscissa) return
       allocate (own(size(results)))
-      do r = 1, size(results)
+      own(1) = quantity_chart(results(1)%tests(test), quantity)
+      do r = 2, size(results)
          u = test_number(results(r), results(1)%tests(test)%name)
          if (u > 0) own(r) = quantity_chart(results(r)%tests(u), quantity)
       end do

@@ -248,7 +248,7 @@ contains
       logical, intent(in) :: is_of_axle
       type(gradient_t) :: gradient
       real(wp), allocatable :: x(:), y(:)
-      logical, allocatable :: is_good(:)
+      logical :: is_good(row_count(test%table))
       character(8) :: unit
       real(wp) :: slope
       integer :: over, side

@@ -226,7 +226,7 @@ contains
       real(wp), allocatable :: force(:, :), peak(:)
       character(name_length), allocatable :: names(:)
       integer, allocatable :: places(:, :)
-      logical, allocatable :: is_good(:)
+      logical :: is_good(row_count(test%table))
       real(wp) :: least
       integer :: k, place, row, n, design
 
@@ -276,7 +276,7 @@ contains
       integer, intent(in) :: wheel, place, colour, dash
       character(*), intent(in) :: title
       type(trace_t) :: trace
-      logical, allocatable :: is_good(:)
+      logical :: is_good(row_count(test%table))
       integer :: design
 
       trace%title = title

@@ -5,7 +5,7 @@ module ek_test_result
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
-   use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
+   use ek_table, only: table_t, name_length, column_index, column_range
    implicit none(type, external)
    private
    public :: test_result_t, find_wheels, choose_abscissa, converged_rows, design_row, wheel_column, travel_column
@@ -147,27 +147,29 @@ contains
    !> Which rows hold a state that was found.
    pure function converged_rows(table) result(is_good)
       type(table_t), intent(in) :: table
-      logical, allocatable :: is_good(:)
-      real(wp), allocatable :: converged(:)
+      logical :: is_good(size(table%values, 2))
+      integer :: place
 
-      converged = column(table, 'converged')
-      if (size(converged) == row_count(table)) then
-         is_good = converged > 0.5_wp
-      else
-         allocate (is_good(row_count(table)), source=.true.)
-      end if
+      is_good = .true.
+      place = column_index(table, 'converged')
+      if (place == 0) return
+      is_good = ieee_is_finite(table%values(place, :))
+      where (is_good) is_good = table%values(place, :) > 0.5_wp
    end function converged_rows
 
    !> The row of the design state, where `factor` is 0; 0 when there is none that was found.
    pure integer function design_row(table) result(row)
       type(table_t), intent(in) :: table
-      real(wp), allocatable :: factor(:)
-      logical, allocatable :: is_good(:)
+      logical :: is_good(size(table%values, 2))
+      integer :: place
 
-      factor = column(table, 'factor')
-      is_good = converged_rows(table)
-      do row = size(factor), 1, -1
-         if (abs(factor(row)) <= 0.0_wp .and. is_good(row)) return
+      row = 0
+      place = column_index(table, 'factor')
+      if (place == 0) return
+      is_good = converged_rows(table) .and. ieee_is_finite(table%values(place, :))
+      do row = size(is_good), 1, -1
+         if (.not. is_good(row)) cycle
+         if (abs(table%values(place, row)) <= 0.0_wp) return
       end do
       row = 0
    end function design_row
