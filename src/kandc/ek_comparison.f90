@@ -67,12 +67,14 @@ contains
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
    end function difference
 
-   !> 100 (b − a)/|a|; not a number where a is zero.
+   !> 100 (b − a)/|a|; not a number where a is zero, but for rounding.
    elemental real(wp) function percent(a, b)
       real(wp), intent(in) :: a, b
+      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: what rounding leaves of a zero
 
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
+      if (abs(a) <= nothing) return
       if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
    end function percent
 

@@ -236,11 +236,27 @@ contains
          if (.not. v%has_axle .or. v%steer_row == 0) return
          left = steer_of(now(1)%toe, -1)
          right = steer_of(now(2)%toe, 1)
+         call put(self, 'turning_circle_m', turning_circle(left, right, v%wheelbase))
+         ! what the steering does, without the static toe
+         left = left - steer_of(design_toe(suspension, -1), -1)
+         right = right - steer_of(design_toe(suspension, 1), 1)
          call put(self, 'ackermann_percent', ackermann_percent(left, right, v%wheelbase, track))
          call put(self, 'ackermann_error_deg', ackermann_error(left, right, v%wheelbase, track)/degree)
-         call put(self, 'turning_circle_m', turning_circle(left, right, v%wheelbase))
       end associate
    end subroutine list_axle
+
+   !> Toe of the wheel of a side in the design position [rad].
+   pure real(wp) function design_toe(suspension, side) result(toe)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: side
+      integer :: k
+
+      toe = 0.0_wp
+      do k = 1, size(suspension%wheels)
+         if (suspension%wheels(k)%side == side) &
+            toe = atan2(-suspension%wheels(k)%spin(1), side*suspension%wheels(k)%spin(2))
+      end do
+   end function design_toe
 
    !> Steering wheel against road wheels, of a model with a rack and its ratio.
    subroutine list_steering(suspension, state, self)
