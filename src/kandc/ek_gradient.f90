@@ -73,7 +73,8 @@ module ek_gradient
       definition_t('wheelbase change', 'wheelbase_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
       '+ patch moves rearward'//in_bump), &
       definition_t('wheel rate', 'vertical_force_n', 'wheel_travel_mm', 1.0_wp, 'N/mm', '+ load grows'//in_bump), &
-      definition_t('roll-centre height change', 'roll_centre_z_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', '+ rises'//in_bump)]
+      definition_t('roll-centre height change', 'roll_centre_height_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
+      '+ rises over the ground'//in_bump)]
 
    type(definition_t), parameter :: roll_list(*) = [ &
       definition_t('roll steer', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &

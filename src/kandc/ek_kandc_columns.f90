@@ -233,6 +233,7 @@ contains
          call put(self, 'axle_roll_deg', roll/degree)
          call put_known(self, 'roll_centre_y_mm', frame*is%roll_centre(1)/millimetre)
          call put_known(self, 'roll_centre_z_mm', is%roll_centre(2)/millimetre)
+         call put_known(self, 'roll_centre_height_mm', (is%roll_centre(2) - 0.5_wp*(patch(3, 1) + patch(3, 2)))/millimetre)
          if (.not. v%has_axle .or. v%steer_row == 0) return
          left = steer_of(now(1)%toe, -1)
          right = steer_of(now(2)%toe, 1)

@@ -50,7 +50,7 @@ module ek_key_numbers
       source_t(attitude, 'caster trail, instant axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &
       '+ ahead of the patch'), &
       source_t(attitude, 'wheel load', 'vertical_force_n', 'design', '', '', 'N', 'ground on wheel'), &
-      source_t(attitude, 'roll centre, height', 'roll_centre_z_mm', 'design', '', '', 'mm', 'z of the deck'), &
+      source_t(attitude, 'roll centre height', 'roll_centre_height_mm', 'design', '', '', 'mm', '+ above the ground'), &
       source_t(attitude, 'roll centre, lateral', 'roll_centre_y_mm', 'design', '', '', 'mm', 'y of the deck')]
 
    type(source_t), parameter :: rates_list(*) = [ &

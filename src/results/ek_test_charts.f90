@@ -44,7 +44,8 @@ module ek_test_charts
       quantity_t('vertical_force_n', 'Wheel load', 'N    (ground on wheel, + up)', 1.0_wp), &
       quantity_t('wheel_rate_n_per_mm', 'Wheel rate', 'N/mm    (both wheels in phase)', 0.1_wp), &
       quantity_t('ride_rate_n_per_mm', 'Ride rate', 'N/mm    (with the tyre)', 0.1_wp), &
-      quantity_t('roll_centre_z_mm', 'Roll centre, height', 'mm    (z of the deck)', 0.1_wp), &
+      quantity_t('roll_centre_height_mm', 'Roll centre, height', 'mm    (+ above the ground)', 0.1_wp), &
+      quantity_t('roll_centre_z_mm', 'Roll centre, vertical', 'mm    (z of the deck)', 0.1_wp), &
       quantity_t('roll_centre_y_mm', 'Roll centre, lateral', 'mm    (y of the deck)', 0.1_wp), &
       quantity_t('suspension_roll_rate_nm_per_deg', 'Suspension roll rate', 'N m/deg', 1.0_wp), &
       quantity_t('total_roll_rate_nm_per_deg', 'Total roll rate', 'N m/deg    (with the tyres)', 1.0_wp), &
@@ -79,7 +80,7 @@ contains
       case ('roll')
          columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
             'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
-            'total_roll_rate_nm_per_deg', 'roll_centre_z_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
+            'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
       case ('steering')
          columns = [character(36) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
             'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
@@ -95,10 +96,10 @@ contains
             'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
       case ('vertical_force')
          columns = [character(36) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
-            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_z_mm', 'scrub_radius_mm', 'caster_trail_mm']
+            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
       case default
          columns = [character(36) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
-            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_z_mm', &
+            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
             'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
             'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
             'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
