@@ -9,6 +9,7 @@ module ek_rig_table
    use ek_case, only: case_t
    use ek_rig, only: mount
    use ek_kkt, only: kkt_t, new_kkt
+   use ek_balance, only: balance
    use ek_path, only: path_t, sweep
    use ek_table, only: table_t, new_table, column, row_count
    use ek_sweep_table, only: sweep_table
@@ -55,7 +56,8 @@ contains
          trouble = 'no case '//case_name//' in '//file
          return
       end if
-      call mount(suspension, cases(k), error)
+      call balance(suspension, cases(k)%tolerance, error)
+      if (.not. allocated(error)) call mount(suspension, cases(k), error)
       if (allocated(error)) then
          trouble = error%message
          return

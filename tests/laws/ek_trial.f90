@@ -16,6 +16,7 @@ module ek_trial
    use ek_state, only: state_t, demand_t
    use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t, new_kkt
+   use ek_balance, only: balance
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_reading, only: state_of
@@ -54,8 +55,9 @@ contains
       if (.not. allocated(error)) call build_model(deck, trial%suspension, cases, error)
       if (.not. allocated(error)) then
          trial%case = cases(size(cases))
-         call mount(trial%suspension, trial%case, error)
+         call balance(trial%suspension, trial%case%tolerance, error)
       end if
+      if (.not. allocated(error)) call mount(trial%suspension, trial%case, error)
       if (allocated(error)) then
          trial%trouble = error%message
          trial%code = error%code
