@@ -39,73 +39,73 @@ module ek_rig
 contains
 
    !> Puts a completed suspension on the rig for a case. Cases without a test drive what they name.
-   subroutine mount(suspension, case, error)
+   subroutine mount(suspension, this, error)
       type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(inout) :: case
+      type(case_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error      !! exit_deck: the test does not fit the model; exit_file
       integer :: wheels(2), row
       real(wp) :: track
 
-      if (.not. allocated(case%test)) case%test = ''
-      if (len(case%test) == 0) then
-         if (case%drive == 'wheel_travel') call add_travel_driver(suspension, case%wheel)
+      if (.not. allocated(this%test)) this%test = ''
+      if (len(this%test) == 0) then
+         if (this%drive == 'wheel_travel') call add_travel_driver(suspension, this%wheel)
          call name_place()
          return
       end if
       call left_and_right(suspension, wheels)
-      if (allocated(case%courses)) deallocate (case%courses)
-      allocate (case%courses(0))
-      case%unit = 1.0_wp
-      case%unit_name = 'N'
+      if (allocated(this%courses)) deallocate (this%courses)
+      allocate (this%courses(0))
+      this%unit = 1.0_wp
+      this%unit_name = 'N'
 
-      select case (case%test)
+      select case (this%test)
       case ('parallel_travel')
          call drive_heights([1.0_wp, 1.0_wp], 'wheel travel')
       case ('opposite_travel')
          call drive_heights([1.0_wp, -1.0_wp], 'travel of the left wheel, right opposite')
       case ('single_travel')
-         row = merge(1, 2, case%wheel == wheels(1))
+         row = merge(1, 2, this%wheel == wheels(1))
          call drive_heights(merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], row == 1), 'travel of the '// &
             trim(merge('left ', 'right', row == 1))//' wheel')
       case ('roll')
          track = abs(suspension%bodies(suspension%wheels(wheels(2))%body)%origin(2) + suspension%wheels(wheels(2))%contact(2) &
             - suspension%bodies(suspension%wheels(wheels(1))%body)%origin(2) - suspension%wheels(wheels(1))%contact(2))
-         call add_height_driver(suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
-         call append_course(case%courses, '', 'rig_roll', track, follows_tangent)
-         case%unit = degree
-         case%unit_name = 'deg'
-         case%place_name = 'axle roll, left wheel up'
+         call add_height_driver(suspension, 'rig_roll', this%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
+         call append_course(this%courses, '', 'rig_roll', track, follows_tangent)
+         this%unit = degree
+         this%unit_name = 'deg'
+         this%place_name = 'axle roll, left wheel up'
       case ('steering')
          call hold_heights('centre')
-         call append_course(case%courses, '', case%drive, 1.0_wp, follows_place)
-         row = driver_row(suspension, case%drive)
-         case%place_name = 'travel of '//case%drive
+         call append_course(this%courses, '', this%drive, 1.0_wp, follows_place)
+         row = driver_row(suspension, this%drive)
+         this%place_name = 'travel of '//this%drive
          call take_unit_of(row)
       case ('lateral_force')
          call hold_heights('force')
-         call load_wheels([0.0_wp, 1.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, case%offset], .true.)
-         case%place_name = 'lateral force at each patch'
+         call load_wheels([0.0_wp, 1.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, this%offset], .true.)
+         this%place_name = 'lateral force at each patch'
       case ('braking')
          call hold_heights('force')
          call load_wheels([1.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .true.)
-         case%place_name = 'braking force at each patch'
+         this%place_name = 'braking force at each patch'
       case ('traction')
          call hold_heights('force')
          call load_wheels([-1.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], suspension%axle%drives_at_patch)
-         case%place_name = 'traction force at each '//trim(merge('patch       ', 'wheel centre', suspension%axle%drives_at_patch))
+         this%place_name = 'traction force at each '//trim(merge('patch       ', 'wheel centre', suspension%axle%drives_at_patch))
       case ('aligning_torque')
          call hold_heights('force')
          call load_wheels([0.0_wp, 0.0_wp, 0.0_wp], [0.0_wp, 0.0_wp, 1.0_wp], .true.)
-         case%place_name = 'aligning torque on each wheel'
-         case%unit_name = 'N m'
+         this%place_name = 'aligning torque on each wheel'
+         this%unit_name = 'N m'
       case ('vertical_force')
          call load_wheels([0.0_wp, 0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .true.)
-         case%place_name = 'change of vertical force at each patch'
+         this%place_name = 'change of vertical force at each patch'
       case ('table')
          call hold_heights('force')
-         case%place_name = 'row of '//case%file
-         case%unit_name = '-'
-         call mount_table(suspension, case, wheels, error)
+         this%place_name = 'row of '//this%file
+         this%unit_name = '-'
+         call mount_table(suspension, this, wheels, error)
       end select
 
    contains
@@ -115,8 +115,8 @@ contains
          character(*), intent(in) :: default
          character(:), allocatable :: word
          word = default
-         if (allocated(case%vertical)) then
-            if (len(case%vertical) > 0) word = case%vertical
+         if (allocated(this%vertical)) then
+            if (len(this%vertical) > 0) word = this%vertical
          end if
       end function control
 
@@ -126,20 +126,20 @@ contains
          character(*), intent(in) :: place_name
          integer :: side
 
-         case%place_name = place_name
+         this%place_name = place_name
          if (control('centre') == 'force') then
-            case%place_name = 'change of vertical force, in place of '//place_name
+            this%place_name = 'change of vertical force, in place of '//place_name
             do side = 1, 2
                if (wheels(side) == 0) cycle
                call add_wheel_load(side, [0.0_wp, 0.0_wp, 1.0_wp], [0.0_wp, 0.0_wp, 0.0_wp], .true., shares(side))
             end do
             return
          end if
-         case%unit = millimetre
-         case%unit_name = 'mm'
+         this%unit = millimetre
+         this%unit_name = 'mm'
          call hold_heights('centre')
          do side = 1, 2
-            if (wheels(side) > 0) call append_course(case%courses, '', height_name(side), shares(side), follows_place)
+            if (wheels(side) > 0) call append_course(this%courses, '', height_name(side), shares(side), follows_place)
          end do
       end subroutine drive_heights
 
@@ -150,7 +150,7 @@ contains
 
          if (control(default) == 'force') return
          do side = 1, 2
-            if (wheels(side) > 0) call add_height_driver(suspension, height_name(side), case%where, wheels(side:side), &
+            if (wheels(side) > 0) call add_height_driver(suspension, height_name(side), this%where, wheels(side:side), &
                [1.0_wp], control(default) == 'patch')
          end do
       end subroutine hold_heights
@@ -163,7 +163,7 @@ contains
 
          do side = 1, 2
             if (wheels(side) > 0) call add_wheel_load(side, force, moment, is_at_patch, &
-               merge(-1.0_wp, 1.0_wp, case%is_anti .and. side == 2))
+               merge(-1.0_wp, 1.0_wp, this%is_anti .and. side == 2))
          end do
       end subroutine load_wheels
 
@@ -175,7 +175,7 @@ contains
 
          associate (wheel => suspension%wheels(wheels(side)))
             load%name = 'rig_'//trim(side_name(side))
-            load%where = case%where
+            load%where = this%where
             load%body = wheel%body
             load%arm = wheel%centre
             if (is_at_patch) load%arm = wheel%contact
@@ -184,20 +184,20 @@ contains
          load%moment = moment
          load%is_case = .true.
          call add_load(suspension, load)
-         call append_course(case%courses, load%name, '', share, follows_place)
+         call append_course(this%courses, load%name, '', share, follows_place)
       end subroutine add_wheel_load
 
       !> Unit and name of the place of a case without a test.
       subroutine name_place()
-         case%unit = 1.0_wp
-         case%unit_name = '-'
-         if (allocated(case%courses)) then
-            case%place_name = 'factor of the loads'
-         else if (len(case%load) > 0) then
-            case%place_name = 'factor of load '//case%load
+         this%unit = 1.0_wp
+         this%unit_name = '-'
+         if (allocated(this%courses)) then
+            this%place_name = 'factor of the loads'
+         else if (len(this%load) > 0) then
+            this%place_name = 'factor of load '//this%load
          else
-            case%place_name = 'change of '//case%drive
-            call take_unit_of(driver_row(suspension, case%drive))
+            this%place_name = 'change of '//this%drive
+            call take_unit_of(driver_row(suspension, this%drive))
          end if
       end subroutine name_place
 
@@ -205,16 +205,16 @@ contains
       subroutine take_unit_of(row)
          integer, intent(in) :: row
 
-         case%unit = millimetre
-         case%unit_name = 'mm'
+         this%unit = millimetre
+         this%unit_name = 'mm'
          if (row == 0) return
          select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
          case (rotation)
-            case%unit = degree
-            case%unit_name = 'deg'
+            this%unit = degree
+            this%unit_name = 'deg'
          case (axis_axis)
-            case%unit = 1.0_wp
-            case%unit_name = '-'
+            this%unit = 1.0_wp
+            this%unit_name = '-'
          end select
       end subroutine take_unit_of
 

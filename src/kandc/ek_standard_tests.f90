@@ -72,7 +72,7 @@ contains
          this%where = 'the standard tests'
          this%load = ''
          this%drive = ''
-          if (test == 'steering') this%drive = suspension%steering%driver
+         if (test == 'steering') this%drive = suspension%steering%driver
          this%from = -reach
          this%to = reach
          this%increments = increments

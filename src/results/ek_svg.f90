@@ -93,7 +93,7 @@ contains
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: tag, prefix
       character(*), parameter :: defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
-      integer :: at, close
+      integer :: at, last
 
       if (begins(tag, 1, '<g ') .and. index(tag, defaults) > 0) then
          at = index(tag, defaults)
@@ -107,12 +107,12 @@ contains
       at = 1
       do while (at <= len(tag))
          if (begins(tag, at, ' on') .and. at < len(tag) - 6) then      ! onclick="…", onmousemove='…'
-            close = index(tag(at:), '=')
-            if (close > 0) then
-               close = at + close
-               close = close + index(tag(close + 1:), tag(close:close))
-               if (close > at) then
-                  at = close + 1
+            last = index(tag(at:), '=')
+            if (last > 0) then
+               last = at + last
+               last = last + index(tag(last + 1:), tag(last:last))
+               if (last > at) then
+                  at = last + 1
                   cycle
                end if
             end if
