@@ -2,17 +2,9 @@
 module ek_rig_table
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_text, only: str
    use ek_deck, only: deck_t, read_deck, set_value, split_setting
-   use ek_reader, only: build_model
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
-   use ek_rig, only: mount
-   use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance
-   use ek_path, only: path_t, sweep
    use ek_table, only: table_t, new_table, column, row_count
-   use ek_sweep_table, only: sweep_table
+   use ek_trial, only: trial_t, go_through
    implicit none(type, external)
    private
    public :: rig_table, values_of
@@ -26,16 +18,11 @@ contains
       type(table_t), intent(out) :: table                       !! without a row when there is trouble
       character(:), allocatable, intent(out) :: trouble         !! what went wrong, '' if all is well
       type(deck_t) :: deck
-      type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:)
+      type(trial_t) :: trial
       type(error_t), allocatable :: error
-      type(path_t) :: path
-      type(kkt_t) :: kkt
       character(:), allocatable :: place, value
       integer :: k
 
-      table = new_table([character(4) :: 'none'], 0)
-      trouble = ''
       call read_deck(file, deck, error)
       do k = 1, size(settings)
          if (allocated(error)) exit
@@ -44,31 +31,10 @@ contains
          if (allocated(error)) exit
          call set_value(deck, place, value, error)
       end do
-      if (.not. allocated(error)) call build_model(deck, suspension, cases, error)
-      if (allocated(error)) then
-         trouble = error%message
-         return
-      end if
-      do k = 1, size(cases)
-         if (cases(k)%name == case_name) exit
-      end do
-      if (k > size(cases)) then
-         trouble = 'no case '//case_name//' in '//file
-         return
-      end if
-      call balance(suspension, cases(k)%tolerance, error)
-      if (.not. allocated(error)) call mount(suspension, cases(k), error)
-      if (allocated(error)) then
-         trouble = error%message
-         return
-      end if
-      kkt = new_kkt(suspension)
-      call sweep(suspension, cases(k), path, kkt)
-      if (.not. all(path%is_reached)) then
-         trouble = file//', '//case_name//': '//str(count(.not. path%is_reached))//' states were not found'
-         return
-      end if
-      call sweep_table(suspension, cases(k), path, kkt, table)
+      call go_through(deck, case_name, error, trial)
+      trouble = trial%trouble
+      table = trial%table
+      if (trouble /= '') table = new_table([character(4) :: 'none'], 0)
    end subroutine rig_table
 
    !> A column as numbers × unit; as many zeros as rows, and a word in `trouble`, when it is not there.

@@ -25,7 +25,7 @@ module ek_trial
    use ek_wheel_force, only: vertical_force
    implicit none(type, external)
    private
-   public :: trial_t, try, values, elastic_energy, chassis_lift, wheel_force
+   public :: trial_t, try, go_through, values, elastic_energy, chassis_lift, wheel_force
 
    type :: trial_t
       type(suspension_t) :: suspension      !! on the rig
@@ -44,17 +44,35 @@ contains
       character(*), intent(in) :: file, groups
       type(trial_t), intent(out) :: trial
       type(deck_t) :: deck
-      type(case_t), allocatable :: cases(:)
       type(error_t), allocatable :: error
       character(:), allocatable :: text
 
-      trial%table = new_table([character(4) :: 'none'], 0)
-      trial%trouble = ''
       call read_whole(file, text, error)
       if (.not. allocated(error)) call parse_deck(text//new_line('a')//groups, file, deck, error)
+      call go_through(deck, '', error, trial)
+   end subroutine try
+
+   !> Runs one case of a deck: builds, balances, mounts, sweeps, tabulates.
+   subroutine go_through(deck, case_name, error, trial)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: case_name                       !! '': the last one
+      type(error_t), allocatable, intent(inout) :: error          !! of reading the deck; then nothing is done
+      type(trial_t), intent(out) :: trial
+      type(case_t), allocatable :: cases(:)
+      integer :: k
+
+      trial%table = new_table([character(4) :: 'none'], 0)
+      trial%trouble = ''
       if (.not. allocated(error)) call build_model(deck, trial%suspension, cases, error)
       if (.not. allocated(error)) then
-         trial%case = cases(size(cases))
+         do k = size(cases), 1, -1
+            if (case_name == '' .or. cases(k)%name == case_name) exit
+         end do
+         if (k == 0) then
+            trial%trouble = 'no case '//case_name//' in '//deck%file
+            return
+         end if
+         trial%case = cases(k)
          call balance(trial%suspension, trial%case%tolerance, error)
       end if
       if (.not. allocated(error)) call mount(trial%suspension, trial%case, error)
@@ -67,7 +85,7 @@ contains
       call sweep(trial%suspension, trial%case, trial%path, trial%kkt)
       call sweep_table(trial%suspension, trial%case, trial%path, trial%kkt, trial%table)
       if (.not. all(trial%path%is_reached)) trial%trouble = 'not all states were reached'
-   end subroutine try
+   end subroutine go_through
 
    !> A column; one value that is not a number, which equals nothing, when it is not there.
    function values(trial, name) result(list)
