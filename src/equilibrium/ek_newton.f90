@@ -53,7 +53,7 @@ contains
          outcome%pivot_ratio = kkt%pivot_ratio
          outcome%is_singular = kkt%is_singular
          if (outcome%is_singular) return
-         call take_step(state, kkt, outcome%last)
+         call take_step(state, kkt, huge(largest), outcome%last)
          if (iteration == 1) outcome%first = outcome%last
          if (.not. outcome%last <= largest) return      ! also when it is not a number
          if (outcome%last <= tolerance) exit
@@ -64,9 +64,8 @@ contains
             if (.not. outcome%last < 0.01_wp*kkt%length) exit
             before = outcome%last
             call assemble(suspension, state, demand, residual_only, kkt)
-            call take_step(state, kkt, outcome%last)
-            if (.not. outcome%last <= largest) return
-            if (outcome%last > good_chord*before) exit
+            call take_step(state, kkt, before, outcome%last)
+            if (.not. outcome%last <= good_chord*before) exit
             ! the next step would be shorter in the same proportion
             is_done = outcome%last**2 <= rest*tolerance*before
             if (is_done) exit
@@ -76,15 +75,16 @@ contains
       outcome%is_converged = outcome%last <= tolerance
    end subroutine find_equilibrium
 
-   !> Solves with the factors at hand, moves the state, and measures the step.
-   pure subroutine take_step(state, kkt, length)
+   !> Solves with the factors at hand, measures the step, and moves the state unless the step is too long.
+   pure subroutine take_step(state, kkt, limit, length)
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(in) :: limit       !! m
       real(wp), intent(out) :: length     !! largest |Δr|, |Δπ| × characteristic length [m]
 
       call solve(kkt)
       length = step_length(kkt%rhs(:kkt%nq), kkt%length)
-      if (.not. length < huge(length)) return
+      if (.not. length < limit) return
       state%reaction = state%reaction + kkt%rhs(kkt%nq + 1:)
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine take_step
