@@ -90,7 +90,7 @@ contains
       type(kandc_t), intent(inout) :: self
       type(attitude_t) :: now(size(suspension%wheels))
       real(wp) :: centre(3, size(suspension%wheels)), patch(3, size(suspension%wheels)), tyre(size(suspension%wheels))
-      real(wp) :: radius(size(suspension%wheels)), roll, track, ratio
+      real(wp) :: radius(size(suspension%wheels)), lift(size(suspension%wheels)), roll, track, ratio
       integer :: w, k, n
 
       n = 6*size(suspension%wheels)
@@ -103,6 +103,7 @@ contains
             radius(k) = wheel%radius
          end associate
          patch(:, k) = centre(:, k) - [0.0_wp, 0.0_wp, radius(k)]
+         lift(k) = vertical_force(suspension, state, demand, w)
          tyre(k) = 0.0_wp
          if (allocated(self%vehicle%tyre_rate)) tyre(k) = self%vehicle%tyre_rate(w)
       end do
@@ -113,9 +114,9 @@ contains
          track = patch(2, 2) - patch(2, 1)
       end if
       do k = 1, size(suspension%wheels)
-         call list_wheel(suspension, state, demand, k, now(k), centre(:, k), radius, roll, track, tyre, self)
+         call list_wheel(suspension, state, k, now(k), centre(:, k), lift(k), radius, roll, track, tyre, self)
       end do
-      if (is_axle(suspension)) call list_axle(suspension, now, patch, radius, roll, track, tyre, self)
+      if (is_axle(suspension)) call list_axle(suspension, now, patch, lift, radius, roll, track, tyre, self)
       call list_steering(suspension, state, self)
       do k = 1, self%compliance%springs
          ratio = 0.0_wp
@@ -126,13 +127,12 @@ contains
    end subroutine list
 
    !> One wheel.
-   subroutine list_wheel(suspension, state, demand, place, now, centre, radius, roll, track, tyre, self)
+   subroutine list_wheel(suspension, state, place, now, centre, lift, radius, roll, track, tyre, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
       integer, intent(in) :: place               !! in the compliance matrix
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: centre(3), radius(:), roll, track, tyre(:)
+      real(wp), intent(in) :: centre(3), lift, radius(:), roll, track, tyre(:)    !! lift: force of the ground [N]
       type(kandc_t), intent(inout) :: self
       type(wheel_characteristics_t) :: is
       type(steer_axis_t) :: axis
@@ -165,7 +165,7 @@ contains
 
          call put(self, prefix//'steer_deg', steer_of(now%toe, wheel%side)/degree)
          if (is_pair) call put(self, prefix//'inclination_deg', inclination_of(now%camber, wheel%side, roll)/degree)
-         call put(self, prefix//'vertical_force_n', vertical_force(suspension, state, demand, w))
+         call put(self, prefix//'vertical_force_n', lift)
          call put_axis(self, prefix//'instant_', axis)
          call put_known(self, prefix//'wheel_rate_n_per_mm', is%wheel_rate/n_per_mm)
          if (is_shod) call put_known(self, prefix//'ride_rate_n_per_mm', is%ride_rate/n_per_mm)
@@ -217,10 +217,10 @@ contains
    end subroutine list_wheel
 
    !> Both wheels together.
-   subroutine list_axle(suspension, now, patch, radius, roll, track, tyre, self)
+   subroutine list_axle(suspension, now, patch, lift, radius, roll, track, tyre, self)
       type(suspension_t), intent(in) :: suspension
       type(attitude_t), intent(in) :: now(2)             !! left, right
-      real(wp), intent(in) :: patch(3, 2), radius(2), roll, track, tyre(2)
+      real(wp), intent(in) :: patch(3, 2), lift(2), radius(2), roll, track, tyre(2)
       type(kandc_t), intent(inout) :: self
       type(axle_characteristics_t) :: is
       real(wp) :: frame, left, right
@@ -230,6 +230,7 @@ contains
          frame = merge(-1.0_wp, 1.0_wp, suspension%is_iso)
          call put_known(self, 'suspension_roll_rate_nm_per_deg', is%suspension_roll_rate/nm_per_deg)
          if (all(tyre > 0.0_wp)) call put_known(self, 'total_roll_rate_nm_per_deg', is%total_roll_rate/nm_per_deg)
+         call put(self, 'roll_moment_nm', 0.5_wp*track*(lift(1) - lift(2)))
          call put(self, 'axle_roll_deg', roll/degree)
          call put_known(self, 'roll_centre_y_mm', frame*is%roll_centre(1)/millimetre)
          call put_known(self, 'roll_centre_z_mm', is%roll_centre(2)/millimetre)
