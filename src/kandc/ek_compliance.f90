@@ -61,8 +61,9 @@ contains
       integer :: n, k, side, ports
 
       self%wheels = size(suspension%wheels)
-      self%spring = pack([(k, k=1, size(suspension%springs))], suspension%springs%kind == axial_spring)
-      self%springs = size(self%spring)
+      self%springs = count(suspension%springs%kind == axial_spring)
+      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%springs))], &
+         suspension%springs%kind == axial_spring))
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs

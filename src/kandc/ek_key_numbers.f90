@@ -143,8 +143,13 @@ contains
          integer :: k
 
          do k = 1, size(list)
-            number = key_number_t(trim(list(k)%group), trim(list(k)%quantity), trim(list(k)%unit), trim(list(k)%sign), &
-               nothing(), nothing(), .false.)
+            number%group = trim(list(k)%group)      ! one by one: gfortran 12 loses what a structure constructor trims
+            number%quantity = trim(list(k)%quantity)
+            number%unit = trim(list(k)%unit)
+            number%sign = trim(list(k)%sign)
+            number%left = nothing()
+            number%right = nothing()
+            number%is_of_axle = .false.
             if (list(k)%how == 'gradient') then
                call from_gradients(tests, gradients, list(k), number, is_there)
             else

@@ -261,7 +261,8 @@ contains
       design = design_row(test%table)
       do k = 1, n
          if (.not. peak(k) > least) cycle
-         trace = trace_t(title=trim(names(k)), colour=size(chart%traces) + 1)
+         trace%title = trim(names(k))
+         trace%colour = size(chart%traces) + 1
          trace%x = abscissa_of(test, side_of(test, names(k)))
          if (size(trace%x) == 0) return
          trace%y = force(:, k)
