@@ -13,6 +13,7 @@ module ek_csv
    public :: csv_text, write_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
+   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)   !! what Excel puts before "CSV UTF-8"
 
 contains
 
@@ -103,6 +104,7 @@ contains
       line = 0
       rows = -1                                          ! the names come first
       first = 1
+      if (index(text, byte_order_mark) == 1) first = len(byte_order_mark) + 1
       do while (first <= len(text))
          last = index(text(first:), line_end) + first - 2
          if (last < first - 1) last = len(text)
