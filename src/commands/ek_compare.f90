@@ -38,6 +38,7 @@ contains
       type(difference_t), allocatable :: rows(:)
       type(chart_set_t), allocatable :: charts(:)
       type(message_list_t) :: missing
+      type(error_t), allocatable :: undrawn
       type(windows_t) :: windows
       character(:), allocatable :: folder, message
       integer :: k, l
@@ -78,12 +79,12 @@ contains
       if (allocated(error)) return
 
       call overlay(results, charts)
-      call draw(arguments, charts, folder, message, error)
-      if (allocated(error)) return
+      call draw(arguments, charts, folder, message, undrawn)     ! the page comes also without its pictures
       if (len(message) > 0) call say(arguments%quiet, message)
       call write_whole(join_path(folder, 'compare.html'), page_of(results, rows, charts, missing, folder), error)
       if (allocated(error)) return
       call say(arguments%quiet, join_path(folder, 'differences.csv')//', '//join_path(folder, 'compare.html'))
+      if (allocated(undrawn)) call move_alloc(undrawn, error)
    end subroutine compare
 
    !> What one of the results has and another lacks.
@@ -91,43 +92,81 @@ contains
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
       type(message_list_t), intent(inout) :: missing
-      character(:), allocatable :: lacking
-      integer :: a, b, t, u, k
+      type(message_list_t) :: lacking
+      character(:), allocatable :: name
+      integer :: a, b, t, k
 
       do b = 1, size(results)
          do a = 1, size(results)
             if (a == b) cycle
             do t = 1, size(results(a)%tests)
-               u = test_number(results(b), results(a)%tests(t)%name)
-               if (u == 0) then
-                  call missing%add(results(b)%label//' has no test '//quoted(results(a)%tests(t)%name))
-                  cycle
-               end if
-               lacking = ''
-               associate (columns => results(a)%tests(t)%table%columns)
-                  do k = 1, size(columns)
-                     if (column_index(results(b)%tests(u)%table, columns(k)) > 0) cycle
-                     lacking = lacking//' '//trim(columns(k))
-                  end do
-               end associate
-               if (len(lacking) == 0) cycle
-               if (results(a)%is_report) then
-                  call missing%add(results(b)%label//', test '//quoted(results(a)%tests(t)%name)//' has no column'//lacking)
-               else
-                  call missing%add(results(b)%label//' has no column'//lacking)
-               end if
+               name = results(a)%tests(t)%name
+               if (test_number(results(b), name) == 0 .and. is_first(a, b, t)) &
+                  call missing%add(results(b)%label//' has no test '//quoted(name))
             end do
+            lacking = columns_lacking(results(a), results(b))
+            if (lacking%count() > 0) call missing%add(results(b)%label//' has no column '//some_of(lacking))
          end do
-         lacking = ''
+         lacking = message_list_t()
          do k = 1, size(rows)
             if (rows(k)%is_there(b)) cycle
-            lacking = lacking//', '
-            if (results(b)%is_report) lacking = lacking//trim(rows(k)%test)//' '
-            lacking = lacking//trim(rows(k)%quantity//' '//rows(k)%side)
+            name = trim(rows(k)%quantity//' '//rows(k)%side)
+            if (results(b)%is_report) name = rows(k)%test//' '//name
+            call lacking%add(name)
          end do
-         if (len(lacking) > 0) call missing%add(results(b)%label//' has no gradient'//lacking(2:))
+         if (lacking%count() > 0) call missing%add(results(b)%label//' has no gradient '//some_of(lacking))
       end do
+
+   contains
+
+      !> Whether no result before a, other than b, has its test t: it is told once.
+      pure logical function is_first(a, b, t)
+         integer, intent(in) :: a, b, t
+         integer :: c
+
+         is_first = .true.
+         do c = 1, a - 1
+            if (c /= b) is_first = is_first .and. test_number(results(c), results(a)%tests(t)%name) == 0
+         end do
+      end function is_first
+
    end subroutine find_missing
+
+   !> The columns of `one` that `other` lacks in the same test; each once, whatever the tests it lacks it in.
+   function columns_lacking(one, other) result(lacking)
+      type(results_t), intent(in) :: one, other
+      type(message_list_t) :: lacking
+      integer :: t, u, k, n
+
+      do t = 1, size(one%tests)
+         u = test_number(other, one%tests(t)%name)
+         if (u == 0) cycle
+         associate (columns => one%tests(t)%table%columns)
+            do k = 1, size(columns)
+               if (column_index(other%tests(u)%table, columns(k)) > 0) cycle
+               do n = 1, lacking%count()
+                  if (lacking%line(n) == trim(columns(k))) exit
+               end do
+               if (n > lacking%count()) call lacking%add(trim(columns(k)))
+            end do
+         end associate
+      end do
+   end function columns_lacking
+
+   !> The first names of a list, and how many more there are: models of different make share few of a thousand columns.
+   function some_of(names) result(text)
+      type(message_list_t), intent(in) :: names
+      character(:), allocatable :: text
+      integer, parameter :: enough = 12
+      integer :: k
+
+      text = ''
+      do k = 1, min(names%count(), enough)
+         if (k > 1) text = text//', '
+         text = text//names%line(k)
+      end do
+      if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
+   end function some_of
 
    pure integer function test_number(results, name) result(number)
       type(results_t), intent(in) :: results

@@ -3,19 +3,19 @@ module ek_report_files
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
-   use ek_text, only: quoted
+   use ek_text, only: quoted, lower
    use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
    use ek_csv, only: read_csv
    use ek_decimal, only: get_decimal
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
-   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
+   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, windows_t, test_gradients
    use ek_gradient_file, only: read_gradients
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, contents_file
+   public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file
 
-   character(*), parameter :: contents_file = 'tests.csv'
+   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = 'anti phase'
 
    !> What compare lays over another of its kind.
@@ -41,6 +41,15 @@ contains
       if (is_anti) line = line//anti_mark//', '
       line = line//size_mark//trim(adjustl(number))
    end function test_line
+
+   !> The file of a test's table: its name, beside the report's own files. No name of a case has a hyphen.
+   pure function table_file(name) result(file)
+      character(*), intent(in) :: name
+      character(:), allocatable :: file
+
+      file = name//'.csv'
+      if (any(lower(file) == [character(13) :: contents_file, gradients_file])) file = name//'-case.csv'
+   end function table_file
 
    !> tests.csv: the tests of a report and their files.
    subroutine write_contents(tests, path, error)
@@ -93,7 +102,7 @@ contains
          if (allocated(error)) return
          results%tests(k)%title = cell_of(contents, k, 'title')
       end do
-      call read_gradients(join_path(path, 'gradients.csv'), results%gradients, error)
+      call read_gradients(join_path(path, gradients_file), results%gradients, error)
    end subroutine read_results
 
    !> A table, and what its header says of the test.
@@ -103,16 +112,18 @@ contains
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: line
       logical :: is_number
-      integer :: k, at
+      integer :: k, at, side
 
       test%name = name
       test%title = base_name(path)
       test%file = path
       test%kind = 'other'
+      side = -1
       call read_csv(path, test%table, error)
       if (allocated(error)) return
       do k = 1, test%table%header%count()
          line = test%table%header%line(k)
+         call read_frame_line(line, test%is_iso, side)
          if (index(line, mark) /= 1 .or. index(line, size_mark) == 0) cycle
          at = index(line, ',')
          test%kind = line(len(mark) + 1:at - 1)
@@ -121,7 +132,7 @@ contains
          if (is_number) is_number = ieee_is_finite(test%factor_size)
          if (.not. is_number) test%factor_size = 1.0_wp
       end do
-      call find_wheels(test)
+      call find_wheels(test, side)
       call choose_abscissa(test)
       ! a table of `run` does not tell its kind: one that stands over the travel is read like parallel travel
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'

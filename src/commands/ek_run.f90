@@ -15,7 +15,9 @@ module ek_run
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
+   use ek_wheel_side, only: single_side
    use ek_sweep_table, only: sweep_table
+   use ek_test_result, only: frame_line
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: write_csv, csv_text
@@ -244,6 +246,7 @@ contains
       else
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//']')
       end if
+      call table%header%add(frame_line(suspension%is_iso, single_side(suspension)))
       call table%header%add('elastokin '//version//', deck checksum '//checksum)
       call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &
          'marker. Joint force and moment: on its second body, at its point, frame of the deck')

@@ -98,6 +98,7 @@ contains
       type(gradient_t), allocatable, intent(out) :: gradients(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_file: path:line: what is wrong
       type(text_table_t) :: table
+      character(:), allocatable :: points
       logical :: is_number
       integer :: k, status
 
@@ -126,7 +127,8 @@ contains
                   ' is not a number')
                return
             end if
-            read (table%cells(7, k)%text, *, iostat=status) g%points
+            points = cell_of(table, k, 'points')
+            read (points, *, iostat=status) g%points
             if (status /= 0) g%points = 0
          end associate
       end do

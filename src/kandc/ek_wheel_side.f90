@@ -3,7 +3,7 @@ module ek_wheel_side
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, height_name, left_and_right, is_axle, prefix_of
+   public :: side_name, height_name, left_and_right, is_axle, single_side, prefix_of
 
 contains
 
@@ -38,6 +38,13 @@ contains
       is_axle = .false.
       if (size(suspension%wheels) == 2) is_axle = suspension%wheels(1)%side /= suspension%wheels(2)%side
    end function is_axle
+
+   !> Side of the only wheel: −1 left, +1 right; 0 where there is none or more than one.
+   pure integer function single_side(suspension) result(side)
+      type(suspension_t), intent(in) :: suspension
+      side = 0
+      if (size(suspension%wheels) == 1) side = suspension%wheels(1)%side
+   end function single_side
 
    !> What the columns of a wheel begin with: 'left_' or 'right_' where there are two, nothing for one.
    pure function prefix_of(suspension, wheel) result(prefix)

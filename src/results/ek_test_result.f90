@@ -8,9 +8,11 @@ module ek_test_result
    use ek_table, only: table_t, name_length, column_index, column_range
    implicit none(type, external)
    private
-   public :: test_result_t, find_wheels, choose_abscissa, converged_rows, design_row, wheel_column, travel_column
+   public :: test_result_t, frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, design_row
+   public :: wheel_column, travel_column
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
+   character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
    real(wp), parameter :: least_stroke = 1.0_wp   !! mm; a wheel that moves less is not drawn over its travel
 
    type :: test_result_t
@@ -32,6 +34,29 @@ module ek_test_result
    end type test_result_t
 
 contains
+
+   !> The line of a table's header without which its signs cannot be read: the axes of its vectors, and on which side a
+   !> wheel stands whose columns have no prefix.
+   pure function frame_line(is_iso, side) result(line)
+      logical, intent(in) :: is_iso
+      integer, intent(in) :: side           !! of a single wheel: −1 left, +1 right; 0: there are two or none
+      character(:), allocatable :: line
+
+      line = axes_mark//'x-rear'
+      if (is_iso) line = axes_mark//iso
+      if (side > 0) line = line//right_mark
+   end function frame_line
+
+   !> What a line of a header says of axes and side; any other line changes nothing.
+   pure subroutine read_frame_line(line, is_iso, side)
+      character(*), intent(in) :: line
+      logical, intent(inout) :: is_iso
+      integer, intent(inout) :: side
+
+      if (index(line, axes_mark) /= 1) return
+      is_iso = index(line, axes_mark//iso) == 1
+      if (index(line, right_mark) > 0) side = 1
+   end subroutine read_frame_line
 
    !> Sets prefixes and sides from the columns. A single wheel has no prefix; its side is as told.
    pure subroutine find_wheels(test, side)
