@@ -23,8 +23,8 @@ module ek_report
    use ek_picture, only: add_solid, add_ghost, add_ground, add_names
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
-   use ek_report_tests, only: planned_test_t, planned_tests, run_planned
-   use ek_report_files, only: write_contents, contents_file
+   use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
+   use ek_report_files, only: write_contents, contents_file, gradients_file
    use ek_report_page, only: chart_set_t, report_page
    use ek_run_words, only: say_preloads
    use ek_words, only: say, complain
@@ -48,7 +48,7 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)
       type(planned_test_t), allocatable :: planned(:)
       type(test_result_t), allocatable :: tests(:)
       type(film_t), allocatable :: films(:)
@@ -56,7 +56,7 @@ contains
       type(chart_set_t), allocatable :: sets(:)
       type(windows_t) :: windows
       type(message_list_t) :: warnings
-      type(error_t), allocatable :: trouble
+      type(error_t), allocatable :: trouble, undrawn
       character(:), allocatable :: checksum, folder, message
       integer :: k, failed, code
 
@@ -64,11 +64,9 @@ contains
       if (allocated(error)) return
       call load_deck(arguments, suspension, cases, checksum, error)
       if (allocated(error)) return
-      allocate (chosen(0))
-      if (size(cases) > 0) then
-         call chosen_cases(arguments, cases, chosen, error)
-         if (allocated(error)) return
-      end if
+      call report_cases(suspension, cases, all_cases)
+      call chosen_cases(arguments, all_cases, chosen, error)
+      if (allocated(error)) return
       folder = arguments%out
       if (len(folder) == 0) folder = 'out'
       call make_folder(join_path(folder, 'figures'), error)
@@ -76,8 +74,10 @@ contains
       call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
+      call remove_file(join_path(folder, 'report.html'))     ! of an earlier report: it must not be taken for this one
+      call remove_file(join_path(folder, contents_file))
 
-      call planned_tests(suspension, chosen, len(arguments%case) > 0, planned)
+      call planned_tests(suspension, chosen, planned)
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
       failed = 0
       code = exit_convergence
@@ -86,7 +86,7 @@ contains
          if (allocated(trouble)) then
             call complain(trouble%message)
             failed = failed + 1
-            code = min(code, trouble%code)
+            if (trouble%code /= exit_convergence) code = trouble%code     ! it was not run at all
             call warnings%add(planned(k)%title//': '//trouble%message)
          end if
          allocate (sets(k)%charts(0))
@@ -98,27 +98,33 @@ contains
          call test_gradients(tests(k), windows, gradients)
          call test_charts(tests(k), sets(k)%charts)
       end do
-      call write_gradients(gradients, suspension%name, checksum, join_path(folder, 'gradients.csv'), &
+      call write_gradients(gradients, suspension%name, checksum, join_path(folder, gradients_file), &
          join_path(folder, 'gradients.json'), error)
       if (allocated(error)) return
-      write (output_unit, '(a)') join_path(folder, 'gradients.csv')
+      write (output_unit, '(a)') join_path(folder, gradients_file)
       write (output_unit, '(a)') join_path(folder, 'gradients.json')
 
       call write_contents(tests, join_path(folder, contents_file), error)
       if (allocated(error)) return
 
       message = ''
-      call draw(arguments, suspension, tests, films, sets, folder, message, error)
-      if (allocated(error)) return
-      if (len(message) > 0) then
+      call draw(arguments, suspension, tests, films, sets, folder, message, undrawn)
+      if (allocated(undrawn)) then
+         call complain(undrawn%message)
+         call warnings%add('The page lacks pictures: '//undrawn%message)
+      else if (len(message) > 0) then
          if (.not. arguments%no_plots) call say(arguments%quiet, message)
          call warnings%add('The page has no pictures: '//message)
       end if
       call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
       if (allocated(error)) return
       write (output_unit, '(a)') join_path(folder, 'report.html')
-      if (failed > 0) call fail(error, code, plural(failed, 'test', 'tests')//' of '//str(size(tests))// &
-         ' ended early; all states before are written, and the page tells where')
+      if (failed > 0) then
+         call fail(error, code, plural(failed, 'test', 'tests')//' of '//str(size(tests))// &
+            ' ended early; all states before are written, and the page tells where')
+      else if (allocated(undrawn)) then
+         call fail(error, undrawn%code, 'the report is written, but not all of its pictures')
+      end if
    end subroutine report
 
    !> Windows of the gradients with --window applied.

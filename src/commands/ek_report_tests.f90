@@ -1,7 +1,7 @@
 !> The tests of a report: which ones, and how one is run.
 module ek_report_tests
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t, load_number
@@ -16,11 +16,11 @@ module ek_report_tests
    use ek_table, only: new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
-   use ek_report_files, only: test_line
-   use ek_run_words, only: failure_words
+   use ek_report_files, only: test_line, table_file
+   use ek_run_words, only: failure_words, settled_words
    implicit none(type, external)
    private
-   public :: planned_test_t, planned_tests, run_planned, kind_of_case
+   public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
 
    !> A test before it is run.
    type :: planned_test_t
@@ -34,20 +34,26 @@ module ek_report_tests
 
 contains
 
-   !> The tests of an axle: the standard ones and the deck's own cases; or the one that is asked for.
-   subroutine planned_tests(suspension, own, only_these, tests)
+   !> The standard tests of an axle and the deck's own cases; without a wheel the cases alone.
+   subroutine report_cases(suspension, own, cases)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)
-      logical, intent(in) :: only_these         !! no standard tests beside them
-      type(planned_test_t), allocatable, intent(out) :: tests(:)
-      type(case_t), allocatable :: cases(:)
-      integer :: k
+      type(case_t), allocatable, intent(out) :: cases(:)
 
-      if (only_these .or. size(suspension%wheels) == 0) then
+      if (size(suspension%wheels) == 0) then
          cases = own
       else
          call standard_tests(suspension, own, cases)
       end if
+   end subroutine report_cases
+
+   !> What there is to know of cases before they are run.
+   subroutine planned_tests(suspension, cases, tests)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(planned_test_t), allocatable, intent(out) :: tests(:)
+      integer :: k
+
       allocate (tests(size(cases)))
       do k = 1, size(cases)
          tests(k)%name = cases(k)%name
@@ -141,17 +147,19 @@ contains
       type(test_result_t), intent(out) :: test
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
+      real(wp), parameter :: seen_on_a_rig = 1.0e-5_wp     ! m: design is meant to be in equilibrium
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
       type(diagnosis_t) :: diagnosis
+      type(message_list_t) :: settled
       character(:), allocatable :: words
-      integer :: side
+      integer :: side, k
 
       test%name = planned%name
       test%kind = planned%kind
       test%title = planned%title
-      test%file = planned%name//'.csv'
+      test%file = table_file(planned%name)
       test%factor_size = planned%factor_size
       test%is_anti = planned%is_anti
       test%is_iso = base%is_iso
@@ -183,6 +191,10 @@ contains
          call test%remarks%add(failure_words(suspension, case, path, path%failure(side), kkt))
       end do
       call remark_instability(suspension, case, path, test)
+      call settled_words(suspension, case, path, seen_on_a_rig, settled)
+      do k = 1, settled%count()
+         call test%remarks%add(settled%line(k))
+      end do
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
       call sweep_table(suspension, case, path, kkt, test%table)

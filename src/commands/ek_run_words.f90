@@ -1,6 +1,7 @@
 !> What `run` has to say besides its results: settling, preloads, drift, stability, and why a sweep ended.
 module ek_run_words
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_spring, only: axial_spring
@@ -18,7 +19,7 @@ module ek_run_words
    use ek_words, only: say, warn
    implicit none(type, external)
    private
-   public :: say_settled, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel, failure_words
+   public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel, failure_words
 
 contains
 
@@ -28,9 +29,25 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
+      type(message_list_t) :: words
+      real(wp), parameter :: noticeable = 1.0e-8_wp      ! m
+      integer :: k
+
+      call settled_words(suspension, case, path, noticeable, words)
+      do k = 1, words%count()
+         call say(arguments%quiet, 'case '//quoted(case%name)//': '//words%line(k))
+      end do
+   end subroutine say_settled
+
+   !> A line for each wheel that the constant loads have moved by more than `least`.
+   subroutine settled_words(suspension, case, path, least, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      real(wp), intent(in) :: least                      !! m
+      type(message_list_t), intent(out) :: words
       type(state_t) :: state
       type(attitude_t) :: attitude
-      real(wp), parameter :: noticeable = 1.0e-8_wp      ! m
       integer :: k
 
       if (case%method == 'recursive') return
@@ -39,12 +56,12 @@ contains
       call unpack_state(path%settled, state)
       do k = 1, size(suspension%wheels)
          attitude = wheel_attitude(suspension, state, k)
-         if (norm2(attitude%centre) <= noticeable) cycle
-         call say(arguments%quiet, 'case '//quoted(case%name)//': under the constant loads wheel '// &
-            quoted(suspension%wheels(k)%name)//' settles by '//str(attitude%centre(3)/millimetre, 4)//' mm (toe '// &
-            str((attitude%toe)/degree, 4)//' deg, camber '//str(attitude%camber/degree, 4)//' deg there)')
+         if (norm2(attitude%centre) <= least) cycle
+         call words%add('under the constant loads wheel '//quoted(suspension%wheels(k)%name)//' settles by '// &
+            str(attitude%centre(3)/millimetre, 4)//' mm (toe '//str((attitude%toe)/degree, 4)//' deg, camber '// &
+            str(attitude%camber/degree, 4)//' deg there)')
       end do
-   end subroutine say_settled
+   end subroutine settled_words
 
    !> What balance has found.
    subroutine say_preloads(arguments, suspension)
@@ -177,7 +194,7 @@ contains
       integer :: last
 
       unit = factor_unit(suspension, case)
-      if (count(path%is_reached) == 0) then
+      if (maxval(abs(path%settled)) <= 0.0_wp) then      ! no state has been stored there
          text = 'case '//quoted(case%name)//': no equilibrium under the constant loads'
       else
          text = 'case '//quoted(case%name)//': state '//str(failure%state - 1)//' (factor '// &

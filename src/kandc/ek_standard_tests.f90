@@ -2,6 +2,7 @@
 module ek_standard_tests
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
+   use ek_text, only: lower
    use ek_case, only: case_t
    use ek_suspension, only: suspension_t
    use ek_wheel_side, only: left_and_right
@@ -16,8 +17,8 @@ contains
    !> The standard tests of an axle, or of a single wheel as far as it has them.
    !>
    !> A test that the deck holds itself (same test, phase and offset, along the same vertical control) is taken from
-   !> there, with its range; other cases of the deck follow behind. Steering goes to the ends of the rack, where &steering
-   !> says how far that is.
+   !> there, with its range; other cases of the deck follow behind. A name that the deck has given to another case is
+   !> followed by '_test'. Steering goes to the ends of the rack, where &steering says how far that is.
    subroutine standard_tests(suspension, own, tests)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
@@ -69,6 +70,9 @@ contains
          this%name = test
          if (is_anti) this%name = this%name//'_anti'
          if (abs(offset) > 0.0_wp) this%name = this%name//'_trail'
+         do while (is_a_name(this%name))
+            this%name = this%name//'_test'
+         end do
          this%where = 'the standard tests'
          this%load = ''
          this%drive = ''
@@ -86,6 +90,17 @@ contains
          this%has_all = .true.
          call append(this)
       end subroutine include
+
+      !> Whether a case of the deck is called so: names give files, and the case of letters does not count.
+      pure logical function is_a_name(name)
+         character(*), intent(in) :: name
+         integer :: k
+
+         is_a_name = .false.
+         do k = 1, size(own)
+            is_a_name = is_a_name .or. lower(own(k)%name) == name
+         end do
+      end function is_a_name
 
       subroutine append(this)
          type(case_t), intent(in) :: this
