@@ -58,7 +58,7 @@ contains
       if (index(line, right_mark) > 0) side = 1
    end subroutine read_frame_line
 
-   !> Sets prefixes and sides from the columns. A single wheel has no prefix; its side is as told.
+   !> Sets prefixes and sides from the columns, the left wheel first. A single wheel has no prefix; its side is as told.
    pure subroutine find_wheels(test, side)
       type(test_result_t), intent(inout) :: test
       integer, intent(in), optional :: side      !! of a single wheel; none: left
@@ -78,6 +78,10 @@ contains
             test%sides = [test%sides, merge(1, -1, index(test%table%columns(k) (:place), 'right') > 0)]
          end if
       end do
+      if (size(test%sides) /= 2) return
+      if (test%sides(1) < test%sides(2)) return
+      test%prefixes = test%prefixes([2, 1])
+      test%sides = test%sides([2, 1])
    end subroutine find_wheels
 
    !> Sets what the charts of a kind of test stand over, from what the table holds. What the caller has set stays.
