@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# tools/check_page.sh PAGE.html...: opens each page in headless Chromium. Status 1 when a page writes to the console,
-# asks for anything but itself, holds a script, or has an id twice.
+# check_page.sh PAGE.html...: opens each page in headless Chromium, as wide as a desk and as narrow as a phone. Status 1 when a
+# page writes to the console, asks for anything but itself, holds a script, has an id twice, or is wider than a phone.
+#
+# Nothing goes out to the network: names are not resolved.
 set -uo pipefail
 
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || {
@@ -10,27 +12,67 @@ browser=$(command -v chromium || command -v chromium-browser || command -v googl
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 wrong=0
+phone=390     # CSS pixels across
+
+# what a page asks for, by the traffic annotations of blink_resource_loader and navigation_url_loader; the
+# browser itself has others, for its updates and accounts
+by_page='"traffic_annotation":(101845102|63171670),"url":"(https?|wss?|ftp)://[^"]*"'
+
+look() { # look ADDRESS [OPTION...]: the page as it is after loading on standard output; $work/log.txt, $work/net.json
+  local address=$1
+  shift
+  timeout 120 "$browser" --headless --no-sandbox --disable-gpu --disable-background-networking --disable-component-update \
+    --disable-sync --disable-extensions --no-pings --no-first-run --host-resolver-rules='MAP * ~NOTFOUND' \
+    --user-data-dir="$work/profile" --enable-logging=stderr --log-net-log="$work/net.json" \
+    --net-log-capture-mode=Default --dump-dom "$@" "$address" 2>"$work/log.txt"
+}
+
+requests() { grep -oE "$by_page" "$work/net.json" | grep -oE '"url".*' | sort -u | head -5; }
+console() { grep -o 'CONSOLE.*' "$work/log.txt" | head -3; }
+
+# a page that does what no page may: a browser that does not tell of it cannot be used here
+cat >"$work/probe.html" <<'END'
+<!DOCTYPE html><html><body><img src="http://image.invalid/x.png"><iframe src="http://frame.invalid/"></iframe>
+<script>console.error('probe')</script></body></html>
+END
+look "file://$work/probe.html" >"$work/dom.html"
+if [ "$(requests | wc -l)" -ne 2 ] || [ -z "$(console)" ]; then
+  echo "this browser does not tell what a page asks for or says: $("$browser" --version 2>/dev/null)" >&2
+  requests >&2
+  console >&2
+  exit 1
+fi
 
 for page in "$@"; do
   path=$(realpath "$page")
-  "$browser" --headless --no-sandbox --disable-gpu --disable-background-networking --disable-component-update \
-    --no-first-run --user-data-dir="$work/profile" --enable-logging=stderr --log-net-log="$work/net.json" \
-    --net-log-capture-mode=Default --dump-dom "file://$path" >"$work/dom.html" 2>"$work/log.txt"
+  look "file://$path" >"$work/dom.html"
   bad=
   grep -q '</html>' "$work/dom.html" || bad+=" it did not open;"
-  grep -q 'CONSOLE' "$work/log.txt" && bad+=" $(grep -o 'CONSOLE.*' "$work/log.txt" | head -3);"
-  # every request is in the log; those of the page (not the browser's own) stand under its file:// key
-  requests=$(grep -oE '"network_isolation_key":"file:.{0,400}"url":"[^"]*"' "$work/net.json" | grep -oE '"url":"[^"]*"' |
-    grep -E '"(https?|wss?|ftp)://' | sort -u)
-  [ -n "$requests" ] && bad+=" it asks for $requests;"
+  said=$(console)
+  [ -n "$said" ] && bad+=" $said;"
+  asked=$(requests)
+  [ -n "$asked" ] && bad+=" it asks for $asked;"
   grep -qi '<script' "$work/dom.html" && bad+=" it holds a script;"
   twice=$(grep -oE " id=[\"'][^\"']*" "$work/dom.html" | sort | uniq -d | head -3)
   [ -n "$twice" ] && bad+=" ids are there twice:$twice;"
+
+  cat >"$work/phone.html" <<END
+<!DOCTYPE html><html><head><title>not loaded</title></head><body><iframe id="f" width="$phone" height="800" src="file://$path"></iframe>
+<script>f.onload = () => { document.title = 'needs ' + f.contentDocument.documentElement.scrollWidth + ' pixels' }</script></body></html>
+END
+  look "file://$work/phone.html" --allow-file-access-from-files --virtual-time-budget=20000 >"$work/dom.html"
+  needs=$(sed -n 's/.*<title>needs \([0-9]*\) pixels<.title>.*/\1/p' "$work/dom.html")
+  if [ -z "$needs" ]; then
+    bad+=" its width on a phone could not be measured;"
+  elif [ "$needs" -gt "$phone" ]; then
+    bad+=" on a phone $phone pixels wide it needs $needs;"
+  fi
+
   if [ -n "$bad" ]; then
     echo "$page:$bad"
     wrong=1
   else
-    echo "$page: opens, nothing on the console, no request"
+    echo "$page: opens wide and on a phone, nothing on the console, no request"
   fi
 done
 exit $wrong
