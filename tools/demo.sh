@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# demo.sh: from a fresh clone to the paper's figures.
+# demo.sh: from a fresh clone to the report of an axle and the paper's figures.
 #
-# Sets up, compiles, sweeps the McPherson strut over its stroke by all three methods, runs the study of the
-# number of increments, and draws toe, camber, lateral movement and the error over the number of
-# increments, as in
+# Sets up, compiles, puts the McPherson front axle on the rig and writes its report; then sweeps the McPherson strut over
+# its stroke by all three methods, runs the study of the number of increments, and draws toe, camber, lateral
+# movement and the error over the number of increments, as in
 #
 #     J. S. Kang, Elastokinematic analysis of a suspension system with linear recursive formula,
 #     International Journal of Automotive Technology 6(4), 2005
@@ -16,6 +16,8 @@ export LC_ALL=C.UTF-8     # a decimal point in every number, and no complaint of
 elastokin=build/release/bin/elastokin
 deck=input/mcpherson/mcpherson.nml
 sweep=mcpherson_vertical_sweep.csv
+axle=input/mcpherson_axle/mcpherson_axle.nml
+page=out/demo/report/report.html
 study=studies/step_size/out/step_size.csv
 paper=studies/paper
 
@@ -30,6 +32,10 @@ is_current() { # is_current MADE FROM...: MADE exists and is newer than everythi
 tools/build.sh release elastokin
 
 mkdir -p out/demo
+if ! is_current $page $elastokin $axle; then
+  echo "demo: the McPherson front axle on the rig"
+  $elastokin report $axle --out "$(dirname $page)" --quiet >/dev/null
+fi
 for method in recursive corrected equilibrium; do
   folder=out/demo/$method
   is_current "$folder/$sweep" $elastokin $deck && continue
@@ -55,7 +61,9 @@ done
 echo
 awk -f $paper/key_numbers.awk out/demo/{recursive,corrected,equilibrium}/$sweep
 echo
-echo "Figures (.svg beside each):"
+echo "Report of the McPherson front axle, to be opened in a browser:"
+echo "  $page"
+echo "The paper's figures (.svg beside each):"
 for picture in "${pictures[@]}"; do echo "  out/demo/$picture.png"; done
 echo "Tables:"
 for method in recursive corrected equilibrium; do echo "  out/demo/$method/$sweep"; done
