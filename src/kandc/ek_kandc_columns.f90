@@ -118,6 +118,7 @@ contains
       end do
       if (is_axle(suspension)) call list_axle(suspension, now, patch, lift, radius, roll, track, tyre, self)
       call list_steering(suspension, state, self)
+      if (n == 0) return                                ! no wheel, no travel
       do k = 1, self%compliance%springs
          ratio = 0.0_wp
          if (self%compliance%is_known) ratio = motion_ratio(self%compliance%response(:n, :n), &

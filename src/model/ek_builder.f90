@@ -290,7 +290,7 @@ contains
          end associate
       end do
 
-      poses = design_poses(self)
+      allocate (poses, source=design_poses(self))
       do k = 1, size(self%rows)
          self%rows(k)%target = 0.0_wp
          do t = self%rows(k)%first, self%rows(k)%first + self%rows(k)%terms - 1
