@@ -26,8 +26,8 @@ module ek_report
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
    use ek_report_files, only: write_contents, contents_file, gradients_file
    use ek_report_page, only: chart_set_t, report_page
-   use ek_run_words, only: say_preloads
-   use ek_words, only: say, complain
+   use ek_run_words, only: say_preloads, patch_words
+   use ek_words, only: say, warn, complain
    implicit none(type, external)
    private
    public :: report, chosen_windows
@@ -74,6 +74,10 @@ contains
       call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
+      call patch_words(suspension, warnings)
+      do k = 1, warnings%count()
+         call warn(warnings%line(k))
+      end do
       call remove_file(join_path(folder, 'report.html'))     ! of an earlier report: it must not be taken for this one
       call remove_file(join_path(folder, contents_file))
 

@@ -17,7 +17,7 @@ module ek_report_tests
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
-   use ek_run_words, only: failure_words, settled_words
+   use ek_run_words, only: failure_words, settled_words, rack_words
    implicit none(type, external)
    private
    public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
@@ -195,6 +195,7 @@ contains
       do k = 1, settled%count()
          call test%remarks%add(settled%line(k))
       end do
+      call rack_words(suspension, case, test%remarks)
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
       call sweep_table(suspension, case, path, kkt, test%table)

@@ -2,7 +2,7 @@
 module ek_run
    use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_usage, exit_model, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model, exit_convergence
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
@@ -26,9 +26,9 @@ module ek_run
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
-   use ek_run_words, only: say_settled, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel, &
+   use ek_run_words, only: say_settled, say_preloads, patch_words, rack_words, warn_of_drift, warn_of_instability, warn_of_travel, &
       failure_words
-   use ek_words, only: say, complain, show_progress, clear_progress
+   use ek_words, only: say, warn, complain, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run, add_header
@@ -43,6 +43,7 @@ contains
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble
+      type(message_list_t) :: doubts
       character(:), allocatable :: checksum, folder
       integer :: k, failed
 
@@ -64,6 +65,10 @@ contains
       call balance(suspension, chosen(1)%tolerance, error)
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
+      call patch_words(suspension, doubts)
+      do k = 1, doubts%count()
+         call warn(doubts%line(k))
+      end do
 
       failed = 0
       do k = 1, size(chosen)
@@ -94,6 +99,7 @@ contains
       type(diagnosis_t) :: diagnosis
       type(path_t) :: path
       type(table_t) :: table
+      type(message_list_t) :: doubts
       character(:), allocatable :: name, words, lost
       integer :: side
 
@@ -120,6 +126,10 @@ contains
       call warn_of_drift(suspension, case, path, kkt, lost)
       call warn_of_instability(suspension, case, path)
       call warn_of_travel(suspension, case, path)
+      call rack_words(suspension, case, doubts)
+      do side = 1, doubts%count()
+         call warn('case '//quoted(case%name)//': '//doubts%line(side))
+      end do
       if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
       words = words//lost
       if (len(words) > 0) call fail(error, exit_convergence, words)

@@ -19,7 +19,8 @@ module ek_run_words
    use ek_words, only: say, warn
    implicit none(type, external)
    private
-   public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel, failure_words
+   public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel
+   public :: patch_words, rack_words, failure_words
 
 contains
 
@@ -62,6 +63,43 @@ contains
             str(attitude%camber/degree, 4)//' deg there)')
       end do
    end subroutine settled_words
+
+   !> Wheels that do not touch the ground where a wheel of their radius would. The rig pushes at the contact point, the
+   !> columns of the compliance matrix mean the point below the centre: of such a wheel they are two things.
+   subroutine patch_words(suspension, words)
+      type(suspension_t), intent(in) :: suspension
+      type(message_list_t), intent(inout) :: words
+      real(wp), parameter :: much = 0.02_wp      ! of the radius; camber moves the point of a real wheel by half of it
+      real(wp) :: down(3), off
+      integer :: k
+
+      do k = 1, size(suspension%wheels)
+         associate (w => suspension%wheels(k))
+            down = [0.0_wp, 0.0_wp, -1.0_wp] + w%spin(3)*w%spin                        ! in the plane of the wheel
+            down = down/max(norm2(down), 0.1_wp)
+            off = min(norm2(w%contact - w%centre - w%radius*down), &
+               norm2(w%contact - w%centre + w%radius*[0.0_wp, 0.0_wp, 1.0_wp]))
+            if (off <= much*w%radius) cycle
+            call words%add('wheel '//quoted(w%name)//': its contact point is '//str(off/millimetre, 3)// &
+               ' mm away from where a wheel of radius '//str(w%radius/millimetre, 4)//' mm stands on the ground; forces of '// &
+               'a test act at the contact point, quantities of the compliance matrix mean the point below the centre')
+         end associate
+      end do
+   end subroutine patch_words
+
+   !> A steering test that leaves the rack behind.
+   subroutine rack_words(suspension, case, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(message_list_t), intent(inout) :: words
+      real(wp), parameter :: rim = 1.0_wp + 1.0e-9_wp
+
+      if (case%test /= 'steering' .or. .not. suspension%steering%has_steering) return
+      if (len(case%drive) > 0 .and. case%drive /= suspension%steering%driver) return
+      if (max(abs(case%from), abs(case%to)) <= suspension%steering%travel*rim) return
+      call words%add('the rack is moved to '//str(max(abs(case%from), abs(case%to))/millimetre, 4)// &
+         ' mm, beyond its travel of '//str(suspension%steering%travel/millimetre, 4)//' mm in &steering')
+   end subroutine rack_words
 
    !> What balance has found.
    subroutine say_preloads(arguments, suspension)

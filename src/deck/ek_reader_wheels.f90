@@ -21,7 +21,7 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, body, side, centre, contact, steer_axis(2)
-      real(wp) :: spin_vector(3), toe, camber, radius, tyre_rate
+      real(wp) :: spin_vector(3), toe, camber, radius, tyre_rate, height
       namelist /wheel/ name, body, side, centre, contact, spin_vector, toe, camber, radius, tyre_rate, steer_axis
       type(wheel_t) :: this
       logical :: has_body, has_centre, has_contact, is_there(2)
@@ -57,10 +57,11 @@ contains
          this%radius = radius*draft%units%length
          if (.not. radius > 0.0_wp) then
             call complain(draft, deck, k, 'radius', 'radius must be above 0, found '//str(radius))
-         else if (.not. has_key(deck, k, 'radius') .and. has_centre .and. has_contact) then
-            this%radius = this%centre(3) - this%contact(3)
-            if (.not. this%radius > 0.0_wp) call complain(draft, deck, k, 'contact', &
-               'the contact point must lie below the centre, found it '//str(-this%radius/draft%units%length)//' above')
+         else if (has_centre .and. has_contact) then
+            height = this%centre(3) - this%contact(3)
+            if (.not. height > 0.0_wp) call complain(draft, deck, k, 'contact', &
+               'the contact point must lie below the centre, found it '//str(-height/draft%units%length)//' above')
+            if (.not. has_key(deck, k, 'radius')) this%radius = height
          end if
          if (.not. tyre_rate > 0.0_wp) &
             call complain(draft, deck, k, 'tyre_rate', 'tyre_rate must be above 0, found '//str(tyre_rate))
