@@ -85,7 +85,7 @@ contains
       call read_axle(deck, draft, suspension)
       call read_steering(deck, draft, suspension)
       call read_loads(deck, draft, suspension)
-      call read_cases(deck, draft, suspension%steering, cases)
+      call read_cases(deck, draft, cases)
       call check_bodies(deck, draft)
       if (draft%complaints%count() > 0) then
          call fail(error, exit_deck, draft%complaints%text())

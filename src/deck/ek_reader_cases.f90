@@ -2,7 +2,6 @@
 module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_suspension, only: steering_t
    use ek_case, only: case_t, method_names, most_increments
    use ek_record, only: element, value_t, own_name, right_twin
    use ek_namelist, only: value_fault
@@ -30,10 +29,9 @@ module ek_reader_cases
 contains
 
    !> All cases, in the order of the deck.
-   subroutine read_cases(deck, draft, steering, cases)
+   subroutine read_cases(deck, draft, cases)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
-      type(steering_t), intent(in) :: steering     !! of read_steering
       type(case_t), allocatable, intent(out) :: cases(:)
       type(words_t) :: words
       real(wp) :: factor
@@ -53,7 +51,7 @@ contains
          cases(used)%file = ''
          cases(used)%drive = ''
          if (has_key(deck, k, 'test')) then
-            call read_test(deck, k, draft, steering, words, cases(used), factor)
+            call read_test(deck, k, draft, words, cases(used), factor)
          else
             call read_drive(deck, k, draft, words, cases(used), factor)
          end if
@@ -219,11 +217,10 @@ contains
    end subroutine read_drive
 
    !> A test of the rig: what it needs, and nothing else.
-   subroutine read_test(deck, k, draft, steering, words, this, factor)
+   subroutine read_test(deck, k, draft, words, this, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       type(draft_t), intent(inout) :: draft
-      type(steering_t), intent(in) :: steering
       type(words_t), intent(inout) :: words
       type(case_t), intent(inout) :: this
       real(wp), intent(inout) :: factor      !! unit of from and to → SI
@@ -329,18 +326,7 @@ contains
          else
             call find_driver(deck, k, draft, this%drive, [character(1) ::], factor)
          end if
-         if (steering%has_steering .and. this%drive == steering%driver) call check_travel('from', words%from)
-         if (steering%has_steering .and. this%drive == steering%driver) call check_travel('to', words%to)
       end subroutine find_steering
-
-      !> The rack ends somewhere.
-      subroutine check_travel(key, value)
-         character(*), intent(in) :: key
-         real(wp), intent(in) :: value
-         real(wp), parameter :: rounding = 1.0e-9_wp     ! of the travel
-         if (abs(value)*factor > steering%travel*(1.0_wp + rounding)) call complain(draft, deck, k, key, key// &
-            ': the rack travels '//str(steering%travel/factor)//' each way (&steering), found '//str(value))
-      end subroutine check_travel
 
    end subroutine read_test
 
