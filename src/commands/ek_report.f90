@@ -283,7 +283,7 @@ contains
                call look_at(path, at, suspension, state)
                n = n + 1
                call add_solid(scenes(n), suspension, state, is_plain=.true.)
-               call add_ground(scenes(n), suspension, design_state(suspension))
+               call add_ground(scenes(n), suspension, design_state(suspension), is_plain=.true.)
                captions(n) = tests(chosen(f))%title
             end do
          end associate

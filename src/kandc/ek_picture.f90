@@ -140,12 +140,14 @@ contains
    end subroutine add_ghost
 
    !> The road under the wheels, and an arrow that points to the front of the car.
-   subroutine add_ground(scene, suspension, state)
+   subroutine add_ground(scene, suspension, state, is_plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
+      logical, intent(in), optional :: is_plain    !! its outline alone: a GIF has no transparent colours
       real(wp) :: low(2), high(2), z, face(3, 4), arrow(3, 3), at(3), middle
       integer :: k
+      logical :: has_face
 
       if (size(suspension%wheels) == 0) return
       low = huge(1.0_wp)
@@ -167,7 +169,9 @@ contains
       face(:, 2) = [high(1), low(2), z]
       face(:, 3) = [high(1), high(2), z]
       face(:, 4) = [low(1), high(2), z]
-      call add_face(scene, part_ground, face)
+      has_face = .true.
+      if (present(is_plain)) has_face = .not. is_plain
+      if (has_face) call add_face(scene, part_ground, face)
       call add_line(scene, line_ground, reshape([face, face(:, 1)], [3, 5]))
       middle = (low(2) + high(2))/2
       if (size(suspension%wheels) == 1) middle = middle - suspension%wheels(1)%side*0.16_wp
