@@ -385,11 +385,10 @@ contains
       character(:), allocatable :: text, test
       type(page_t) :: page
       type(message_list_t) :: names, values
-      character(64), allocatable :: labels(:)
-      character(64), allocatable :: heads(:)
+      character(longest_label(results)) :: labels(size(results))
+      character(longest_label(results) + 1) :: heads(3*size(results) + 1)
       integer :: k, r, t
 
-      allocate (labels(size(results)))
       do r = 1, size(results)
          labels(r) = results(r)%label
          call names%add(achar(iachar('A') + modulo(r - 1, 26)))
@@ -402,11 +401,15 @@ contains
       call add_warnings(page, 'Not in all of them', missing)
       if (size(rows) > 0) then
          call begin_section(page, 'gradients', 'Gradients')
-         heads = [character(64) :: 'Quantity', '>'//labels(1)]
+         heads(1) = 'Quantity'
+         heads(2) = '>'//labels(1)
          do r = 2, size(results)
-            heads = [character(64) :: heads, '>'//labels(r), '>difference', '>percent']
+            heads(3*r - 3) = '>'//labels(r)
+            heads(3*r - 2) = '>difference'
+            heads(3*r - 1) = '>percent'
          end do
-         heads = [character(64) :: heads, 'Unit', 'Window']
+         heads(size(heads) - 1) = 'Unit'
+         heads(size(heads)) = 'Window'
          call begin_table(page, heads)
          test = ''
          do k = 1, size(rows)
@@ -438,6 +441,17 @@ contains
       end do
       text = page_text(page)
    end function page_of
+
+   !> Room for every label and for 'difference'.
+   pure integer function longest_label(results) result(longest)
+      type(results_t), intent(in) :: results(:)
+      integer :: r
+
+      longest = len('difference')
+      do r = 1, size(results)
+         longest = max(longest, len(results(r)%label))
+      end do
+   end function longest_label
 
    !> Title of a test by its name.
    pure function title_of(results, name) result(title)

@@ -130,10 +130,12 @@ contains
       complaints_count = self%used
    end function complaints_count
 
-   !> All messages, one a line, by file and line number; those of one line in the order they came.
+   !> The messages, one a line, by file and line number; those of one line in the order they came. Who has so many has
+   !> given a file that is no deck.
    pure function complaints_text(self) result(text)
       class(complaints_t), intent(in) :: self
       character(:), allocatable :: text
+      integer, parameter :: most = 100
       integer :: order(self%used), k, j, this
 
       do k = 1, self%used
@@ -145,10 +147,11 @@ contains
          order(j + 1) = this
       end do
       text = ''
-      do k = 1, self%used
+      do k = 1, min(self%used, most)
          if (k > 1) text = text//new_line('a')
          text = text//self%list(order(k))%text
       end do
+      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes: is this a deck?'
    end function complaints_text
 
    pure logical function is_before(a, b)
