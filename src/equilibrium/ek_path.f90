@@ -239,7 +239,7 @@ contains
       integer, intent(in) :: state_number
       real(wp), intent(in) :: before, value      !! place at either end of the increment
       type(failure_t), intent(inout) :: failure
-      real(wp), parameter :: far = 100.0_wp      ! m: no suspension moves that far
+      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, in one increment least of all
       real(wp) :: moved
       integer :: k
 
