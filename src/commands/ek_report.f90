@@ -19,7 +19,8 @@ module ek_report
    use ek_gnuplot, only: run_gnuplot, script_name_t
    use ek_gradient, only: gradient_t, windows_t, set_window, test_gradients
    use ek_gradient_file, only: write_gradients
-   use ek_scene, only: scene_t, camera_t, fit_camera, scene_script, animation_script, line_bump, line_rebound
+   use ek_scene, only: scene_t, line_bump, line_rebound
+   use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
    use ek_picture, only: add_solid, add_ghost, add_ground, add_names
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases

@@ -1,15 +1,14 @@
 !> What a suspension looks like at a state: bodies as bars between the points that hold them, springs, bushings, wheels.
 !>
-!> A body has no shape in the model, so its skeleton stands for it: the shortest tree through its attachment points, in
-!> which two points on the chassis are never joined directly (a wishbone is an A, not a bar along its own pivots).
+!> A body has no shape in the model: its skeleton stands for it.
 module ek_picture
    use ek_kinds, only: wp
    use ek_units, only: pi
    use ek_block, only: rotated
-   use ek_turn, only: pose_t
    use ek_measure, only: measure_t, rotation
    use ek_spring, only: axial_spring, stop_spring
    use ek_suspension, only: suspension_t
+   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_face, add_line, add_words, add_tube, add_surface, add_coil, add_ball, &
       part_ground, part_tyre, part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, &
@@ -21,21 +20,6 @@ module ek_picture
    ! Sizes that look right on a passenger car [m]
    real(wp), parameter :: arm_radius = 0.011_wp, rod_radius = 0.008_wp, ball_radius = 0.016_wp
    real(wp), parameter :: same_point = 1.0e-3_wp
-   integer, parameter :: most_points = 64
-
-   !> A point of a body.
-   type :: node_t
-      real(wp) :: arm(3) = 0.0_wp           !! body axes [m]
-      logical :: is_held = .false.          !! by the chassis
-      logical :: is_spring = .false.        !! a seat only
-   end type node_t
-
-   !> The points of a body and the bars between them.
-   type :: skeleton_t
-      type(node_t) :: nodes(most_points)
-      integer :: bars(2, most_points) = 0
-      integer :: used = 0, count = 0        !! nodes, bars
-   end type skeleton_t
 
 contains
 
@@ -250,86 +234,6 @@ contains
 
    end subroutine add_names
 
-   !> Attachment points of a body and the shortest tree through them.
-   function skeleton_of(suspension, body) result(skeleton)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: body
-      type(skeleton_t) :: skeleton
-      type(measure_t) :: measure
-      logical :: is_in(most_points), is_rigid
-      real(wp) :: best, cost
-      integer :: k, from, to, best_from, best_to
-
-      do k = 1, size(suspension%joints)
-         select case (suspension%joints(k)%kind)
-         case ('in_plane', 'in_line', 'perpendicular', 'parallel', 'driver', 'coupler')
-            cycle                                    ! they hold a body at no point of its own
-         end select
-         measure = first_measure(suspension, k)
-         is_rigid = suspension%joints(k)%kind /= 'distance'
-         if (measure%body_i == body) call add_node(measure%arm_i, is_rigid .and. measure%body_j == 0, .false.)
-         if (measure%body_j == body) call add_node(measure%arm_j, is_rigid .and. measure%body_i == 0, .false.)
-      end do
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
-            if (bushing%body_i == body) call add_node(bushing%arm_i, bushing%body_j == 0, .false.)
-            if (bushing%body_j == body) call add_node(bushing%arm_j, bushing%body_i == 0, .false.)
-         end associate
-      end do
-      do k = 1, size(suspension%springs)
-         measure = suspension%springs(k)%measure
-         if (measure%kind == rotation) cycle           ! it has no points
-         if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
-         if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)
-      end do
-      do k = 1, size(suspension%wheels)
-         if (suspension%wheels(k)%body == body) call add_node(suspension%wheels(k)%centre, .false., .false.)
-      end do
-      if (skeleton%used == 0) return
-
-      is_in = .false.
-      is_in(1) = .true.
-      do while (count(is_in(:skeleton%used)) < skeleton%used)
-         best = huge(1.0_wp)
-         best_from = 1
-         best_to = 1
-         do from = 1, skeleton%used
-            if (.not. is_in(from)) cycle
-            do to = 1, skeleton%used
-               if (is_in(to)) cycle
-               cost = norm2(skeleton%nodes(to)%arm - skeleton%nodes(from)%arm)
-               if (skeleton%nodes(to)%is_held .and. skeleton%nodes(from)%is_held) cost = cost + 100.0_wp
-               if (cost >= best) cycle
-               best = cost
-               best_from = from
-               best_to = to
-            end do
-         end do
-         is_in(best_to) = .true.
-         skeleton%count = skeleton%count + 1
-         skeleton%bars(:, skeleton%count) = [best_from, best_to]
-      end do
-
-   contains
-
-      subroutine add_node(arm, is_held, is_spring)
-         real(wp), intent(in) :: arm(3)
-         logical, intent(in) :: is_held, is_spring
-         integer :: n
-
-         do n = 1, skeleton%used
-            if (norm2(skeleton%nodes(n)%arm - arm) > same_point) cycle
-            skeleton%nodes(n)%is_held = skeleton%nodes(n)%is_held .or. is_held
-            skeleton%nodes(n)%is_spring = skeleton%nodes(n)%is_spring .and. is_spring
-            return
-         end do
-         if (skeleton%used == most_points) return
-         skeleton%used = skeleton%used + 1
-         skeleton%nodes(skeleton%used) = node_t(arm, is_held, is_spring)
-      end subroutine add_node
-
-   end function skeleton_of
-
    !> An arm held at two points is a wishbone: a thin plate between them and its furthest other point.
    subroutine add_plate(scene, suspension, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
@@ -523,36 +427,5 @@ contains
          end associate
       end do
    end function slides
-
-   !> The first measure of a joint: it has the joint's points, whatever the kind.
-   pure function first_measure(suspension, joint) result(measure)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: joint
-      type(measure_t) :: measure
-      measure = suspension%terms(suspension%rows(suspension%joints(joint)%first_row)%first)%measure
-   end function first_measure
-
-   !> The two points of a measure, global [m].
-   pure subroutine ends_of(measure, state, a, b)
-      type(measure_t), intent(in) :: measure
-      type(state_t), intent(in) :: state
-      real(wp), intent(out) :: a(3), b(3)
-
-      a = state%poses(measure%body_i + 1)%r + rotated(state%poses(measure%body_i + 1)%a, measure%arm_i)
-      b = state%poses(measure%body_j + 1)%r + rotated(state%poses(measure%body_j + 1)%a, measure%arm_j)
-   end subroutine ends_of
-
-   !> Where a point of a body is, global [m].
-   pure function place_of(suspension, state, body, arm) result(at)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      integer, intent(in) :: body
-      real(wp), intent(in) :: arm(3)
-      real(wp) :: at(3)
-
-      at = arm
-      if (body > 0 .and. body <= size(suspension%bodies)) &
-         at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
-   end function place_of
 
 end module ek_picture

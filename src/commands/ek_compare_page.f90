@@ -1,0 +1,182 @@
+!> The page of a comparison: charts with the curves of all results, and the table of gradients.
+module ek_compare_page
+   use ek_error, only: message_list_t
+   use ek_text, only: str
+   use ek_version, only: version
+   use ek_test_result, only: design_row
+   use ek_test_charts, only: quantity_t, all_quantities, quantities_of, quantity_named, quantity_chart
+   use ek_chart, only: chart_t, add_trace, append_chart
+   use ek_comparison, only: difference_t, difference, percent
+   use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
+      begin_row, add_cell, end_row, add_group, end_table, add_legend, page_text, page_number
+   use ek_report_files, only: results_t
+   use ek_report_page, only: chart_set_t, add_chart_set
+   implicit none(type, external)
+   private
+   public :: overlay, page_of, test_number
+
+contains
+
+   !> Charts of every test of the first result: one a column that another result has too, one curve a result.
+   subroutine overlay(results, sets)
+      type(results_t), intent(in) :: results(:)
+      type(chart_set_t), allocatable, intent(out) :: sets(:)
+      character(36), allocatable :: columns(:)
+      integer :: t, k
+
+      allocate (sets(size(results(1)%tests)))
+      do t = 1, size(sets)
+         allocate (sets(t)%charts(0))
+         columns = quantities_of(results(1)%tests(t)%kind)
+         do k = 1, size(columns)
+            call overlay_quantity(results, t, quantity_named(columns(k)), sets(t)%charts)
+         end do
+         do k = 1, size(all_quantities)
+            if (.not. any(columns == all_quantities(k)%column)) &
+               call overlay_quantity(results, t, all_quantities(k), sets(t)%charts)
+         end do
+      end do
+   end subroutine overlay
+
+   !> One quantity of a test, left and right apart.
+   subroutine overlay_quantity(results, test, quantity, charts)
+      type(results_t), intent(in) :: results(:)
+      integer, intent(in) :: test
+      type(quantity_t), intent(in) :: quantity
+      type(chart_t), allocatable, intent(inout) :: charts(:)
+      type(chart_t), allocatable :: own(:)
+      type(chart_t) :: chart
+      integer :: r, side, u, k, drawn
+
+      if (quantity%column == results(1)%tests(test)%abscissa) return
+      allocate (own(size(results)))
+      own(1) = quantity_chart(results(1)%tests(test), quantity)
+      do r = 2, size(results)
+         u = test_number(results(r), results(1)%tests(test)%name)
+         if (u > 0) own(r) = quantity_chart(results(r)%tests(u), quantity)
+      end do
+      do side = 1, size(own(1)%traces)
+         chart = own(1)
+         deallocate (chart%traces)
+         allocate (chart%traces(0))
+         associate (name => own(1)%traces(side)%title)
+            if (len(name) > 0) then
+               chart%name = chart%name//'_'//name
+               chart%title = chart%title//', '//name
+            end if
+            drawn = 0
+            do r = 1, size(results)
+               if (.not. allocated(own(r)%traces)) cycle
+               do k = 1, size(own(r)%traces)
+                  if (own(r)%traces(k)%title /= name) cycle
+                  own(r)%traces(k)%colour = r
+                  own(r)%traces(k)%dash = merge(0, 1 + modulo(r - 2, 3), r == 1)
+                  call add_trace(chart, own(r)%traces(k))
+                  drawn = drawn + 1
+               end do
+            end do
+         end associate
+         if (drawn > 1) call append_chart(charts, chart)
+      end do
+   end subroutine overlay_quantity
+
+   !> compare.html
+   function page_of(results, rows, sets, missing, folder) result(text)
+      type(results_t), intent(in) :: results(:)
+      type(difference_t), intent(in) :: rows(:)
+      type(chart_set_t), intent(in) :: sets(:)
+      type(message_list_t), intent(in) :: missing
+      character(*), intent(in) :: folder
+      character(:), allocatable :: text, test
+      type(page_t) :: page
+      type(message_list_t) :: names, values
+      character(longest_label(results)) :: labels(size(results))
+      character(longest_label(results) + 1) :: heads(3*size(results) + 1)
+      integer :: k, r, t
+
+      do r = 1, size(results)
+         labels(r) = results(r)%label
+         call names%add(achar(iachar('A') + modulo(r - 1, 26)))
+         call values%add(results(r)%path)
+      end do
+      call names%add('Program')
+      call values%add('elastokin '//version)
+      call begin_page(page, 'Comparison', 'Results laid over each other; gradients against those of A')
+      call add_facts(page, names, values)
+      call add_warnings(page, 'Not in all of them', missing)
+      if (size(rows) > 0) then
+         call begin_section(page, 'gradients', 'Gradients')
+         heads(1) = 'Quantity'
+         heads(2) = '>'//labels(1)
+         do r = 2, size(results)
+            heads(3*r - 3) = '>'//labels(r)
+            heads(3*r - 2) = '>difference'
+            heads(3*r - 1) = '>percent'
+         end do
+         heads(size(heads) - 1) = 'Unit'
+         heads(size(heads)) = 'Window'
+         call begin_table(page, heads)
+         test = ''
+         do k = 1, size(rows)
+            if (rows(k)%test /= test) then
+               test = rows(k)%test
+               call add_group(page, title_of(results(1), test))
+            end if
+            call begin_row(page)
+            call add_cell(page, trim(rows(k)%quantity//' '//rows(k)%side))
+            call add_cell(page, page_number(rows(k)%values(1)), 'n')
+            do r = 2, size(results)
+               call add_cell(page, page_number(rows(k)%values(r)), 'n')
+               call add_cell(page, page_number(difference(rows(k)%values(1), rows(k)%values(r))), 'n')
+               call add_cell(page, page_number(percent(rows(k)%values(1), rows(k)%values(r))), 'n')
+            end do
+            call add_cell(page, rows(k)%unit)
+            call add_cell(page, rows(k)%window)
+            call end_row(page)
+         end do
+         call end_table(page)
+         call end_section(page)
+      end if
+      do t = 1, size(sets)
+         if (size(sets(t)%charts) == 0) cycle
+         call begin_section(page, 'test-'//str(t), results(1)%tests(t)%title)
+         call add_legend(page, labels, design_row(results(1)%tests(t)%table) > 0)
+         call add_chart_set(page, sets(t)%charts, folder)
+         call end_section(page)
+      end do
+      text = page_text(page)
+   end function page_of
+
+   !> Room for every label and for 'difference'.
+   pure integer function longest_label(results) result(longest)
+      type(results_t), intent(in) :: results(:)
+      integer :: r
+
+      longest = len('difference')
+      do r = 1, size(results)
+         longest = max(longest, len(results(r)%label))
+      end do
+   end function longest_label
+
+   !> Title of a test by its name.
+   pure function title_of(results, name) result(title)
+      type(results_t), intent(in) :: results
+      character(*), intent(in) :: name
+      character(:), allocatable :: title
+      integer :: k
+
+      title = name
+      k = test_number(results, name)
+      if (k > 0) title = results%tests(k)%title
+   end function title_of
+
+   pure integer function test_number(results, name) result(number)
+      type(results_t), intent(in) :: results
+      character(*), intent(in) :: name
+
+      do number = size(results%tests), 1, -1
+         if (results%tests(number)%name == name) return
+      end do
+   end function test_number
+
+end module ek_compare_page

@@ -1,0 +1,290 @@
+!> A scene in space as a gnuplot script, still or moving.
+!>
+!> gnuplot sorts the faces by depth and shades them. The script can be turned with the mouse: `gnuplot -p picture.gp` after
+!> `set terminal qt`. A view is two angles [deg] of gnuplot's `set view`: at turn = 0 one looks to the right of the car
+!> from its left, at 270 rearward from its front.
+module ek_scene_script
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_decimal, only: put_decimal, longest_decimal
+   use ek_gnuplot, only: gnuplot_text
+   use ek_scene, only: scene_t, run_t, part_tyre, line_bump, line_rebound, parts, line_kinds
+   implicit none(type, external)
+   private
+   public :: camera_t, scene_script, animation_script, fit_camera
+
+   character(7), parameter :: part_colours(parts) = ['#E9EEF2', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', &
+      '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B']
+   real(wp), parameter :: part_solidity(parts) = [0.35_wp, 0.16_wp, 0.22_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, &
+      1.0_wp, 1.0_wp]
+   character(16), parameter :: part_names(parts) = [character(16) :: '', 'wheel', '', 'wheel carrier', 'arms', 'rods', &
+      'springs', 'struts, dampers', 'bushings', 'joints', 'chassis']
+   character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4']
+
+   !> From where and how large.
+   type :: camera_t
+      real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! deg
+      real(wp) :: centre(3) = 0.0_wp                    !! m, in the middle of the picture
+      real(wp) :: span = 1.0_wp                         !! m, edge of the cube that gnuplot is told of
+      real(wp) :: zoom = 1.0_wp                         !! third number of `set view`
+   end type camera_t
+
+contains
+
+   !> Sets centre, span and zoom so that all faces and lines of some scenes fill a picture of this shape.
+   !>
+   !> gnuplot draws the longest edge of its box a certain share of the shorter side of the picture long, times the zoom.
+   subroutine fit_camera(camera, scenes, width, height, footer)
+      type(camera_t), intent(inout) :: camera     !! tilt and turn are given
+      type(scene_t), intent(in) :: scenes(:)
+      real(wp), intent(in) :: width, height       !! of the picture, any unit
+      real(wp), intent(in) :: footer              !! share of the height that is kept free below
+      real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, and letters of 12 to 13
+      real(wp), parameter :: above_middle = 0.014_wp   ! where it puts the centre, in heights of the picture; likewise
+      real(wp) :: right(3), up(3), low(2), high(2), p(2), scale
+      integer :: s, k
+
+      right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
+      up = [-sin(camera%turn*degree)*cos(camera%tilt*degree), cos(camera%turn*degree)*cos(camera%tilt*degree), &
+         sin(camera%tilt*degree)]
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      camera%span = 0.1_wp
+      do s = 1, size(scenes)
+         do k = 1, scenes(s)%faces%used
+            call include(scenes(s)%faces%at(:, k))
+         end do
+         do k = 1, scenes(s)%lines%used
+            call include(scenes(s)%lines%at(:, k))
+         end do
+      end do
+      if (low(1) > high(1)) return
+      p = (low + high)/2
+      scale = 0.95_wp*min(width/max(high(1) - low(1), 1.0e-3_wp), height*(1 - footer)/max(high(2) - low(2), 1.0e-3_wp))
+      camera%centre = right*p(1) + up*(p(2) - (footer/2 - above_middle)*height/scale)
+      ! the box must hold every vertex, or gnuplot would cut there
+      do s = 1, size(scenes)
+         do k = 1, scenes(s)%faces%used
+            camera%span = max(camera%span, 2.1_wp*maxval(abs(scenes(s)%faces%at(:, k) - camera%centre)))
+         end do
+         do k = 1, scenes(s)%lines%used
+            camera%span = max(camera%span, 2.1_wp*maxval(abs(scenes(s)%lines%at(:, k) - camera%centre)))
+         end do
+      end do
+      camera%zoom = scale*camera%span/(box_share*min(width, height))
+
+   contains
+
+      subroutine include(at)
+         real(wp), intent(in) :: at(3)
+         p = [dot_product(right, at), dot_product(up, at)]
+         low = min(low, p)
+         high = max(high, p)
+      end subroutine include
+
+   end subroutine fit_camera
+
+   !> A script that draws one scene as <name>.png and <name>.svg.
+   pure function scene_script(scene, camera, name, title) result(text)
+      type(scene_t), intent(in) :: scene
+      type(camera_t), intent(in) :: camera
+      character(*), intent(in) :: name, title
+      character(:), allocatable :: text
+      type(buffer_t) :: script
+
+      call script%line('# '//title)
+      call script%line('# Run gnuplot in this folder to draw it again; to turn it: gnuplot -e "look=1" -p '//name//'.gp')
+      call add_look(script, camera)
+      call add_blocks(script, scene)
+      call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
+         "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
+         gnuplot_text(name//'.svg')//' }')
+      call add_splot(script, scene, .true.)
+      call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
+         'linewidth 1.5 noenhanced; set output '//gnuplot_text(name//'.png')//'; replot; unset output }')
+      text = script%text()
+   end function scene_script
+
+   !> A script that draws scenes one after the other as <name>.gif, for ever.
+   pure function animation_script(scenes, captions, camera, name, title) result(text)
+      type(scene_t), intent(in) :: scenes(:)
+      character(*), intent(in) :: captions(:)
+      type(camera_t), intent(in) :: camera
+      character(*), intent(in) :: name, title
+      character(:), allocatable :: text
+      type(buffer_t) :: script
+      integer :: k
+
+      call script%line('# '//title//': '//str(size(scenes))//' pictures, one after the other')
+      call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
+      call script%line('set output '//gnuplot_text(name//'.gif'))
+      call add_look(script, camera)
+      do k = 1, size(scenes)
+         call add_blocks(script, scenes(k))
+         call script%line('set label 99 '//gnuplot_text(trim(captions(k)))//' at screen 0.03, screen 0.05')
+         call add_splot(script, scenes(k), .false.)
+      end do
+      call script%line('unset output')
+      call script%line('unset label 99')
+      text = script%text()
+   end function animation_script
+
+   !> Equal axes without box, view, shading.
+   pure subroutine add_look(script, camera)
+      type(buffer_t), intent(inout) :: script
+      type(camera_t), intent(in) :: camera
+      integer :: k
+      character(1), parameter :: names(3) = ['x', 'y', 'z']
+
+      call script%line('reset')
+      call script%line('set encoding utf8')
+      call script%line('set view equal xyz')
+      call script%line('set view '//str(camera%tilt, 4)//', '//str(camera%turn, 4)//', '//str(camera%zoom, 5))
+      do k = 1, 3
+         call script%line('set '//names(k)//'range ['//str((camera%centre(k) - camera%span/2)/millimetre, 6)//' : '// &
+            str((camera%centre(k) + camera%span/2)/millimetre, 6)//']')
+      end do
+      call script%line('set xyplane at '//str((camera%centre(3) - camera%span/2)/millimetre, 6))
+      call script%line('unset border; unset tics; unset key')
+      call script%line('set pm3d depthorder noborder')
+      call script%line('set pm3d lighting primary 0.42 specular 0.12')
+   end subroutine add_look
+
+   !> The vertices [mm], one block a kind.
+   pure subroutine add_blocks(script, scene)
+      type(buffer_t), intent(inout) :: script
+      type(scene_t), intent(in) :: scene
+      integer :: kind
+
+      do kind = 1, parts
+         if (has_kind(scene%faces, kind)) call add_block(script, '$part'//str(kind), scene%faces, kind, .true.)
+      end do
+      do kind = 1, line_kinds
+         if (has_kind(scene%lines, kind)) call add_block(script, '$line'//str(kind), scene%lines, kind, .false.)
+      end do
+   end subroutine add_blocks
+
+   pure logical function has_kind(list, kind)
+      type(run_t), intent(in) :: list
+      integer, intent(in) :: kind
+
+      has_kind = .false.
+      if (list%runs > 0) has_kind = any(list%kind(:list%runs) == kind)
+   end function has_kind
+
+   pure subroutine add_block(script, name, list, kind, is_closed)
+      type(buffer_t), intent(inout) :: script
+      character(*), intent(in) :: name
+      type(run_t), intent(in) :: list
+      integer, intent(in) :: kind
+      logical, intent(in) :: is_closed       !! polygons: gnuplot wants two blank lines between them
+      character(3*longest_decimal + 3) :: line
+      integer :: k, vertex, axis, used
+
+      call script%line(name//' << EOD')
+      do k = 1, list%runs
+         if (list%kind(k) /= kind) cycle
+         do vertex = list%first(k), list%first(k + 1) - 1
+            used = 0
+            do axis = 1, 3
+               if (axis > 1) then
+                  used = used + 1
+                  line(used:used) = ' '
+               end if
+               call put_decimal(anint(list%at(axis, vertex)*1.0e4_wp)/10.0_wp, line, used)   ! to 0.1 mm
+            end do
+            call script%line(line(:used))
+         end do
+         call script%line('')
+         if (is_closed) call script%line('')
+      end do
+      call script%line('EOD')
+   end subroutine add_block
+
+   !> Labels, legend and the splot command.
+   pure subroutine add_splot(script, scene, has_legend)
+      type(buffer_t), intent(inout) :: script
+      type(scene_t), intent(in) :: scene
+      logical, intent(in) :: has_legend
+      character(:), allocatable :: line
+      integer :: kind, k
+
+      do k = 1, scene%labels
+         call script%line('set label '//str(100 + k)//' '//gnuplot_text(scene%words(k)%text)//' at '// &
+            str(scene%words(k)%at(1)/millimetre, 5)//', '//str(scene%words(k)%at(2)/millimetre, 5)//', '// &
+            str(scene%words(k)%at(3)/millimetre, 5)//" front font ',11' textcolor rgb '#30343B' offset "// &
+            str(scene%words(k)%aside, 3)//', 0.5')
+      end do
+      if (has_legend) call add_legend(script, scene)
+      line = 'splot '
+      do kind = 1, line_kinds
+         if (.not. has_kind(scene%lines, kind)) cycle
+         call script%line(line//'$line'//str(kind)//" using 1:2:3 with lines linecolor rgb '"//line_colours(kind)// &
+            "' linewidth 1.3 notitle, \")
+         line = '      '
+      end do
+      do kind = 1, parts
+         if (.not. has_kind(scene%faces, kind)) cycle
+         call script%line(line//'$part'//str(kind)//' using 1:2:3 with polygons '//fill(kind)//' notitle, \')
+         line = '      '
+      end do
+      call script%line("      1/0 notitle")
+   end subroutine add_splot
+
+   !> Swatches and names below the picture. (gnuplot's own legend loses entries in splot when it has several columns.)
+   pure subroutine add_legend(script, scene)
+      type(buffer_t), intent(inout) :: script
+      type(scene_t), intent(in) :: scene
+      integer, parameter :: in_a_row = 6
+      integer :: kind, used
+
+      used = 0
+      do kind = 1, parts
+         if (has_kind(scene%faces, kind) .and. len_trim(part_names(kind)) > 0) &
+            call add_entry(script, used, trim(part_names(kind)), key_colour(kind), 0.012_wp, in_a_row)
+      end do
+      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp, in_a_row)
+      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp, in_a_row)
+   end subroutine add_legend
+
+   !> One swatch and its name.
+   pure subroutine add_entry(script, used, name, colour, height, in_a_row)
+      type(buffer_t), intent(inout) :: script
+      integer, intent(inout) :: used
+      character(*), intent(in) :: name, colour
+      real(wp), intent(in) :: height              !! of the swatch, share of the picture
+      integer, intent(in) :: in_a_row
+      character(:), allocatable :: x, y
+
+      x = str(0.045_wp + 0.158_wp*modulo(used, in_a_row), 4)
+      y = str(0.075_wp - 0.04_wp*(used/in_a_row), 4)
+      used = used + 1
+      call script%line('set object '//str(used)//' rectangle center screen '//x//', screen '//y//' size screen 0.024, screen '// &
+         str(height)//" fillcolor rgb '"//colour//"' fillstyle solid noborder")
+      call script%line('set label '//str(used)//' '//gnuplot_text(name)//' at screen '//x//', screen '//y// &
+         " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
+   end subroutine add_entry
+
+   !> The colour of a part on white.
+   pure function key_colour(kind) result(colour)
+      integer, intent(in) :: kind
+      character(7) :: colour
+      colour = part_colours(kind)
+      if (kind == part_tyre) colour = '#CCCCCC'
+   end function key_colour
+
+   pure function fill(kind) result(words)
+      integer, intent(in) :: kind
+      character(:), allocatable :: words
+
+      if (part_solidity(kind) < 1.0_wp) then
+         words = 'fillstyle transparent solid '//str(part_solidity(kind), 2)//' noborder'
+      else
+         words = 'fillstyle solid noborder'
+      end if
+      words = words//" fillcolor rgb '"//part_colours(kind)//"'"
+   end function fill
+
+end module ek_scene_script
