@@ -244,6 +244,8 @@ contains
          ' moved most in the last attempt ('//str(failure%moved/millimetre, 3)//' mm)'
       if (failure%row > 0) text = text//'; joint '//quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)// &
          ' is furthest from closing'
+      if (size(suspension%wheels) > 0 .and. .not. any(suspension%springs%kind == axial_spring)) &
+         text = text//'; the deck has no spring'
       if (.not. failure%is_singular .or. count(path%is_reached) == 0) return
       last = merge(failure%state - 1, failure%state + 1, failure%state > max(path%start, 1))
       if (last < 1 .or. last > path%states) return
