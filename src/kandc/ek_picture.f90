@@ -6,7 +6,7 @@ module ek_picture
    use ek_units, only: pi
    use ek_block, only: rotated
    use ek_measure, only: measure_t, rotation
-   use ek_spring, only: axial_spring, stop_spring
+   use ek_spring, only: axial_spring, stop_spring, damper
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of
    use ek_state, only: state_t
@@ -205,13 +205,14 @@ contains
       do k = 1, size(suspension%joints)
          if (suspension%joints(k)%kind /= 'distance') cycle
          call ends_of(first_measure(suspension, k), state, a, b)
-         at = (a + b)/2
+         at = 0.8_wp*a + 0.2_wp*b      ! not where a wishbone or a carrier beside it has its name
          call name_at(suspension%joints(k)%name)
       end do
       do k = 1, size(suspension%springs)
          if (suspension%springs(k)%measure%kind == rotation .or. suspension%springs(k)%kind == stop_spring) cycle
          call ends_of(suspension%springs(k)%measure, state, a, b)
          at = 0.3_wp*a + 0.7_wp*b
+         if (suspension%springs(k)%kind == damper) at = b         ! above the coil that stands around it
          call name_at(suspension%springs(k)%name, 5.0_wp)
       end do
 
