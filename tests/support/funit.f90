@@ -15,6 +15,12 @@ module funit
   public :: assertEqual, assertTrue, assertFalse, assertAll, assertFail
   public :: assertLessThan, assertLessThanOrEqual, assertGreaterThan
   public :: assertIsFinite, assertIsNaN
+  public :: test, run
+
+  !> pFUnit's module has a type of this name and a procedure `run`: a test module that takes one of them for its own does
+  !> not compile there, and so not here.
+  type :: test
+  end type test
 
   !> The three orders are of scalars; NaN fails each of them.
   interface assertLessThan
@@ -30,6 +36,10 @@ module funit
   end interface assertGreaterThan
 
 contains
+
+  !> Nothing; see `test`.
+  subroutine run()
+  end subroutine run
 
   subroutine less_real(lhs, rhs, message, location)
     real(real64), intent(in) :: lhs, rhs
