@@ -27,7 +27,7 @@ module ek_report
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
    use ek_report_files, only: write_contents, contents_file, gradients_file
    use ek_report_page, only: chart_set_t, report_page
-   use ek_run_words, only: say_preloads, patch_words
+   use ek_run_words, only: say_preloads, patch_words, spring_words
    use ek_words, only: say, warn, complain
    implicit none(type, external)
    private
@@ -75,14 +75,15 @@ contains
       call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
+      call planned_tests(suspension, chosen, planned)
       call patch_words(suspension, warnings)
+      call spring_words(suspension, planned%case, warnings)
       do k = 1, warnings%count()
          call warn(warnings%line(k))
       end do
       call remove_file(join_path(folder, 'report.html'))     ! of an earlier report: it must not be taken for this one
       call remove_file(join_path(folder, contents_file))
 
-      call planned_tests(suspension, chosen, planned)
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
       failed = 0
       code = exit_convergence

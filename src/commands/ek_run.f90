@@ -26,8 +26,8 @@ module ek_run
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
-   use ek_run_words, only: say_settled, say_preloads, patch_words, rack_words, warn_of_drift, warn_of_instability, warn_of_travel, &
-      failure_words
+   use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
+      warn_of_instability, warn_of_travel, failure_words
    use ek_words, only: say, warn, complain, show_progress, clear_progress
    implicit none(type, external)
    private
@@ -66,6 +66,7 @@ contains
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
       call patch_words(suspension, doubts)
+      call spring_words(suspension, chosen, doubts)
       do k = 1, doubts%count()
          call warn(doubts%line(k))
       end do

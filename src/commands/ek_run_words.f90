@@ -4,7 +4,7 @@ module ek_run_words
    use ek_error, only: message_list_t
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
-   use ek_spring, only: axial_spring
+   use ek_spring, only: axial_spring, torsion_spring
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
@@ -20,7 +20,7 @@ module ek_run_words
    implicit none(type, external)
    private
    public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel
-   public :: patch_words, rack_words, failure_words
+   public :: patch_words, spring_words, rack_words, failure_words
 
 contains
 
@@ -86,6 +86,38 @@ contains
          end associate
       end do
    end subroutine patch_words
+
+   !> Whether something is there to carry the car: a spring, or a torsion spring against the chassis.
+   pure logical function has_spring(suspension)
+      type(suspension_t), intent(in) :: suspension
+      integer :: k
+
+      has_spring = .false.
+      do k = 1, size(suspension%springs)
+         associate (spring => suspension%springs(k))
+            has_spring = has_spring .or. spring%kind == axial_spring .or. &
+               (spring%kind == torsion_spring .and. min(spring%measure%body_i, spring%measure%body_j) == 0)
+         end associate
+      end do
+   end function has_spring
+
+   !> A suspension without a spring still finds an equilibrium, on its bushings and stops. Cases that only lead a
+   !> wheel or a driver, as in kinematics, need none.
+   subroutine spring_words(suspension, cases, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(message_list_t), intent(inout) :: words
+      logical :: leads_only
+      integer :: k
+
+      if (size(suspension%wheels) == 0 .or. has_spring(suspension)) return
+      leads_only = .true.
+      do k = 1, size(cases)
+         leads_only = leads_only .and. .not. cases(k)%has_all .and. len(cases(k)%drive) > 0
+      end do
+      if (leads_only) return
+      call words%add('the deck has no spring: nothing but bushings, bars and stops carries the wheels, and rates are theirs')
+   end subroutine spring_words
 
    !> A steering test that leaves the rack behind.
    subroutine rack_words(suspension, case, words)
@@ -201,7 +233,7 @@ contains
          if (k > size(case%courses)) return
       end if
       advice = '; are the rates, and their units, as meant?'
-      if (.not. any(suspension%springs%kind == axial_spring)) advice = '; the deck has no spring'
+      if (.not. has_spring(suspension)) advice = '; the deck has no spring'
       ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
       state = design_state(suspension)
       do n = 1, 2
@@ -244,7 +276,7 @@ contains
          ' moved most in the last attempt ('//str(failure%moved/millimetre, 3)//' mm)'
       if (failure%row > 0) text = text//'; joint '//quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)// &
          ' is furthest from closing'
-      if (size(suspension%wheels) > 0 .and. .not. any(suspension%springs%kind == axial_spring)) &
+      if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) &
          text = text//'; the deck has no spring'
       if (.not. failure%is_singular .or. count(path%is_reached) == 0) return
       last = merge(failure%state - 1, failure%state + 1, failure%state > max(path%start, 1))
