@@ -9,7 +9,7 @@ module ek_compare
    use ek_table, only: column_index
    use ek_chart, only: chart_t, charts_script
    use ek_gnuplot, only: run_gnuplot, script_name_t
-   use ek_gradient, only: windows_t
+   use ek_gradient_window, only: windows_t
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results

@@ -17,7 +17,8 @@ module ek_report
    use ek_test_charts, only: test_charts
    use ek_chart, only: charts_script, chart_t
    use ek_gnuplot, only: run_gnuplot, script_name_t
-   use ek_gradient, only: gradient_t, windows_t, set_window, test_gradients
+   use ek_gradient, only: gradient_t, test_gradients
+   use ek_gradient_window, only: windows_t, set_window
    use ek_gradient_file, only: write_gradients
    use ek_scene, only: scene_t, line_bump, line_rebound
    use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script

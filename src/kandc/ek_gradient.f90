@@ -16,21 +16,13 @@ module ek_gradient
    use ek_text, only: str
    use ek_table, only: row_count, column_index, name_length
    use ek_test_result, only: test_result_t, converged_rows, wheel_column
+   use ek_gradient_definition, only: definition_t, definitions_of
+   use ek_gradient_window, only: windows_t, window_of
    implicit none(type, external)
    private
-   public :: gradient_t, definition_t, windows_t, test_gradients, slope_over_window, definitions_of, set_window
+   public :: gradient_t, test_gradients, slope_over_window
 
    integer, parameter :: least_points = 3     !! a line through fewer is no fit
-
-   !> Half widths of the windows, each about 0.
-   type :: windows_t
-      real(wp) :: travel = 15.0_wp      !! mm
-      real(wp) :: roll = 1.0_wp         !! deg
-      real(wp) :: force = 1000.0_wp     !! N
-      real(wp) :: torque = 100.0_wp     !! N m
-      real(wp) :: rack = 10.0_wp        !! mm of steering input
-      real(wp) :: wheel = 20.0_wp       !! deg of steering wheel
-   end type windows_t
 
    !> One number of the gradient report.
    type :: gradient_t
@@ -40,165 +32,15 @@ module ek_gradient
       character(:), allocatable :: unit, sign  !! 'deg/m'; when it is positive, in words
       character(:), allocatable :: column, over   !! the columns of the table
       character(:), allocatable :: window      !! '±15 mm'
-      real(wp) :: window_half = 0.0_wp
-      real(wp) :: value = 0.0_wp
+      real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
+      real(wp) :: value = 0.0_wp               !! in `unit`; not a number where there is a note
       integer :: points = 0                    !! states in the window
       character(:), allocatable :: note        !! why there is no value; else ''
    end type gradient_t
 
-   !> How a gradient is made.
-   type :: definition_t
-      character(36) :: quantity = ''
-      character(28) :: column = ''
-      character(20) :: over = ''          !! column; 'factor' in units of the case (N, N m, mm)
-      real(wp) :: size = 1.0_wp           !! times the slope
-      character(12) :: unit = ''
-      character(72) :: sign = ''
-      character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, wanted forward;
-      !!                                     'i': outward, wanted to the right
-      logical :: is_own = .false.         !! x counts as seen from the wheel: mirrored on the right one
-   end type definition_t
-
-   character(*), parameter :: in_bump = ' in bump', left_in_bump = '+ turns to the left in bump'
-
-   type(definition_t), parameter :: travel_list(*) = [ &
-      definition_t('bump toe', 'toe_deg', 'wheel_travel_mm', 1000.0_wp, 'deg/m', '+ front edge moves inward'//in_bump), &
-      definition_t('bump steer', 'toe_deg', 'wheel_travel_mm', 1000.0_wp, 'deg/m', left_in_bump, 's'), &
-      definition_t('bump camber', 'camber_deg', 'wheel_travel_mm', 1000.0_wp, 'deg/m', '+ top moves outward'//in_bump), &
-      definition_t('bump caster', 'caster_deg', 'wheel_travel_mm', 1000.0_wp, 'deg/m', &
-      '+ top of the axis moves rearward'//in_bump), &
-      definition_t('bump caster, instant axis', 'instant_caster_deg', 'wheel_travel_mm', 1000.0_wp, 'deg/m', &
-      '+ top of the axis moves rearward'//in_bump), &
-      definition_t('half-track change', 'track_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', '+ patch moves outward'//in_bump), &
-      definition_t('wheelbase change', 'wheelbase_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
-      '+ patch moves rearward'//in_bump), &
-      definition_t('wheel rate', 'vertical_force_n', 'wheel_travel_mm', 1.0_wp, 'N/mm', '+ load grows'//in_bump), &
-      definition_t('roll-centre height change', 'roll_centre_height_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
-      '+ rises over the ground'//in_bump)]
-
-   type(definition_t), parameter :: roll_list(*) = [ &
-      definition_t('roll steer', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ turns to the left when the left wheel goes up', 's'), &
-      definition_t('roll toe', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ front edge moves inward on the wheel that goes up', &
-      is_own=.true.), &
-      definition_t('roll camber', 'camber_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top moves outward on the wheel that goes up', &
-      is_own=.true.), &
-      definition_t('roll inclination', 'inclination_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top moves outward, against the road, on the wheel that goes up', is_own=.true.), &
-      definition_t('roll caster', 'caster_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top of the axis moves rearward on the wheel that goes up', is_own=.true.), &
-      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', &
-      '+ grows on the wheel that goes up', &
-      is_own=.true.), &
-      definition_t('roll rate', 'roll_moment_nm', 'axle_roll_deg', 1.0_wp, 'N m/deg', '+ resists')]
-
-   type(definition_t), parameter :: lateral_list(*) = [ &
-      definition_t('lateral force steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', &
-      '+ turns to the left under a force to the right', 's'), &
-      definition_t('lateral force camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', &
-      '+ top moves outward under a force inward', &
-      is_own=.true.), &
-      definition_t('lateral deflection', 'track_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch gives way along the force', 'i')]
-
-   type(definition_t), parameter :: aligning_list(*) = [ &
-      definition_t('aligning torque steer', 'toe_deg', 'factor', 100.0_wp, 'deg/100 N m', &
-      '+ turns to the left under a torque to the left', 's'), &
-      definition_t('aligning torque camber', 'camber_deg', 'factor', 100.0_wp, 'deg/100 N m', &
-      '+ top moves outward under a torque that turns the front edge outward', is_own=.true.)]
-
-   type(definition_t), parameter :: braking_list(*) = [ &
-      definition_t('braking deflection', 'wheelbase_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch gives way rearward'), &
-      definition_t('braking steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ turns to the left', 's'), &
-      definition_t('braking toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward'), &
-      definition_t('braking caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top of the axis moves rearward')]
-
-   type(definition_t), parameter :: traction_list(*) = [ &
-      definition_t('traction deflection', 'wheel_centre_x_mm', 'factor', 1000.0_wp, 'mm/kN', &
-      '+ wheel centre gives way forward', 'd'), &
-      definition_t('traction steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ turns to the left', 's'), &
-      definition_t('traction toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward'), &
-      definition_t('traction caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top of the axis moves rearward')]
-
-   type(definition_t), parameter :: steering_list(*) = [ &
-      definition_t('steer per steering wheel', 'toe_deg', 'steering_wheel_deg', 1.0_wp, 'deg/deg', '+ to the left', 's'), &
-      definition_t('steer per steering input', 'toe_deg', 'factor', 1.0_wp, 'deg/mm', '+ to the left', 's'), &
-      definition_t('steer camber', 'camber_deg', 'factor', 1.0_wp, 'deg/mm', &
-      '+ top moves outward, steered to the own side', is_own=.true.), &
-      definition_t('steer caster', 'caster_deg', 'factor', 1.0_wp, 'deg/mm', &
-      '+ top moves rearward, steered to the own side', is_own=.true.), &
-      definition_t('scrub radius change', 'scrub_radius_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, steered to the own side', is_own=.true.), &
-      definition_t('caster trail change', 'caster_trail_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, steered to the own side', is_own=.true.), &
-      definition_t('lift', 'wheel_travel_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ wheel moves up, steered to the own side', is_own=.true.)]
-
-   type(definition_t), parameter :: vertical_list(*) = [ &
-      definition_t('vertical deflection', 'wheel_travel_mm', 'factor', 1000.0_wp, 'mm/kN', '+ wheel moves up under a force up'), &
-      definition_t('vertical force toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward under a force up'), &
-      definition_t('vertical force camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top moves outward under a force up'), &
-      definition_t('vertical force caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top moves rearward under a force up')]
-
 contains
 
-   !> Sets the half width of one window by its word: travel, roll, force, torque, rack, wheel.
-   pure subroutine set_window(windows, word, half, is_known)
-      type(windows_t), intent(inout) :: windows
-      character(*), intent(in) :: word
-      real(wp), intent(in) :: half         !! mm, deg, N or N m; positive
-      logical, intent(out) :: is_known
-
-      is_known = .true.
-      select case (word)
-      case ('travel')
-         windows%travel = half
-      case ('roll')
-         windows%roll = half
-      case ('force')
-         windows%force = half
-      case ('torque')
-         windows%torque = half
-      case ('rack')
-         windows%rack = half
-      case ('wheel')
-         windows%wheel = half
-      case default
-         is_known = .false.
-      end select
-   end subroutine set_window
-
-   !> The declared gradients of a kind of test.
-   pure function definitions_of(kind) result(list)
-      character(*), intent(in) :: kind
-      type(definition_t), allocatable :: list(:)
-
-      select case (kind)
-      case ('parallel_travel', 'opposite_travel', 'single_travel')
-         list = travel_list
-         if (kind == 'opposite_travel') list%quantity = 'opposite '//list%quantity(:27)
-         if (kind == 'single_travel') list%quantity = 'single '//list%quantity(:29)
-      case ('roll')
-         list = roll_list
-      case ('lateral_force')
-         list = lateral_list
-      case ('aligning_torque')
-         list = aligning_list
-      case ('braking')
-         list = braking_list
-      case ('traction')
-         list = traction_list
-      case ('steering')
-         list = steering_list
-      case ('vertical_force')
-         list = vertical_list
-      case default
-         allocate (list(0))
-      end select
-   end function definitions_of
-
-   !> All gradients of a test that its table defines.
+   !> All gradients that the kind of a test declares and its table defines.
    subroutine test_gradients(test, windows, gradients)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
@@ -303,39 +145,9 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Half width and unit of the window of a gradient.
-   pure subroutine window_of(kind, over, windows, half, unit)
-      character(*), intent(in) :: kind, over
-      type(windows_t), intent(in) :: windows
-      real(wp), intent(out) :: half
-      character(*), intent(out) :: unit
-
-      select case (over)
-      case ('wheel_travel_mm')
-         half = windows%travel
-         unit = 'mm'
-      case ('axle_roll_deg')
-         half = windows%roll
-         unit = 'deg'
-      case ('steering_wheel_deg')
-         half = windows%wheel
-         unit = 'deg'
-      case default
-         half = windows%force
-         unit = 'N'
-         if (kind == 'aligning_torque') then
-            half = windows%torque
-            unit = 'N m'
-         else if (kind == 'steering') then
-            half = windows%rack
-            unit = 'mm'
-         end if
-      end select
-   end subroutine window_of
-
    !> Least-squares slope of y over x where |x| ≤ half; not a number with fewer than three different x.
    pure subroutine slope_over_window(x, y, half, slope, points)
-      real(wp), intent(in) :: x(:), y(:)
+      real(wp), intent(in) :: x(:), y(:)   !! a state each; those that are not numbers are passed over
       real(wp), intent(in) :: half
       real(wp), intent(out) :: slope
       integer, intent(out) :: points       !! states in the window
