@@ -5,16 +5,16 @@ module ek_compare
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
-   use ek_file, only: make_folder, write_whole, join_path, remove_file, write_standard_output
+   use ek_file, only: make_folder, write_whole, join_path, write_standard_output
    use ek_table, only: column_index
    use ek_chart, only: chart_t, charts_script
+   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn
    use ek_gnuplot, only: run_gnuplot, script_name_t
    use ek_gradient_window, only: windows_t
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results
-   use ek_report_page, only: chart_set_t
-   use ek_report, only: chosen_windows
+   use ek_window_option, only: chosen_windows
    use ek_arguments, only: arguments_t
    use ek_words, only: say
    use ek_compare_page, only: overlay, page_of, test_number
@@ -275,23 +275,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(script_name_t) :: scripts(1)
       type(chart_t), allocatable :: charts(:)
-      integer :: t, k, n
 
       message = ''
-      n = 0
-      do t = 1, size(sets)
-         n = n + size(sets(t)%charts)
-         do k = 1, size(sets(t)%charts)
-            call remove_file(join_path(folder, 'figures/'//sets(t)%charts(k)%name//'.svg'))   ! of an earlier run
-         end do
-      end do
-      if (arguments%no_plots .or. n == 0) return
-      allocate (charts(n))
-      n = 0
-      do t = 1, size(sets)
-         charts(n + 1:n + size(sets(t)%charts)) = sets(t)%charts
-         n = n + size(sets(t)%charts)
-      end do
+      call remove_drawn(sets, folder)
+      call gather_charts(sets, charts)
+      if (arguments%no_plots .or. size(charts) == 0) return
       call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error)
       if (allocated(error)) return
       scripts(1)%text = 'compare.gp'

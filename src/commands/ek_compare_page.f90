@@ -10,7 +10,8 @@ module ek_compare_page
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
       begin_row, add_cell, end_row, add_group, end_table, add_legend, page_text, page_number
    use ek_report_files, only: results_t
-   use ek_report_page, only: chart_set_t, add_chart_set
+   use ek_chart_set, only: chart_set_t
+   use ek_report_page, only: add_chart_set
    implicit none(type, external)
    private
    public :: overlay, page_of, test_number

@@ -9,6 +9,7 @@ module ek_report_page
    use ek_table, only: row_count
    use ek_test_charts, only: wheel_word
    use ek_chart, only: chart_t
+   use ek_chart_set, only: chart_set_t
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts, &
@@ -16,12 +17,7 @@ module ek_report_page
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
-   public :: chart_set_t, report_page, add_chart_set
-
-   !> The charts of one test.
-   type :: chart_set_t
-      type(chart_t), allocatable :: charts(:)
-   end type chart_set_t
+   public :: report_page, add_chart_set
 
 contains
 

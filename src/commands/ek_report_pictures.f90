@@ -1,0 +1,210 @@
+!> The pictures of a report: the charts of its tests, the suspension in space, and how it moves; by one run of gnuplot.
+module ek_report_pictures
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_units, only: millimetre
+   use ek_text, only: str
+   use ek_file, only: write_whole, join_path, remove_file
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, design_state, unpack_state
+   use ek_path, only: path_t
+   use ek_test_result, only: test_result_t
+   use ek_chart, only: chart_t, charts_script
+   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn
+   use ek_gnuplot, only: run_gnuplot, script_name_t
+   use ek_scene, only: scene_t, line_bump, line_rebound
+   use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
+   use ek_picture, only: add_solid, add_ghost, add_ground, add_names
+   use ek_arguments, only: arguments_t
+   implicit none(type, external)
+   private
+   public :: film_t, draw_pictures
+
+   integer, parameter :: most_frames = 40        !! of an animation
+
+   !> The states of a test, for pictures.
+   type :: film_t
+      type(path_t) :: path
+      logical :: is_there = .false.      !! else the test was not run
+   end type film_t
+
+contains
+
+   !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and the charts
+   !> in figures/.
+   subroutine draw_pictures(arguments, suspension, tests, films, sets, folder, message, error)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(in) :: suspension
+      type(test_result_t), intent(in) :: tests(:)
+      type(film_t), intent(in) :: films(:)                   !! one a test
+      type(chart_set_t), intent(in) :: sets(:)               !! one a test
+      character(*), intent(in) :: folder
+      character(:), allocatable, intent(out) :: message      !! why there are none; '' where there are
+      type(error_t), allocatable, intent(out) :: error       !! a script that cannot be written, or that gnuplot refuses
+      type(script_name_t), allocatable :: scripts(:)
+      type(chart_t), allocatable :: charts(:)
+      type(camera_t) :: camera
+      integer :: n
+
+      message = ''
+      ! pictures of an earlier report must not slip into this page
+      call remove_file(join_path(folder, 'picture.svg'))
+      call remove_file(join_path(folder, 'picture.png'))
+      call remove_file(join_path(folder, 'animation.gif'))
+      call remove_drawn(sets, folder)
+      if (arguments%no_plots) then
+         message = 'none were asked for (--no-plots)'
+         return
+      end if
+      call gather_charts(sets, charts)
+      call write_whole(join_path(folder, 'figures/charts.gp'), charts_script(charts), error)
+      if (allocated(error)) return
+      call write_picture(suspension, tests, films, folder, camera, error)
+      if (allocated(error)) return
+      n = 2
+      if (arguments%animate) then
+         call write_animation(suspension, tests, films, folder, camera, error)
+         if (allocated(error)) return
+         n = 3
+      end if
+      allocate (scripts(n))
+      scripts(1)%text = 'charts.gp'
+      scripts(2)%text = 'picture.gp'
+      if (n == 3) scripts(3)%text = 'animation.gp'
+      call run_gnuplot(scripts, join_path(folder, 'figures'), message, error)
+   end subroutine draw_pictures
+
+   !> Design as solid parts, the ends of the travel as lines.
+   subroutine write_picture(suspension, tests, films, folder, camera, error)
+      type(suspension_t), intent(in) :: suspension
+      type(test_result_t), intent(in) :: tests(:)
+      type(film_t), intent(in) :: films(:)
+      character(*), intent(in) :: folder
+      type(camera_t), intent(out) :: camera
+      type(error_t), allocatable, intent(out) :: error
+      type(scene_t) :: scenes(1)
+      type(state_t) :: state
+      integer :: film, last
+
+      camera = view_of(suspension)
+      state = design_state(suspension)
+      call add_solid(scenes(1), suspension, state)
+      call add_ground(scenes(1), suspension, state)
+      call add_names(scenes(1), suspension, state)
+      film = moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel'])
+      if (film > 0) then
+         associate (path => films(film)%path)
+            last = findloc(path%is_reached, .true., dim=1)
+            call look_at(path, last, suspension, state)
+            call add_ghost(scenes(1), suspension, state, line_rebound)
+            scenes(1)%rebound = end_name(suspension, state)
+            last = findloc(path%is_reached, .true., dim=1, back=.true.)
+            call look_at(path, last, suspension, state)
+            call add_ghost(scenes(1), suspension, state, line_bump)
+            scenes(1)%bump = end_name(suspension, state)
+         end associate
+      end if
+      call fit_camera(camera, scenes, 3.0_wp, 2.0_wp, footer=0.11_wp)
+      call write_whole(join_path(folder, 'figures/picture.gp'), scene_script(scenes(1), camera, '../picture', &
+         suspension%name//': design, and the ends of its travel'), error)
+   end subroutine write_picture
+
+   !> There and back through the travel, then through the steering.
+   subroutine write_animation(suspension, tests, films, folder, camera, error)
+      type(suspension_t), intent(in) :: suspension
+      type(test_result_t), intent(in) :: tests(:)
+      type(film_t), intent(in) :: films(:)
+      character(*), intent(in) :: folder
+      type(camera_t), intent(in) :: camera
+      type(error_t), allocatable, intent(out) :: error
+      type(scene_t), allocatable :: scenes(:)
+      character(64), allocatable :: captions(:)
+      type(camera_t) :: fitted
+      type(state_t) :: state
+      integer :: chosen(2), frames, each, k, f, n, at, first, last
+
+      chosen = [moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']), &
+         moving_film(tests, films, [character(16) :: 'steering'])]
+      frames = most_frames/max(1, count(chosen > 0))
+      allocate (scenes(frames*count(chosen > 0)), captions(frames*count(chosen > 0)))
+      if (size(scenes) == 0) return
+      n = 0
+      do f = 1, 2
+         if (chosen(f) == 0) cycle
+         associate (path => films(chosen(f))%path)
+            first = findloc(path%is_reached, .true., dim=1)
+            last = findloc(path%is_reached, .true., dim=1, back=.true.)
+            each = frames/2
+            do k = 0, frames - 1
+               at = first + nint(real(last - first, wp)*(1 - cos(acos(-1.0_wp)*k/each))/2)   ! slow at the ends
+               call look_at(path, at, suspension, state)
+               n = n + 1
+               call add_solid(scenes(n), suspension, state, is_plain=.true.)
+               call add_ground(scenes(n), suspension, design_state(suspension), is_plain=.true.)
+               captions(n) = tests(chosen(f))%title
+            end do
+         end associate
+      end do
+      fitted = camera
+      call fit_camera(fitted, scenes, 4.0_wp, 3.0_wp, footer=0.06_wp)
+      call write_whole(join_path(folder, 'figures/animation.gp'), animation_script(scenes, captions, fitted, '../animation', &
+         suspension%name), error)
+   end subroutine write_animation
+
+   !> The first of the wanted kinds that has more than one state; 0 when there is none.
+   pure integer function moving_film(tests, films, kinds) result(film)
+      type(test_result_t), intent(in) :: tests(:)
+      type(film_t), intent(in) :: films(:)
+      character(*), intent(in) :: kinds(:)
+      integer :: kind
+
+      do kind = 1, size(kinds)
+         do film = 1, size(tests)
+            if (.not. films(film)%is_there .or. tests(film)%kind /= kinds(kind)) cycle
+            if (count(films(film)%path%is_reached) > 1) return
+         end do
+      end do
+      film = 0
+   end function moving_film
+
+   !> State k of a path. Joints that a case adds have reactions behind those of the suspension.
+   subroutine look_at(path, k, suspension, state)
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(out) :: state
+
+      state = design_state(suspension)
+      call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
+   end subroutine look_at
+
+   !> What an end of the travel is called: 'bump, +80 mm', by the height of the first wheel's centre over design.
+   function end_name(suspension, state) result(name)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      character(:), allocatable :: name
+      real(wp) :: rise
+      integer :: body
+
+      name = 'end of travel'
+      if (size(suspension%wheels) == 0) return
+      body = suspension%wheels(1)%body
+      rise = state%poses(body + 1)%r(3) + dot_product(state%poses(body + 1)%a(3, :), suspension%wheels(1)%centre) - &
+         (suspension%bodies(body)%origin(3) + suspension%wheels(1)%centre(3))
+      name = 'rebound, '
+      if (rise > 0.0_wp) name = 'bump, +'
+      name = name//str(anint(rise/millimetre), 3)//' mm'
+   end function end_name
+
+   !> From where: an axle from its front left, one wheel from the middle of the car.
+   pure type(camera_t) function view_of(suspension) result(camera)
+      type(suspension_t), intent(in) :: suspension
+
+      camera%turn = 296.0_wp
+      camera%tilt = 70.0_wp
+      if (size(suspension%wheels) /= 1) return
+      camera%turn = 232.0_wp
+      if (suspension%wheels(1)%side > 0) camera%turn = 308.0_wp
+   end function view_of
+
+end module ek_report_pictures
