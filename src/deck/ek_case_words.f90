@@ -1,0 +1,107 @@
+!> What one &case says, in the deck's words and units, and the wheels and drivers that it names.
+module ek_case_words
+   use ek_kinds, only: wp
+   use ek_text, only: lower, quoted
+   use ek_case, only: case_t
+   use ek_record, only: element
+   use ek_group, only: wheel_group, joint_group, word_length, note_length, most_loads, did_you_mean
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, line_of, has_key, look_up, find_card
+   implicit none(type, external)
+   private
+   public :: words_t, read_words, find_driver, find_wheel
+
+   !> What one &case says, in the deck's words and units.
+   type :: words_t
+      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities
+      character(note_length) :: file, target
+      real(wp) :: from, to, offset, tolerance
+      integer :: increments
+   end type words_t
+
+contains
+
+   !> Reads the namelist; a key that is not there keeps its usual value. What cannot be read is complained of.
+   subroutine read_words(deck, k, draft, words)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k               !! record of the case
+      type(draft_t), intent(inout) :: draft
+      type(words_t), intent(out) :: words    !! `test` and `vertical` in small letters
+      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities
+      character(note_length) :: file, target
+      real(wp) :: from, to, tolerance, offset
+      integer :: increments, status
+      namelist /case/ name, load, drive, wheel, from, to, increments, method, tolerance, test, vertical, phase, offset, &
+         file, target, quantities
+      type(case_t) :: usual
+
+      name = ''
+      load = ''
+      drive = ''
+      wheel = ''
+      method = 'equilibrium'
+      test = ''
+      vertical = ''
+      phase = 'in'
+      quantities = 'basic'
+      if (has_key(deck, k, 'test')) quantities = 'all'
+      file = ''
+      target = ''
+      from = 0.0_wp
+      to = 0.0_wp
+      tolerance = usual%tolerance/draft%units%length
+      offset = 0.0_wp
+      increments = usual%increments
+      read (draft%cards(k)%text, nml=case, iostat=status)
+      if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+      words = words_t(name=name, load=load, drive=drive, wheel=wheel, method=method, test=lower(test), vertical=lower(vertical), &
+         phase=phase, quantities=quantities, file=file, target=target, from=from, to=to, offset=offset, tolerance=tolerance, &
+         increments=increments)
+   end subroutine read_words
+
+   !> Looks for the driver joint that a case names; complains where there is none.
+   subroutine find_driver(deck, k, draft, name, others, factor)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: name, others(:)     !! others: what else may be driven, for the hint
+      real(wp), intent(inout) :: factor               !! unit of what it drives → SI; unchanged where there is none
+      character(word_length), allocatable :: names(:)
+      integer :: j, found
+
+      found = find_card(draft, joint_group, name)
+      if (found > 0) then
+         factor = draft%cards(found)%factor
+         if (lower(element(deck%records(found), 'type', 1)) /= 'driver') call complain(draft, deck, k, 'drive', &
+            'drive: the joint '//quoted(name)//' in '//line_of(deck, found, k)//' is not a driver')
+         return
+      end if
+      allocate (names(deck%used + size(others)))
+      names = ''
+      do j = 1, size(others)
+         names(deck%used + j) = others(j)
+      end do
+      do j = 1, deck%used
+         if (draft%cards(j)%group /= joint_group) cycle
+         if (lower(element(deck%records(j), 'type', 1)) == 'driver') names(j) = draft%cards(j)%name
+      end do
+      call complain(draft, deck, k, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, names))
+   end subroutine find_driver
+
+   !> The wheel that a case names; complains where there is none, or where the case drives none.
+   subroutine find_wheel(deck, k, draft, words, may_have_one, which, this)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      type(draft_t), intent(inout) :: draft
+      type(words_t), intent(in) :: words
+      logical, intent(in) :: may_have_one
+      character(*), intent(in) :: which      !! the cases that have one
+      type(case_t), intent(inout) :: this    !! gets its number
+      integer :: found
+
+      call look_up(draft, deck, k, 'wheel', wheel_group, trim(words%wheel), found)
+      if (found > 0) this%wheel = draft%cards(found)%index
+      if (.not. may_have_one) call complain(draft, deck, k, 'wheel', 'wheel: only a case '//which//' has one')
+   end subroutine find_wheel
+
+end module ek_case_words

@@ -1,0 +1,136 @@
+!> &case with a `test`: which keys a test of the rig takes, and what they must say. ek_rig mounts it.
+module ek_reader_tests
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower, quoted
+   use ek_case, only: case_t
+   use ek_record, only: element
+   use ek_group, only: wheel_group, joint_group, word_length
+   use ek_deck, only: deck_t
+   use ek_draft, only: draft_t, complain, has_key, choice
+   use ek_case_words, only: words_t, find_driver, find_wheel
+   implicit none(type, external)
+   private
+   public :: read_test
+
+   !> The tests of the rig, see ek_rig.
+   character(*), parameter :: test_names(11) = [character(15) :: 'parallel_travel', 'opposite_travel', 'single_travel', &
+      'roll', 'steering', 'lateral_force', 'braking', 'traction', 'aligning_torque', 'vertical_force', 'table']
+   character(*), parameter :: load_tests(4) = [character(15) :: 'lateral_force', 'braking', 'traction', 'aligning_torque']
+
+contains
+
+   !> Reads a test: what it needs, and nothing else. Every mistake goes to the draft's complaints.
+   subroutine read_test(deck, k, draft, words, this, factor)
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k
+      type(draft_t), intent(inout) :: draft
+      type(words_t), intent(inout) :: words
+      type(case_t), intent(inout) :: this
+      real(wp), intent(inout) :: factor      !! unit of from and to → SI
+      integer :: c, wheels(2), slash
+
+      call choice(draft, deck, k, 'test', trim(words%test), test_names, c)
+      this%load = ''
+      if (c == 0) return
+      this%test = trim(words%test)
+      call refuse('load', .true., 'a test brings its own loads')
+      call refuse('drive', this%test /= 'steering', 'only the test ''steering'' drives one')
+      call refuse('phase', .not. any(load_tests == this%test), 'only tests with forces or torques have one')
+      call refuse('offset', this%test /= 'lateral_force', 'only the test ''lateral_force'' has one')
+      call refuse('file', this%test /= 'table', 'only the test ''table'' has one')
+      call refuse('from', this%test == 'table', 'a table says itself where it goes')
+      call refuse('to', this%test == 'table', 'a table says itself where it goes')
+      call refuse('increments', this%test == 'table', 'each of its rows is a state')
+      call refuse('target', this%test == 'table', 'a table has no path to search')
+
+      call count_wheels()
+      call choice(draft, deck, k, 'vertical', trim(words%vertical), [character(6) :: 'centre', 'patch', 'force'], c)
+      this%vertical = trim(words%vertical)
+      if (this%test == 'roll') call refuse('vertical', c == 3, 'the heights of a rolling axle are driven: ''centre'' or ''patch''')
+      if (this%test == 'vertical_force') call refuse('vertical', c == 1 .or. c == 2, 'this test sets the force')
+      call choice(draft, deck, k, 'phase', trim(words%phase), [character(4) :: 'in', 'anti'], c)
+      this%is_anti = c == 2
+      if (this%is_anti .or. this%test == 'opposite_travel' .or. this%test == 'roll') then
+         if (any(wheels == 0)) call complain(draft, deck, k, 'test', 'a left and a right wheel are needed, the deck has '// &
+            str(count(wheels > 0)))
+      end if
+      this%offset = words%offset*draft%units%length
+      this%wheel = max(wheels(1), 1)
+      if (wheels(1) == 0) this%wheel = max(wheels(2), 1)
+      if (words%wheel /= '') call find_wheel(deck, k, draft, words, this%test == 'single_travel', &
+         "with test = 'single_travel'", this)
+
+      select case (this%test)
+      case ('parallel_travel', 'opposite_travel', 'single_travel')
+         factor = merge(draft%units%force, draft%units%length, this%vertical == 'force')
+      case ('roll')
+         factor = draft%units%angle
+         if (max(abs(words%from), abs(words%to))*factor > 0.5_wp) call complain(draft, deck, k, 'to', &
+            'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(words%from)//' to '//str(words%to))
+      case ('steering')
+         call find_steering()
+      case ('aligning_torque')
+         factor = 1.0_wp          ! N m, as on every rig
+      case ('table')
+         if (.not. has_key(deck, k, 'file')) call complain(draft, deck, k, '', "'file' is missing")
+         this%file = trim(words%file)
+         slash = index(deck%records(k)%file, '/', back=.true.)
+         if (index(this%file, '/') /= 1) this%file = deck%records(k)%file(:slash)//this%file
+      case default
+         factor = draft%units%force
+      end select
+
+   contains
+
+      subroutine refuse(key, is_wrong, why)
+         character(*), intent(in) :: key, why
+         logical, intent(in) :: is_wrong
+         if (is_wrong .and. has_key(deck, k, key)) call complain(draft, deck, k, key, key//' has no place in test '// &
+            quoted(this%test)//': '//why)
+      end subroutine refuse
+
+      !> At most one wheel a side, at least one.
+      subroutine count_wheels()
+         integer :: j, side
+
+         wheels = 0
+         do j = 1, deck%used
+            if (draft%cards(j)%group /= wheel_group) cycle
+            side = merge(2, 1, lower(element(deck%records(j), 'side', 1)) == 'right')
+            if (wheels(side) > 0) call complain(draft, deck, k, 'test', &
+               'the rig takes one axle, the deck has two wheels on one side')
+            wheels(side) = draft%cards(j)%index
+         end do
+         if (all(wheels == 0)) call complain(draft, deck, k, 'test', 'the rig needs a &wheel')
+      end subroutine count_wheels
+
+      !> What is steered: the case's own word, else that of &steering, else the only driver.
+      subroutine find_steering()
+         character(word_length) :: only
+         integer :: j, found
+
+         this%drive = trim(words%drive)
+         only = ''
+         found = 0
+         do j = 1, deck%used
+            if (this%drive /= '') exit
+            if (deck%records(j)%group == 'steering') this%drive = element(deck%records(j), 'driver', 1)
+         end do
+         do j = 1, deck%used
+            if (this%drive /= '') exit
+            if (draft%cards(j)%group /= joint_group) cycle
+            if (lower(element(deck%records(j), 'type', 1)) /= 'driver') cycle
+            found = found + 1
+            if (found == 1) only = draft%cards(j)%name
+         end do
+         if (found == 1) this%drive = trim(only)
+         if (this%drive == '') then
+            call complain(draft, deck, k, 'test', "what is steered? Give drive = '<driver joint>' or a &steering")
+         else
+            call find_driver(deck, k, draft, this%drive, [character(1) ::], factor)
+         end if
+      end subroutine find_steering
+
+   end subroutine read_test
+
+end module ek_reader_tests
