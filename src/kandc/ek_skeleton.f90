@@ -10,10 +10,10 @@ module ek_skeleton
    use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of
+   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, same_point
 
-   real(wp), parameter :: same_point = 1.0e-3_wp
-   integer, parameter :: most_points = 64
+   real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
+   integer, parameter :: most_points = 64           !! of a body; further ones are left out
 
    !> A point of a body.
    type :: node_t
@@ -141,5 +141,33 @@ contains
       if (body > 0 .and. body <= size(suspension%bodies)) &
          at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
    end function place_of
+
+   !> Whether a wheel stands on a body.
+   pure logical function carries_wheel(suspension, body)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: body
+      integer :: k
+
+      carries_wheel = .false.
+      do k = 1, size(suspension%wheels)
+         carries_wheel = carries_wheel .or. suspension%wheels(k)%body == body
+      end do
+   end function carries_wheel
+
+   !> Whether a body slides along another that moves too: a damper's rod.
+   pure logical function slides(suspension, body)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: body
+      integer :: k
+
+      slides = .false.
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k))
+            if (joint%kind /= 'cylindrical' .and. joint%kind /= 'translational') cycle
+            if (joint%body_i == 0 .or. joint%body_j == 0) cycle
+            slides = slides .or. joint%body_i == body .or. joint%body_j == body
+         end associate
+      end do
+   end function slides
 
 end module ek_skeleton

@@ -1,0 +1,261 @@
+!> The shape of each part in a picture: arms, rods, ball joints, coils, dampers, bushings, tyres.
+!>
+!> `plain` asks for fewer faces, as an animation wants them. All places are global [m].
+module ek_part_shape
+   use ek_kinds, only: wp
+   use ek_units, only: pi
+   use ek_block, only: rotated
+   use ek_measure, only: measure_t, rotation
+   use ek_spring, only: axial_spring, stop_spring
+   use ek_suspension, only: suspension_t
+   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, &
+      same_point
+   use ek_state, only: state_t
+   use ek_scene, only: scene_t, add_face, add_line, add_tube, add_surface, add_coil, add_ball, part_tyre, part_plate, &
+      part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, part_ball, part_mount, line_ground
+   implicit none(type, external)
+   private
+   public :: add_body, add_joints, add_elastic, add_bushing, add_wheel, add_tread
+
+   ! Sizes that look right on a passenger car [m]
+   real(wp), parameter :: arm_radius = 0.011_wp, rod_radius = 0.008_wp, ball_radius = 0.016_wp
+
+contains
+
+   !> Bars along the skeleton of a body; an arm that is held at two points gets a plate between them.
+   subroutine add_body(scene, suspension, state, body, plain)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: body
+      logical, intent(in) :: plain
+      type(skeleton_t) :: skeleton
+      real(wp) :: a(3), b(3)
+      integer :: k, kind
+
+      skeleton = skeleton_of(suspension, body)
+      kind = part_arm
+      if (carries_wheel(suspension, body)) then
+         kind = part_carrier
+      else if (slides(suspension, body)) then
+         kind = part_damper
+      end if
+      do k = 1, skeleton%count
+         a = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
+         b = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
+         call add_tube(scene, kind, a, b, merge(1.25_wp, 1.0_wp, kind == part_carrier)*arm_radius, merge(4, 7, plain))
+      end do
+      if (kind == part_arm .and. .not. plain) call add_plate(scene, suspension, state, body, skeleton)
+   end subroutine add_body
+
+   !> An arm held at two points is a wishbone: a thin plate between them and its furthest other point.
+   subroutine add_plate(scene, suspension, state, body, skeleton)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: body
+      type(skeleton_t), intent(in) :: skeleton
+      real(wp) :: face(3, 3), reach, most
+      integer :: held(2), n, k, tip
+
+      n = 0
+      do k = 1, skeleton%used
+         if (.not. skeleton%nodes(k)%is_held) cycle
+         n = n + 1
+         if (n <= 2) held(n) = k
+      end do
+      if (n /= 2) return
+      tip = 0
+      most = 0.05_wp
+      do k = 1, skeleton%used
+         if (skeleton%nodes(k)%is_held .or. skeleton%nodes(k)%is_spring) cycle
+         reach = min(norm2(skeleton%nodes(k)%arm - skeleton%nodes(held(1))%arm), &
+            norm2(skeleton%nodes(k)%arm - skeleton%nodes(held(2))%arm))
+         if (reach <= most) cycle
+         most = reach
+         tip = k
+      end do
+      if (tip == 0) return
+      face(:, 1) = place_of(suspension, state, body, skeleton%nodes(held(1))%arm)
+      face(:, 2) = place_of(suspension, state, body, skeleton%nodes(held(2))%arm)
+      face(:, 3) = place_of(suspension, state, body, skeleton%nodes(tip)%arm)
+      call add_face(scene, part_plate, face)
+   end subroutine add_plate
+
+   !> Rods, ball joints, sliding joints, and what is fixed to the chassis.
+   subroutine add_joints(scene, suspension, state, plain)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      logical, intent(in) :: plain
+      type(measure_t) :: measure
+      real(wp) :: a(3), b(3), axis(3), reach
+      integer :: k
+
+      do k = 1, size(suspension%joints)
+         measure = first_measure(suspension, k)
+         call ends_of(measure, state, a, b)
+         select case (suspension%joints(k)%kind)
+         case ('distance')
+            call add_tube(scene, part_rod, a, b, rod_radius, merge(4, 6, plain))
+            call add_end(measure%body_i, a)
+            call add_end(measure%body_j, b)
+         case ('spherical', 'universal', 'constant_velocity')
+            call add_ball(scene, part_ball, b, ball_radius, merge(4, 8, plain))
+            if (measure%body_i*measure%body_j == 0) call add_end(0, b)
+         case ('revolute')
+            call revolute_axis(suspension, k, state, axis)
+            call add_tube(scene, part_ball, b - 0.022_wp*axis, b + 0.022_wp*axis, 0.015_wp, merge(4, 8, plain))
+         case ('cylindrical', 'translational')
+            ! rows: x·z and y·z first, so v of the first row is the axis, fixed in body j
+            axis = rotated(state%poses(measure%body_j + 1)%a, measure%v)
+            if (measure%body_i == 0 .or. measure%body_j == 0) then
+               call add_tube(scene, part_damper, a - 0.05_wp*axis, a + 0.05_wp*axis, 0.022_wp, merge(5, 9, plain))
+            else
+               reach = reach_along(suspension, measure%body_j, measure%arm_j, measure%v)
+               call add_tube(scene, part_damper, a - 0.02_wp*axis, a + 0.58_wp*reach*axis, 0.026_wp, merge(6, 11, plain))
+            end if
+         end select
+      end do
+
+   contains
+
+      !> A ball where a rod meets a body, a block where it meets the chassis.
+      subroutine add_end(body, at)
+         integer, intent(in) :: body
+         real(wp), intent(in) :: at(3)
+         if (body == 0) then
+            call add_surface(scene, part_mount, at, [0.0_wp, 0.0_wp, 1.0_wp], 0.02_wp*[-1.0_wp, -1.0_wp, 1.0_wp, 1.0_wp], &
+               0.026_wp*[0.0_wp, 1.0_wp, 1.0_wp, 0.0_wp], 4)
+         else
+            call add_ball(scene, part_ball, at, 0.8_wp*ball_radius, merge(4, 7, plain))
+         end if
+      end subroutine add_end
+
+   end subroutine add_joints
+
+   !> How far body j reaches from a point along an axis, with its sign: to its furthest attachment point.
+   real(wp) function reach_along(suspension, body, arm, axis) result(reach)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: body
+      real(wp), intent(in) :: arm(3), axis(3)
+      type(skeleton_t) :: skeleton
+      real(wp) :: now
+      integer :: k
+
+      skeleton = skeleton_of(suspension, body)
+      reach = 0.0_wp
+      do k = 1, skeleton%used
+         now = dot_product(skeleton%nodes(k)%arm - arm, axis)
+         if (abs(now) > abs(reach)) reach = now
+      end do
+   end function reach_along
+
+   !> Axis of a revolute joint: rows 4 and 5 hold two directions of body i square to v, the axis in body j.
+   subroutine revolute_axis(suspension, joint, state, axis)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: joint
+      type(state_t), intent(in) :: state
+      real(wp), intent(out) :: axis(3)
+
+      associate (term => suspension%terms(suspension%rows(suspension%joints(joint)%first_row + 3)%first))
+         axis = rotated(state%poses(term%measure%body_j + 1)%a, term%measure%v)
+      end associate
+   end subroutine revolute_axis
+
+   !> A coil, a damper as two tubes, or the rubber of a stop; a torsion spring sits in the bars that it joins.
+   subroutine add_elastic(scene, suspension, state, k, plain)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      logical, intent(in) :: plain
+      real(wp), parameter :: rubber = 0.045_wp        ! m
+      real(wp) :: a(3), b(3), length
+
+      associate (spring => suspension%springs(k))
+         if (spring%measure%kind == rotation) return
+         call ends_of(spring%measure, state, a, b)
+         length = norm2(b - a)
+         if (length < same_point) return
+         if (spring%kind == axial_spring) then
+            call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
+         else if (spring%kind == stop_spring) then
+            if (plain) return
+            call add_tube(scene, part_bushing, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)
+         else
+            call add_tube(scene, part_damper, a, a + 0.58_wp*(b - a), 0.022_wp, merge(5, 10, plain))
+            call add_tube(scene, part_damper, a + 0.5_wp*(b - a), b, 0.009_wp, merge(4, 6, plain))
+         end if
+      end associate
+   end subroutine add_elastic
+
+   !> A bushing: a short tube along the z axis of its first marker.
+   subroutine add_bushing(scene, suspension, state, k, plain)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      logical, intent(in) :: plain
+      real(wp) :: at(3), axis(3)
+
+      associate (bushing => suspension%bushings(k))
+         at = place_of(suspension, state, bushing%body_i, bushing%arm_i)
+         axis = rotated(state%poses(bushing%body_i + 1)%a, bushing%axes(:, 3))
+      end associate
+      call add_tube(scene, part_bushing, at - 0.024_wp*axis, at + 0.024_wp*axis, 0.021_wp, merge(5, 10, plain))
+   end subroutine add_bushing
+
+   !> Tyre as a hull of revolution, and a hub.
+   subroutine add_wheel(scene, suspension, state, k, plain)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      logical, intent(in) :: plain
+      real(wp) :: centre(3), axis(3), half
+      integer :: sides
+
+      associate (wheel => suspension%wheels(k))
+         centre = place_of(suspension, state, wheel%body, wheel%centre)
+         axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
+         half = 0.32_wp*wheel%radius
+         sides = merge(18, 44, plain)
+         call add_tube(scene, part_carrier, centre - 0.02_wp*axis, centre + 0.05_wp*axis, 0.055_wp, merge(6, 14, plain))
+         if (plain) then
+            call add_tread(scene, suspension, state, k, line_ground)
+            return
+         end if
+         call add_surface(scene, part_tyre, centre, axis, half*[-0.8_wp, -1.0_wp, -0.78_wp, 0.0_wp, 0.78_wp, 1.0_wp, 0.8_wp], &
+            wheel%radius*[0.66_wp, 0.82_wp, 0.965_wp, 1.0_wp, 0.965_wp, 0.82_wp, 0.66_wp], sides)
+      end associate
+   end subroutine add_wheel
+
+   !> Circles of the tread and the rim, in the wheel plane.
+   subroutine add_tread(scene, suspension, state, k, kind)
+      type(scene_t), intent(inout) :: scene
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k, kind
+      integer, parameter :: corners = 48
+      real(wp) :: circle(3, corners + 1), centre(3), axis(3), u(3), v(3)
+      integer :: n
+
+      associate (wheel => suspension%wheels(k))
+         centre = place_of(suspension, state, wheel%body, wheel%centre)
+         axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
+         u = [axis(2), -axis(1), 0.0_wp]         ! level; a spin axis is never vertical
+         u = u/norm2(u)
+         v = [axis(2)*u(3) - axis(3)*u(2), axis(3)*u(1) - axis(1)*u(3), axis(1)*u(2) - axis(2)*u(1)]
+         do n = 0, corners
+            circle(:, n + 1) = centre + wheel%radius*(u*cos(2*pi*n/corners) + v*sin(2*pi*n/corners))
+         end do
+         call add_line(scene, kind, circle)
+         do n = 0, corners
+            circle(:, n + 1) = centre + 0.66_wp*(circle(:, n + 1) - centre)
+         end do
+         if (kind == line_ground) call add_line(scene, kind, circle)
+      end associate
+   end subroutine add_tread
+
+end module ek_part_shape
