@@ -9,20 +9,15 @@
 !> Values are separated by commas, blanks or line ends; strings stand in ' or ", doubled inside.
 module ek_scanner
    use ek_text, only: str, lower, quoted
+   use ek_cursor, only: cursor_t, skip_blanks, key_follows, take_subscript, take_word, take_anything, take_line, &
+      is_word_begin, is_quote, tab, newline, return
    use ek_record, only: entry_t, record_t, place_t, complaints_t, add_value, add_entry, add_record, entry_index, place_in
    implicit none(type, external)
    private
    public :: scan_text, scan_values
 
    integer, parameter :: most_repeats = 1000   !! n in n*value; no key takes that many values
-   character, parameter :: tab = achar(9), newline = achar(10), return = achar(13)
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
-
-   !> Where the scanner stands.
-   type :: cursor_t
-      integer :: at = 1, line = 1
-      integer :: source = 1      !! number of the file
-   end type cursor_t
 
 contains
 
@@ -297,126 +292,7 @@ contains
 
    end subroutine scan_value
 
-   !> Skips blanks, line ends and comments, counting lines.
-   subroutine skip_blanks(text, cursor)
-      character(*), intent(in) :: text
-      type(cursor_t), intent(inout) :: cursor
-
-      do while (cursor%at <= len(text))
-         select case (text(cursor%at:cursor%at))
-         case (newline)
-            cursor%line = cursor%line + 1
-         case (' ', tab, return)
-            continue
-         case ('!')
-            do while (cursor%at < len(text))
-               if (text(cursor%at + 1:cursor%at + 1) == newline) exit
-               cursor%at = cursor%at + 1
-            end do
-         case default
-            return
-         end select
-         cursor%at = cursor%at + 1
-      end do
-   end subroutine skip_blanks
-
-   !> Whether a key stands here: a word, perhaps a subscript, and an = sign.
-   logical function key_follows(text, cursor)
-      character(*), intent(in) :: text
-      type(cursor_t), intent(in) :: cursor
-      type(cursor_t) :: ahead
-      character(:), allocatable :: skipped
-
-      key_follows = .false.
-      ahead = cursor
-      call take_word(text, ahead, skipped)
-      call skip_blanks(text, ahead)
-      if (ahead%at > len(text)) return
-      if (text(ahead%at:ahead%at) == '(') then
-         call take_subscript(text, ahead, skipped)
-         call skip_blanks(text, ahead)
-         if (ahead%at > len(text)) return
-      end if
-      key_follows = text(ahead%at:ahead%at) == '='
-   end function key_follows
-
-   !> What stands between ( and ), blanks removed; the cursor ends behind the ).
-   subroutine take_subscript(text, cursor, content)
-      character(*), intent(in) :: text
-      type(cursor_t), intent(inout) :: cursor
-      character(:), allocatable, intent(out) :: content
-      character :: c
-
-      content = ''
-      do
-         cursor%at = cursor%at + 1
-         if (cursor%at > len(text)) return
-         c = text(cursor%at:cursor%at)
-         if (c == ')') exit
-         if (c == newline .or. c == '=' .or. c == '/') return
-         if (c /= ' ' .and. c /= tab) content = content//c
-      end do
-      cursor%at = cursor%at + 1
-   end subroutine take_subscript
-
-   !> Letters, digits, _ and % from here on.
-   subroutine take_word(text, cursor, word)
-      character(*), intent(in) :: text
-      type(cursor_t), intent(inout) :: cursor
-      character(:), allocatable, intent(out) :: word
-      integer :: first
-
-      first = cursor%at
-      do while (cursor%at <= len(text))
-         if (.not. (is_word_begin(text(cursor%at:cursor%at)) .or. &
-            index('0123456789%', text(cursor%at:cursor%at)) > 0)) exit
-         cursor%at = cursor%at + 1
-      end do
-      word = text(first:cursor%at - 1)
-   end subroutine take_word
-
-   !> Anything up to a separator, at least one character.
-   subroutine take_anything(text, cursor, word)
-      character(*), intent(in) :: text
-      type(cursor_t), intent(inout) :: cursor
-      character(:), allocatable, intent(out) :: word
-      integer :: first
-
-      first = cursor%at
-      cursor%at = cursor%at + 1
-      do while (cursor%at <= len(text))
-         if (index(' ,/=!()&''"'//tab//newline//return, text(cursor%at:cursor%at)) > 0) exit
-         cursor%at = cursor%at + 1
-      end do
-      word = text(first:cursor%at - 1)
-   end subroutine take_anything
-
-   !> The rest of a line that belongs to no group, up to the next & or comment.
-   subroutine take_line(text, cursor, content)
-      character(*), intent(in) :: text
-      type(cursor_t), intent(inout) :: cursor
-      character(:), allocatable, intent(out) :: content
-      integer, parameter :: most = 40   ! enough to recognise it
-      integer :: first
-
-      first = cursor%at
-      do while (cursor%at <= len(text))
-         if (index('&!'//newline//return, text(cursor%at:cursor%at)) > 0) exit
-         cursor%at = cursor%at + 1
-      end do
-      content = trim(text(first:min(cursor%at - 1, first + most)))
-   end subroutine take_line
-
-   pure logical function is_word_begin(c)
-      character, intent(in) :: c
-      is_word_begin = (c >= 'a' .and. c <= 'z') .or. (c >= 'A' .and. c <= 'Z') .or. c == '_'
-   end function is_word_begin
-
-   pure logical function is_quote(c)
-      character, intent(in) :: c
-      is_quote = c == "'" .or. c == '"'
-   end function is_quote
-
+   !> Notes a mistake in a line of the cursor's file.
    subroutine complain(complaints, file, cursor, line, what)
       type(complaints_t), intent(inout) :: complaints
       character(*), intent(in) :: file, what
