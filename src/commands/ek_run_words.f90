@@ -12,8 +12,8 @@ module ek_run_words
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t
    use ek_reach, only: failure_t
-   use ek_attitude, only: attitude_t
-   use ek_sweep_table, only: wheel_attitude, factor_unit
+   use ek_attitude, only: attitude_t, wheel_attitude
+   use ek_sweep_table, only: factor_unit
    use ek_drift, only: drift_t, drift_at
    use ek_arguments, only: arguments_t
    use ek_words, only: say, warn

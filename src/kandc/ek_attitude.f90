@@ -5,10 +5,11 @@ module ek_attitude
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
    use ek_block, only: rotated
-   use ek_suspension, only: wheel_t
+   use ek_suspension, only: suspension_t, wheel_t
+   use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: attitude_t, attitude_of, steer_axis_t, steer_axis_of
+   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of
 
    !> What one wheel shows at one state. Changes are against design.
    type :: attitude_t
@@ -99,5 +100,17 @@ contains
       axis%spindle_length = side*(centre(2) - abeam(2))
       axis%spindle_offset = centre(1) - abeam(1)
    end function steer_axis_of
+
+   !> Attitude of wheel k of a model at a state.
+   pure function wheel_attitude(suspension, state, k) result(attitude)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      type(attitude_t) :: attitude
+
+      associate (wheel => suspension%wheels(k))
+         attitude = attitude_of(wheel, suspension%bodies(wheel%body)%origin, state%poses(wheel%body + 1))
+      end associate
+   end function wheel_attitude
 
 end module ek_attitude

@@ -8,8 +8,7 @@ module ek_drift
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_attitude, only: attitude_t
-   use ek_sweep_table, only: wheel_attitude
+   use ek_attitude, only: attitude_t, wheel_attitude
    implicit none(type, external)
    private
    public :: drift_t, drift_at

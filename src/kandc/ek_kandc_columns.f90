@@ -11,7 +11,7 @@ module ek_kandc_columns
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
    use ek_kkt, only: kkt_t
-   use ek_attitude, only: attitude_t, attitude_of, steer_axis_t
+   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t
    use ek_vehicle, only: vehicle_t
    use ek_wheel_side, only: is_axle, prefix_of
    use ek_wheel_force, only: vertical_force
@@ -97,8 +97,8 @@ contains
       self%used = 0
       do k = 1, size(suspension%wheels)
          w = self%compliance%order(k)
+         now(k) = wheel_attitude(suspension, state, w)
          associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
-            now(k) = attitude_of(wheel, suspension%bodies(wheel%body)%origin, pose)
             centre(:, k) = pose%r + rotated(pose%a, wheel%centre)
             radius(k) = wheel%radius
          end associate

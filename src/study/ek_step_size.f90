@@ -16,8 +16,7 @@ module ek_step_size
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t, new_path, walk
-   use ek_attitude, only: attitude_t
-   use ek_sweep_table, only: wheel_attitude
+   use ek_attitude, only: attitude_t, wheel_attitude
    use ek_table, only: table_t, new_table
    use ek_csv, only: csv_text
    use ek_study, only: study_t

@@ -1,0 +1,266 @@
+!> The columns that show a state as it is: wheels, springs, measures, bushings, joints. Those that need the compliance
+!> matrix are in ek_kandc_columns.
+!>
+!> Every quantity has its unit in its name. Units leave as mm, N, deg, N m whatever the deck speaks; vectors in the deck's
+!> frame. Names and values are two lists below, and a new column is a line in both, at the same place.
+!> input/QUANTITIES.md says what each of them means.
+module ek_state_columns
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   use ek_measure, only: measure_value, axis_axis, rotation
+   use ek_block, only: rotated
+   use ek_rotation, only: cross
+   use ek_joint, only: joint_t
+   use ek_law, only: deflection
+   use ek_spring, only: spring_tension, stop_spring, torsion_spring
+   use ek_elastic, only: bushing_view_t, look_bushing, bushing_load
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t
+   use ek_kkt, only: kkt_t
+   use ek_wheel_side, only: prefix_of
+   use ek_attitude, only: attitude_t, wheel_attitude
+   use ek_table, only: name_length
+   implicit none(type, external)
+   private
+   public :: state_columns, state_values, measure_unit
+
+contains
+
+   !> The names of the columns of a model, in the order in which state_values gives the values.
+   subroutine state_columns(suspension, names)
+      type(suspension_t), intent(in) :: suspension
+      character(name_length), allocatable, intent(out) :: names(:)
+      character(:), allocatable :: prefix
+      integer :: used, k
+
+      allocate (names(64))
+      used = 0
+      do k = 1, size(suspension%wheels)
+         prefix = prefix_of(suspension, k)
+         call add(prefix//'wheel_travel_mm')
+         call add(prefix//'toe_deg')
+         call add(prefix//'camber_deg')
+         call add(prefix//'track_change_mm')
+         call add(prefix//'wheelbase_change_mm')
+         call add_three(prefix//'wheel_centre_', 'mm')
+         call add_three(prefix//'contact_patch_', 'mm')
+         if (.not. suspension%wheels(k)%has_steer_axis) cycle
+         call add(prefix//'caster_deg')
+         call add(prefix//'kingpin_inclination_deg')
+         call add(prefix//'scrub_radius_mm')
+         call add(prefix//'caster_trail_mm')
+         call add(prefix//'spindle_length_mm')
+         call add(prefix//'spindle_offset_mm')
+      end do
+      do k = 1, size(suspension%springs)
+         select case (suspension%springs(k)%kind)
+         case (stop_spring)
+            call add(suspension%springs(k)%name//'_gap_mm')
+            call add(suspension%springs(k)%name//'_force_n')
+         case (torsion_spring)
+            call add(suspension%springs(k)%name//'_angle_deg')
+            call add(suspension%springs(k)%name//'_moment_nm')
+         case default
+            call add(suspension%springs(k)%name//'_length_mm')
+            call add(suspension%springs(k)%name//'_force_n')
+         end select
+      end do
+      do k = 1, size(suspension%readouts)
+         select case (suspension%readouts(k)%measure%kind)
+         case (rotation)
+            call add(suspension%readouts(k)%name//'_deg')
+         case (axis_axis)
+            call add(suspension%readouts(k)%name//'_cosine')
+         case default
+            call add(suspension%readouts(k)%name//'_mm')
+         end select
+      end do
+      do k = 1, size(suspension%bushings)
+         call add_three(suspension%bushings(k)%name//'_d', 'mm')
+         call add_three(suspension%bushings(k)%name//'_r', 'deg')
+         call add_three(suspension%bushings(k)%name//'_f', 'n')
+         call add_three(suspension%bushings(k)%name//'_m', 'nm')
+      end do
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k))
+            if (joint%is_of_measures) then
+               call add(joint%name//'_reaction_'//reaction_unit(suspension, joint%first_row))
+            else
+               call add_three(joint%name//'_f', 'n')
+               if (has_moment(suspension, joint)) call add_three(joint%name//'_m', 'nm')
+            end if
+         end associate
+      end do
+      names = names(:used)
+
+   contains
+
+      subroutine add(name)
+         character(*), intent(in) :: name
+         character(name_length), allocatable :: more(:)
+
+         if (used == size(names)) then
+            allocate (more(2*used))
+            more(:used) = names
+            call move_alloc(more, names)
+         end if
+         used = used + 1
+         names(used) = name
+      end subroutine add
+
+      subroutine add_three(stem, unit)
+         character(*), intent(in) :: stem, unit
+         call add(stem//'x_'//unit)
+         call add(stem//'y_'//unit)
+         call add(stem//'z_'//unit)
+      end subroutine add_three
+
+   end subroutine state_columns
+
+   !> The values of the columns at a state.
+   pure subroutine state_values(suspension, state, kkt, row)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(kkt_t), intent(in) :: kkt             !! assembled at this state: the gradients of the rows are taken from it
+      real(wp), intent(inout) :: row(:)          !! as many as there are names; what a steer axis that lies level lacks, stays
+      type(attitude_t) :: now
+      type(bushing_view_t) :: view
+      real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
+      integer :: k, at, r
+
+      frame = 1.0_wp
+      if (suspension%is_iso) frame = [-1.0_wp, -1.0_wp, 1.0_wp]
+      at = 0
+      do k = 1, size(suspension%wheels)
+         now = wheel_attitude(suspension, state, k)
+         row(at + 1:at + 5) = [now%centre(3)/millimetre, now%toe/degree, now%camber/degree, &
+            now%track_change/millimetre, now%wheelbase_change/millimetre]
+         row(at + 6:at + 8) = frame*now%centre/millimetre
+         row(at + 9:at + 11) = frame*now%contact/millimetre
+         at = at + 11
+         if (.not. suspension%wheels(k)%has_steer_axis) cycle
+         if (now%has_steer_axis) row(at + 1:at + 6) = [now%caster/degree, now%kingpin_inclination/degree, &
+            now%scrub_radius/millimetre, now%caster_trail/millimetre, now%spindle_length/millimetre, &
+            now%spindle_offset/millimetre]
+         at = at + 6
+      end do
+      do k = 1, size(suspension%springs)
+         associate (spring => suspension%springs(k))
+            length = measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
+               state%poses(spring%measure%body_j + 1))
+            call spring_tension(spring, length, tension, slope)
+            select case (spring%kind)
+            case (stop_spring)
+               row(at + 1) = -deflection(spring%law, length)/millimetre
+            case (torsion_spring)
+               row(at + 1) = length/degree
+            case default
+               row(at + 1) = length/millimetre
+            end select
+            row(at + 2) = -tension
+            at = at + 2
+         end associate
+      end do
+      do k = 1, size(suspension%readouts)
+         associate (m => suspension%readouts(k)%measure)
+            at = at + 1
+            row(at) = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))/measure_unit(m%kind)
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         associate (bushing => suspension%bushings(k))
+            call look_bushing(bushing, state%poses(bushing%body_i + 1), state%poses(bushing%body_j + 1), view)
+            row(at + 1:at + 3) = to_marker(bushing%axes, view%gap)/millimetre
+            row(at + 4:at + 6) = to_marker(bushing%axes, view%turn%theta)/degree
+            call bushing_load(bushing, view, force, moment)
+            row(at + 7:at + 9) = force
+            row(at + 10:at + 12) = moment
+            at = at + 12
+         end associate
+      end do
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k))
+            if (joint%is_of_measures) then
+               at = at + 1
+               row(at) = -state%reaction(joint%first_row)
+               cycle
+            end if
+            force = 0.0_wp
+            moment = 0.0_wp
+            do r = joint%first_row, joint%first_row + joint%rows - 1
+               call add_reaction(suspension, kkt, state%reaction(r), r, force, moment)
+            end do
+            row(at + 1:at + 3) = frame*force
+            at = at + 3
+            if (.not. has_moment(suspension, joint)) cycle
+            arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
+            row(at + 1:at + 3) = frame*(moment - cross(arm, force))
+            at = at + 3
+         end associate
+      end do
+   end subroutine state_values
+
+   !> What a measure's value is divided by to leave in mm or deg.
+   pure real(wp) function measure_unit(kind) result(unit)
+      integer, intent(in) :: kind
+      select case (kind)
+      case (rotation)
+         unit = degree
+      case (axis_axis)
+         unit = 1.0_wp
+      case default
+         unit = millimetre
+      end select
+   end function measure_unit
+
+   !> Whether a joint's reaction holds a moment about its own point: only rows between directions make one.
+   pure logical function has_moment(suspension, joint)
+      type(suspension_t), intent(in) :: suspension
+      type(joint_t), intent(in) :: joint
+      integer :: r
+
+      has_moment = .false.
+      do r = joint%first_row, joint%first_row + joint%rows - 1
+         select case (suspension%terms(suspension%rows(r)%first)%measure%kind)
+         case (axis_axis, rotation)
+            has_moment = .true.
+         end select
+      end do
+   end function has_moment
+
+   !> Unit of λ of a row: N, or N m where the measure has no length.
+   pure function reaction_unit(suspension, row) result(unit)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: row
+      character(:), allocatable :: unit
+
+      unit = 'n'
+      select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
+      case (axis_axis, rotation)
+         unit = 'nm'
+      end select
+   end function reaction_unit
+
+   !> Adds what a row exerts on its second body: −λ × gradient; moment about the reference point.
+   pure subroutine add_reaction(suspension, kkt, reaction, r, force, moment)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt
+      real(wp), intent(in) :: reaction
+      integer, intent(in) :: r
+      real(wp), intent(inout) :: force(3), moment(3)
+      integer :: t
+
+      do t = suspension%rows(r)%first, suspension%rows(r)%first + suspension%rows(r)%terms - 1
+         force = force - reaction*kkt%gradients(7:9, t)
+         moment = moment - reaction*kkt%gradients(10:12, t)
+      end do
+   end subroutine add_reaction
+
+   !> Eᵀ v
+   pure function to_marker(axes, v) result(w)
+      real(wp), intent(in) :: axes(3, 3), v(3)
+      real(wp) :: w(3)
+      w = [dot_product(axes(:, 1), v), dot_product(axes(:, 2), v), dot_product(axes(:, 3), v)]
+   end function to_marker
+
+end module ek_state_columns
