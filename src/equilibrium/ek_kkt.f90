@@ -1,25 +1,25 @@
 !> The one dense system of an increment: assembly and its factorisation by LAPACK.
 !>
 !>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
-!>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           FORMULATION.md 5, method 2
+!>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           one step of Newton's method for f_ext = f_el + Φqᵀλ, Φ = c
 !>
 !> C is zero but for drivers with a stiffness k: 1/k on the diagonal, Φ = c + λ/k. With C ≥ 0 a stable equilibrium still
 !> has one negative eigenvalue for each row.
 !> T is the Hessian of the energy along screw motions (see `move_as_screw` in ek_state): the increment of a
 !> body is then the same motion whatever point was made its reference.
 !> Unknowns: 6 a body [Δr Δπ], then the rows of Φ. Only the lower triangle is kept. The matrix is
-!> scaled symmetrically, D S D, with powers of two (exact): lengths by a characteristic length,
-!> forces by a characteristic stiffness, so that all its blocks are of the order of one.
+!> scaled symmetrically, D S D, before it is factorised; D is made in ek_scale.
 module ek_kkt
    use ek_kinds, only: wp
-   use ek_measure, only: view_t, look, add_measure_hessian, axis_axis, rotation
+   use ek_measure, only: view_t, look, add_measure_hessian, rotation
    use ek_turn, only: pose_t
    use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated
-   use ek_spring, only: axial_spring, spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
-   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, design_rates
+   use ek_spring, only: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
+   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
    use ek_rotation, only: cross, skew
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
+   use ek_scale, only: characteristic, scale_factors
    use ek_lapack, only: dsytrf, dsycon
    use ek_substitution, only: substitute
    implicit none(type, external)
@@ -37,7 +37,7 @@ module ek_kkt
       real(wp), allocatable :: matrix(:, :)  !! lower triangle; after `factorise` its factors
       real(wp), allocatable :: rhs(:)        !! [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
       real(wp), allocatable :: gradients(:, :)   !! (12, term): coefficient × gradient of each term
-      real(wp), allocatable :: values(:)     !! Φ(q) − c of each row, without the driver's sign flip
+      real(wp), allocatable :: values(:)     !! Φ(q) − c − Cλ of each row [m, -, rad]: how far the joints are open
       real(wp), allocatable :: scale(:)      !! D
       real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for relief
       integer, allocatable :: pivots(:), iwork(:)
@@ -56,7 +56,6 @@ contains
    function new_kkt(suspension) result(kkt)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t) :: kkt
-      integer :: k
 
       kkt%nq = suspension%unknowns()
       kkt%nc = suspension%constraints()
@@ -66,84 +65,15 @@ contains
       allocate (kkt%pivots(kkt%n), kkt%iwork(kkt%n), source=0)
       allocate (kkt%work(64*max(kkt%n, 1)), source=0.0_wp)   ! 64 is LAPACK's block size of dsytrf
       call characteristic(suspension, kkt%length, kkt%stiffness)
-      do k = 1, kkt%nq
-         kkt%scale(k) = power_of_two(1.0_wp/sqrt(kkt%stiffness))
-         if (mod(k - 1, 6) >= 3) kkt%scale(k) = power_of_two(1.0_wp/(kkt%length*sqrt(kkt%stiffness)))
-      end do
-      do k = 1, kkt%nc
-         kkt%scale(kkt%nq + k) = power_of_two(sqrt(kkt%stiffness))
-         select case (suspension%terms(suspension%rows(k)%first)%measure%kind)
-         case (axis_axis, rotation)
-            kkt%scale(kkt%nq + k) = power_of_two(sqrt(kkt%stiffness)*kkt%length)
-         end select
-      end do
+      call scale_factors(suspension, kkt%length, kkt%stiffness, kkt%scale)
    end function new_kkt
-
-   !> The size of the mechanism (mean distance of its attachment points from the reference points)
-   !> and the geometric mean of its stiffnesses at design.
-   subroutine characteristic(suspension, length, stiffness)
-      type(suspension_t), intent(in) :: suspension
-      real(wp), intent(out) :: length, stiffness
-      real(wp) :: sum_log, least, tension, slope, rates(6)
-      integer :: k, count, axis
-
-      least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
-      length = 0.0_wp
-      count = 0
-      do k = 1, size(suspension%terms)
-         associate (m => suspension%terms(k)%measure)
-            if (m%body_i > 0) call include(m%arm_i)
-            if (m%body_j > 0) call include(m%arm_j)
-         end associate
-      end do
-      do k = 1, size(suspension%bushings)
-         associate (b => suspension%bushings(k))
-            if (b%body_i > 0) call include(b%arm_i)
-            if (b%body_j > 0) call include(b%arm_j)
-         end associate
-      end do
-      length = max(length/max(count, 1), least)
-
-      sum_log = 0.0_wp
-      count = 0
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%kind /= axial_spring) cycle     ! gas and stops hold no wheel at design
-         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
-         if (slope <= 0.0_wp) cycle
-         sum_log = sum_log + log(slope)
-         count = count + 1
-      end do
-      do k = 1, size(suspension%bushings)
-         rates = design_rates(suspension%bushings(k))
-         do axis = 1, 3
-            if (rates(axis) <= 0.0_wp) cycle
-            sum_log = sum_log + log(rates(axis))
-            count = count + 1
-         end do
-      end do
-      stiffness = exp(sum_log/max(count, 1))
-
-   contains
-
-      subroutine include(arm)
-         real(wp), intent(in) :: arm(3)
-         length = length + norm2(arm)
-         count = count + 1
-      end subroutine include
-
-   end subroutine characteristic
-
-   !> The power of two at or below a positive number.
-   pure real(wp) function power_of_two(x)
-      real(wp), intent(in) :: x
-      power_of_two = scale(1.0_wp, exponent(x) - 1)
-   end function power_of_two
 
    !> Force and moment of a load about the body's reference point, global axes; and its arm.
    pure subroutine wrench(load, pose, force, moment, arm)
       type(load_t), intent(in) :: load
       type(pose_t), intent(in) :: pose
-      real(wp), intent(out) :: force(3), moment(3), arm(3)
+      real(wp), intent(out) :: force(3), moment(3)   !! N, N m
+      real(wp), intent(out) :: arm(3)                !! of the point of attack, global axes [m]
 
       arm = rotated(pose%a, load%arm)
       if (load%follows) then
@@ -163,8 +93,8 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
-      integer, intent(in) :: mode
-      type(kkt_t), intent(inout) :: kkt
+      integer, intent(in) :: mode                !! whole_tangent, material_only or residual_only
+      type(kkt_t), intent(inout) :: kkt          !! matrix not yet scaled, rhs, gradients, values
 
       call assemble_into(suspension, state%poses, state%reaction, demand, mode, kkt%nq, kkt%n, kkt%gradients, &
          kkt%values, kkt%matrix, kkt%rhs)
@@ -174,7 +104,7 @@ contains
    !> The same with explicit shapes, which the compiler turns into tight code.
    pure subroutine assemble_into(suspension, poses, reaction, demand, mode, nq, n, gradients, values, matrix, rhs)
       type(suspension_t), intent(in) :: suspension
-      type(pose_t), intent(in) :: poses(0:*)
+      type(pose_t), intent(in) :: poses(0:*)     !! the chassis, then the bodies
       real(wp), intent(in) :: reaction(*)
       type(demand_t), intent(in) :: demand
       integer, intent(in) :: mode, nq, n
@@ -392,7 +322,7 @@ contains
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
       type(kkt_t), intent(inout) :: kkt
-      real(wp), intent(out) :: rcond
+      real(wp), intent(out) :: rcond             !! 0: singular; 1: as good as the unit matrix
       real(wp) :: column
       integer :: i, j, info
 

@@ -10,7 +10,7 @@ module ek_standard_tests
    private
    public :: standard_tests, test_title
 
-   real(wp), parameter :: trail = 30.0_wp*millimetre   !! of a lateral force, KC_DEFINITIONS' second value
+   real(wp), parameter :: trail = 30.0_wp*millimetre   !! of a lateral force, about that of a tyre
 
 contains
 

@@ -1,4 +1,4 @@
-!> Gradient and Hessian by central differences, in the coordinates of FORMULATION.md 1:
+!> Gradient and Hessian by central differences, in the coordinates of ek_measure:
 !> z = [Δr_i Δπ_i Δr_j Δπ_j], r ← r + Δr, A ← exp(Δπ̃) A.
 !>
 !> Fourth order, f' ≈ [f(−2h) − 8 f(−h) + 8 f(h) − f(2h)]/12h: with h about 1e-3 both the remainder and

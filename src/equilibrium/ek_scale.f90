@@ -1,0 +1,101 @@
+!> The scale of a model: a length and a stiffness that are typical of it, and from them the scaling of the system.
+!>
+!>     D S D     with D = 1/√k for Δr, 1/(L√k) for Δπ, √k for rows in metres, L√k for rows between directions
+!>
+!> L [m] and k [N/m] make all blocks of the matrix of the order of one, so that pivots and condition mean the same
+!> whatever the size of the model. Rounded to powers of two: the scaling is then exact.
+module ek_scale
+   use ek_kinds, only: wp
+   use ek_measure, only: axis_axis, rotation
+   use ek_spring, only: axial_spring, spring_tension
+   use ek_elastic, only: design_rates
+   use ek_suspension, only: suspension_t
+   implicit none(type, external)
+   private
+   public :: characteristic, scale_factors
+
+contains
+
+   !> The size of the mechanism (mean distance of its attachment points from the reference points)
+   !> and the geometric mean of its stiffnesses at design.
+   subroutine characteristic(suspension, length, stiffness)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(out) :: length       !! L [m], at least 1 mm
+      real(wp), intent(out) :: stiffness    !! k [N/m]; 1 where nothing is elastic
+      real(wp) :: sum_log, least, tension, slope, rates(6)
+      integer :: k, count, axis
+
+      least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
+      length = 0.0_wp
+      count = 0
+      do k = 1, size(suspension%terms)
+         associate (m => suspension%terms(k)%measure)
+            if (m%body_i > 0) call include(m%arm_i)
+            if (m%body_j > 0) call include(m%arm_j)
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         associate (b => suspension%bushings(k))
+            if (b%body_i > 0) call include(b%arm_i)
+            if (b%body_j > 0) call include(b%arm_j)
+         end associate
+      end do
+      length = max(length/max(count, 1), least)
+
+      sum_log = 0.0_wp
+      count = 0
+      do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%kind /= axial_spring) cycle     ! gas and stops hold no wheel at design
+         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
+         if (slope <= 0.0_wp) cycle
+         sum_log = sum_log + log(slope)
+         count = count + 1
+      end do
+      do k = 1, size(suspension%bushings)
+         rates = design_rates(suspension%bushings(k))
+         do axis = 1, 3
+            if (rates(axis) <= 0.0_wp) cycle
+            sum_log = sum_log + log(rates(axis))
+            count = count + 1
+         end do
+      end do
+      stiffness = exp(sum_log/max(count, 1))
+
+   contains
+
+      subroutine include(arm)
+         real(wp), intent(in) :: arm(3)
+         length = length + norm2(arm)
+         count = count + 1
+      end subroutine include
+
+   end subroutine characteristic
+
+   !> D of a model: six numbers a body, then one a row of Φ.
+   pure subroutine scale_factors(suspension, length, stiffness, scale)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: length, stiffness     !! of `characteristic`
+      real(wp), intent(out) :: scale(:)             !! of as many numbers as the system has unknowns and rows
+      integer :: nq, k
+
+      nq = suspension%unknowns()
+      do k = 1, nq
+         scale(k) = power_of_two(1.0_wp/sqrt(stiffness))
+         if (mod(k - 1, 6) >= 3) scale(k) = power_of_two(1.0_wp/(length*sqrt(stiffness)))
+      end do
+      do k = 1, suspension%constraints()
+         scale(nq + k) = power_of_two(sqrt(stiffness))
+         select case (suspension%terms(suspension%rows(k)%first)%measure%kind)
+         case (axis_axis, rotation)
+            scale(nq + k) = power_of_two(sqrt(stiffness)*length)
+         end select
+      end do
+   end subroutine scale_factors
+
+   !> The power of two at or below a positive number.
+   pure real(wp) function power_of_two(x)
+      real(wp), intent(in) :: x
+      power_of_two = scale(1.0_wp, exponent(x) - 1)
+   end function power_of_two
+
+end module ek_scale
