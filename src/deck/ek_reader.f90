@@ -22,7 +22,8 @@ module ek_reader
    use ek_reader_axle, only: read_axle, read_steering
    use ek_reader_cases, only: read_cases
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_point, add_body, add_gravity, complete
+   use ek_builder, only: add_point, add_body, add_gravity
+   use ek_completion, only: complete
    use ek_case, only: case_t
    implicit none(type, external)
    private
