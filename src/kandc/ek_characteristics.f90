@@ -16,7 +16,7 @@
 module ek_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_vehicle, only: vehicle_t
+   use ek_suspension, only: axle_t
    implicit none(type, external)
    private
    public :: wheel_characteristics_t, axle_characteristics_t, sway_t
@@ -105,13 +105,13 @@ contains
    !> All of one wheel. C and CP are 6×6 (a wheel alone: the other is taken as if it were not there) or 12×12, left
    !> wheel first. Ride rate and the first roll quotients mean something only with tyre rates, the roll quotients
    !> only with two wheels, the anti features only with data of the axle.
-   pure function wheel_characteristics(c, cp, place, side, track, tyre_rate, vehicle) result(is)
+   pure function wheel_characteristics(c, cp, place, side, track, tyre_rate, axle) result(is)
       real(wp), intent(in) :: c(:, :), cp(:, :)
       integer, intent(in) :: place             !! of this wheel in C
       integer, intent(in) :: side              !! −1 left, +1 right
       real(wp), intent(in) :: track            !! m
       real(wp), intent(in) :: tyre_rate(:)     !! N/m, in the order of C; 0: not given
-      type(vehicle_t), intent(in) :: vehicle
+      type(axle_t), intent(in) :: axle
       type(wheel_characteristics_t) :: is
       real(wp) :: in(6, 6), anti(6, 6), patch_in(6, 6), patch_anti(6, 6), height, tyre
 
@@ -155,7 +155,7 @@ contains
       is%traction_deflection = in(1, 1)      ! forward, per force forward
       is%traction_steer = -in(6, 1)
       is%traction_caster = -in(5, 1)
-      call anti_features(in, patch_in, vehicle, is%anti_brake, is%anti_drive)
+      call anti_features(in, patch_in, axle, is%anti_brake, is%anti_drive)
       is%fore_aft_stiffness = quotient(1.0_wp, in(1, 1), least_compliance)
       is%lateral_stiffness = quotient(1.0_wp, in(2, 2), least_compliance)
       is%vertical_stiffness = is%wheel_rate
@@ -212,24 +212,24 @@ contains
    !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the patch, and the load
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: the other way round, at the centre
    !> or the patch. Zf, Zw: what the wheel centres move up under the one and under the other.
-   pure subroutine anti_features(in, patch_in, vehicle, brake, drive)
+   pure subroutine anti_features(in, patch_in, axle, brake, drive)
       real(wp), intent(in) :: in(6, 6), patch_in(6, 6)
-      type(vehicle_t), intent(in) :: vehicle
+      type(axle_t), intent(in) :: axle
       real(wp), intent(out) :: brake, drive
       real(wp) :: share, transfer, lever, least
 
       brake = 0.0_wp
       drive = 0.0_wp
-      if (.not. vehicle%has_axle) return
-      share = vehicle%brake_share
-      if (.not. vehicle%is_front) share = 1.0_wp - share
-      transfer = 0.5_wp*vehicle%cg_height/vehicle%wheelbase
+      if (.not. axle%has_axle) return
+      share = axle%brake_share
+      if (.not. axle%is_front) share = 1.0_wp - share
+      transfer = 0.5_wp*axle%cg_height/axle%wheelbase
       least = least_compliance*transfer
-      if (.not. vehicle%is_front) transfer = -transfer
+      if (.not. axle%is_front) transfer = -transfer
       lever = in(3, 1)
-      if (vehicle%drives_at_patch) lever = patch_in(3, 1)
+      if (axle%drives_at_patch) lever = patch_in(3, 1)
       brake = quotient(-0.5_wp*share*patch_in(3, 1), transfer*in(3, 3), least)
-      drive = quotient(0.5_wp*vehicle%drive_share*lever, -transfer*in(3, 3), least)
+      drive = quotient(0.5_wp*axle%drive_share*lever, -transfer*in(3, 3), least)
    end subroutine anti_features
 
    !> Where the instant axes of both patches in the front view meet: dz (z − z0) + dy (y − y0) = 0 through each, (dy, dz)

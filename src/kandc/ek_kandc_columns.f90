@@ -147,16 +147,16 @@ contains
       is_pair = is_axle(suspension)
       is_shod = all(tyre > 0.0_wp)
       associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1), &
-            v => self%vehicle, c => self%compliance%response)
+            axle => self%vehicle%axle, c => self%compliance%response)
          contact = pose%r + rotated(pose%a, wheel%contact)
          if (self%compliance%is_known) then
             axis = instant_axis(self%compliance, place, wheel%side, centre, contact)
             if (is_pair) then
-               is = wheel_characteristics(c(:12, :12), patch_matrix(c(:12, :12), radius), place, wheel%side, track, tyre, v)
+               is = wheel_characteristics(c(:12, :12), patch_matrix(c(:12, :12), radius), place, wheel%side, track, tyre, axle)
             else
                associate (own => c(6*place - 5:6*place, 6*place - 5:6*place))
                   is = wheel_characteristics(own, patch_matrix(own, radius(place:place)), 1, wheel%side, track, &
-                     tyre(place:place), v)
+                     tyre(place:place), axle)
                end associate
                is_shod = tyre(place) > 0.0_wp
             end if
@@ -204,10 +204,10 @@ contains
          call put_known(self, prefix//'traction_deflection_mm_per_kn', is%traction_deflection/mm_per_kn)
          call put_known(self, prefix//'traction_steer_deg_per_kn', is%traction_steer/deg_per_kn)
          call put_known(self, prefix//'traction_caster_deg_per_kn', is%traction_caster/deg_per_kn)
-         if (v%has_axle .and. v%is_front) then
+         if (axle%has_axle .and. axle%is_front) then
             call put_known(self, prefix//'anti_dive_percent', 100.0_wp*is%anti_brake)
             call put_known(self, prefix//'anti_lift_drive_percent', 100.0_wp*is%anti_drive)
-         else if (v%has_axle) then
+         else if (axle%has_axle) then
             call put_known(self, prefix//'anti_lift_brake_percent', 100.0_wp*is%anti_brake)
             call put_known(self, prefix//'anti_squat_percent', 100.0_wp*is%anti_drive)
          end if
@@ -226,7 +226,7 @@ contains
       type(axle_characteristics_t) :: is
       real(wp) :: frame, left, right
 
-      associate (c => self%compliance%response, v => self%vehicle)
+      associate (c => self%compliance%response, axle => self%vehicle%axle)
          if (self%compliance%is_known) is = axle_characteristics(c(:12, :12), patch_matrix(c(:12, :12), radius), patch, tyre)
          frame = merge(-1.0_wp, 1.0_wp, suspension%is_iso)
          call put_known(self, 'suspension_roll_rate_nm_per_deg', is%suspension_roll_rate/nm_per_deg)
@@ -236,15 +236,15 @@ contains
          call put_known(self, 'roll_centre_y_mm', frame*is%roll_centre(1)/millimetre)
          call put_known(self, 'roll_centre_z_mm', is%roll_centre(2)/millimetre)
          call put_known(self, 'roll_centre_height_mm', (is%roll_centre(2) - 0.5_wp*(patch(3, 1) + patch(3, 2)))/millimetre)
-         if (.not. v%has_axle .or. v%steer_row == 0) return
+         if (.not. axle%has_axle .or. self%vehicle%steer_row == 0) return
          left = steer_of(now(1)%toe, -1)
          right = steer_of(now(2)%toe, 1)
-         call put(self, 'turning_circle_m', turning_circle(left, right, v%wheelbase))
+         call put(self, 'turning_circle_m', turning_circle(left, right, axle%wheelbase))
          ! what the steering does, without the static toe
          left = left - steer_of(design_toe(suspension, -1), -1)
          right = right - steer_of(design_toe(suspension, 1), 1)
-         call put(self, 'ackermann_percent', ackermann_percent(left, right, v%wheelbase, track))
-         call put(self, 'ackermann_error_deg', ackermann_error(left, right, v%wheelbase, track)/degree)
+         call put(self, 'ackermann_percent', ackermann_percent(left, right, axle%wheelbase, track))
+         call put(self, 'ackermann_error_deg', ackermann_error(left, right, axle%wheelbase, track)/degree)
       end associate
    end subroutine list_axle
 
