@@ -10,7 +10,7 @@ module ek_reader_curves
    use ek_draft, only: draft_t, complain, has_key, choice, look_up
    implicit none(type, external)
    private
-   public :: read_curves, find_curve, check_rate, check_either
+   public :: read_curves, find_law, find_curve, check_rate, check_either
 
 contains
 
@@ -79,6 +79,21 @@ contains
       if (found == 0) return
       if (draft%cards(found)%is_good) curve = scaled_curve(draft%curves(draft%cards(found)%index), x_unit, y_unit)
    end subroutine find_curve
+
+   !> The law of an element that has either a rate or a curve: checks both keys, and gives the curve if there is one.
+   subroutine find_law(draft, deck, k, rate, curve, x_unit, y_unit, law)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k                   !! record of the element
+      real(wp), intent(in) :: rate               !! deck units
+      character(*), intent(in) :: curve          !! its name; '': none
+      real(wp), intent(in) :: x_unit, y_unit     !! SI per deck unit of the deflection and of the force
+      type(curve_t), allocatable, intent(out) :: law   !! SI; unallocated where there is none, or it was refused
+
+      call check_either(draft, deck, k)
+      call check_rate(draft, deck, k, 'rate', '', rate)
+      call find_curve(draft, deck, k, 'curve', curve, x_unit, y_unit, law)
+   end subroutine find_law
 
    !> Rate or curve, one of them.
    subroutine check_either(draft, deck, k)

@@ -9,7 +9,7 @@ module ek_reader_springs
    use ek_group, only: spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_deck, only: deck_t
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_bodies, find_direction
-   use ek_reader_curves, only: find_curve, check_rate, check_either
+   use ek_reader_curves, only: find_law, find_curve, check_rate, check_either
    implicit none(type, external)
    private
    public :: read_springs, read_dampers, read_stops, read_torsions
@@ -50,9 +50,7 @@ contains
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
 
          call find_ends(draft, deck, k, bodies, at, ends)
-         call check_either(draft, deck, k)
-         call check_rate(draft, deck, k, 'rate', '', rate)
-         call find_curve(draft, deck, k, 'curve', trim(curve), draft%units%length, draft%units%force, law)
+         call find_law(draft, deck, k, rate, trim(curve), draft%units%length, draft%units%force, law)
          if (.not. free_length > 0.0_wp) &
             call complain(draft, deck, k, 'free_length', 'free_length must be above 0, found '//str(free_length))
          if (has_key(deck, k, 'preload') .and. has_key(deck, k, 'free_length')) &
@@ -172,9 +170,7 @@ contains
          call find_bodies(draft, deck, k, bodies, number, has_bodies)
          call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, u, has_axis, is_axis)
          if (.not. has_axis) call complain(draft, deck, k, '', "'axis' or 'axis_vector' is missing")
-         call check_either(draft, deck, k)
-         call check_rate(draft, deck, k, 'rate', '', rate)
-         call find_curve(draft, deck, k, 'curve', trim(curve), draft%units%angle, moment_unit, law)
+         call find_law(draft, deck, k, rate, trim(curve), draft%units%angle, moment_unit, law)
          if (.not. draft%cards(k)%is_good) cycle
 
          call add_element(suspension, new_torsion(trim(name), where_of(deck, k), number(1), number(2), u, &
