@@ -24,7 +24,7 @@ module ek_characteristics
 
    real(wp), parameter :: least_compliance = 1.0e-12_wp   !! m/N
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
-   real(wp), parameter, public :: trail = 0.030_wp        !! m: offset of a lateral force behind the patch
+   real(wp), parameter, public :: trail = 0.030_wp        !! m: offset of a lateral force behind the patch, about that of a tyre
 
    !> What a lateral force or an aligning moment does.
    type :: sway_t

@@ -5,12 +5,11 @@ module ek_standard_tests
    use ek_text, only: lower
    use ek_case, only: case_t
    use ek_suspension, only: suspension_t
+   use ek_characteristics, only: trail
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
    private
    public :: standard_tests, test_title
-
-   real(wp), parameter :: trail = 30.0_wp*millimetre   !! of a lateral force, about that of a tyre
 
 contains
 
@@ -45,17 +44,20 @@ contains
 
    contains
 
+      !> In phase, and for an axle in anti phase.
       subroutine include_both(test, offset, reach)
          character(*), intent(in) :: test
-         real(wp), intent(in) :: offset, reach
+         real(wp), intent(in) :: offset, reach       !! as for include
          call include(test, .false., offset, reach, 40)
          if (is_axle) call include(test, .true., offset, reach, 40)
       end subroutine include_both
 
+      !> The deck's own case of this kind, or the standard one.
       subroutine include(test, is_anti, offset, reach, increments)
          character(*), intent(in) :: test
          logical, intent(in) :: is_anti
-         real(wp), intent(in) :: offset, reach       !! m; from −reach to +reach
+         real(wp), intent(in) :: offset              !! of the force behind the patch [m]
+         real(wp), intent(in) :: reach               !! m, rad, N or N m: from −reach to +reach
          integer, intent(in) :: increments
          type(case_t) :: this
          integer :: k

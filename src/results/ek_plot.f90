@@ -3,14 +3,13 @@ module ek_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
+   use ek_test_result, only: wheel_word, least_stroke, travel => travel_column
    use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
    use ek_file, only: base_name
    implicit none(type, external)
    private
    public :: run_figures
 
-   real(wp), parameter :: least_stroke = 1.0_wp   !! mm; a wheel that moves less is not drawn over its travel
-   character(*), parameter :: travel = 'wheel_travel_mm'
    integer, parameter :: most_curves = 8          !! in one panel, then it becomes a thicket
 
    !> What is drawn for every wheel: column without the wheel's name, title, label with its sign.
@@ -138,7 +137,7 @@ contains
             middle = sum(range)/2
             width = max(width, range(2) - range(1))
             call add_curve(panel, new_curve(view%file, abscissa_of(view, view%wheels(wheel)), trim(wanted), &
-               wheel_title(view%wheels(wheel)), trim(merge('dashed', 'line  ', wheel > 1)), wheel))
+               wheel_word(view%wheels(wheel)), trim(merge('dashed', 'line  ', wheel > 1)), wheel))
          end do
          if (size(panel%curves) == 0) cycle
          if (width < quantities(k)%noise) panel%least_y = middle + quantities(k)%noise*[-1.0_wp, 1.0_wp]
@@ -288,14 +287,6 @@ contains
          if (index(element, trim(view%wheels(k))) == 1) name = trim(view%wheels(k))//travel
       end do
    end function abscissa_of
-
-   !> 'left' of 'left_'; the only wheel needs no name.
-   pure function wheel_title(prefix) result(title)
-      character(*), intent(in) :: prefix
-      character(:), allocatable :: title
-
-      title = prefix(:max(0, len_trim(prefix) - 1))
-   end function wheel_title
 
    !> The values that are numbers.
    pure function finite_only(values) result(numbers)

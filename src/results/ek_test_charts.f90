@@ -5,11 +5,11 @@ module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_table, only: table_t, name_length, column_index, row_count
-   use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column
+   use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
-   public :: quantity_t, all_quantities, quantities_of, quantity_named, test_charts, quantity_chart, wheel_word
+   public :: quantity_t, all_quantities, quantities_of, quantity_named, test_charts, quantity_chart
 
    !> A quantity as it is drawn: column without the wheel's name, title, unit and sign.
    type :: quantity_t
@@ -151,17 +151,6 @@ contains
 
       if (size(chart%traces) > 0) call append_chart(charts, chart)
    end subroutine append_if_drawn
-
-   pure logical function has_column(test, name)
-      type(test_result_t), intent(in) :: test
-      character(*), intent(in) :: name
-      integer :: k
-
-      has_column = column_index(test%table, name) > 0
-      do k = 1, size(test%prefixes)
-         has_column = has_column .or. column_index(test%table, trim(test%prefixes(k))//name) > 0
-      end do
-   end function has_column
 
    !> A quantity of every wheel, or of the axle, over the abscissa of the test; without curves where there is none.
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
@@ -322,12 +311,5 @@ contains
          if (index(name, trim(test%prefixes(k))) == 1) wheel = k
       end do
    end function side_of
-
-   !> 'left' of 'left_'; the only wheel needs no name.
-   pure function wheel_word(prefix) result(word)
-      character(*), intent(in) :: prefix
-      character(:), allocatable :: word
-      word = prefix(:max(0, len_trim(prefix) - 1))
-   end function wheel_word
 
 end module ek_test_charts

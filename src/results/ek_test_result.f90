@@ -9,7 +9,7 @@ module ek_test_result
    implicit none(type, external)
    private
    public :: test_result_t, frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, design_row
-   public :: wheel_column, travel_column
+   public :: wheel_column, has_column, travel_column, least_stroke, wheel_word
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
    character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
@@ -117,20 +117,10 @@ contains
       case default
          call set(travel_column, 'wheel travel [mm]    (+ bump)')
       end select
-      if (test%abscissa /= 'factor' .and. .not. is_there(test%abscissa)) call set_factor('load factor')
+      if (test%abscissa /= 'factor' .and. .not. has_column(test, test%abscissa)) call set_factor('load factor')
       if (test%kind == 'other' .and. stroke(travel_column) < least_stroke) call set_factor('load factor')
 
    contains
-
-      pure logical function is_there(name)
-         character(*), intent(in) :: name
-         integer :: k
-
-         is_there = column_index(test%table, name) > 0
-         do k = 1, size(test%prefixes)
-            is_there = is_there .or. column_index(test%table, trim(test%prefixes(k))//name) > 0
-         end do
-      end function is_there
 
       !> Span of a column of any wheel.
       pure real(wp) function stroke(name)
@@ -173,6 +163,18 @@ contains
       if (place == 0) place = column_index(test%table, name)
    end function wheel_column
 
+   !> Whether a wheel, or the axle, has a column of this name.
+   pure logical function has_column(test, name)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: name
+      integer :: k
+
+      has_column = column_index(test%table, name) > 0
+      do k = 1, size(test%prefixes)
+         has_column = has_column .or. column_index(test%table, trim(test%prefixes(k))//name) > 0
+      end do
+   end function has_column
+
    !> Which rows hold a state that was found.
    pure function converged_rows(table) result(is_good)
       type(table_t), intent(in) :: table
@@ -202,5 +204,12 @@ contains
       end do
       row = 0
    end function design_row
+
+   !> 'left' of 'left_'; the only wheel needs no name.
+   pure function wheel_word(prefix) result(word)
+      character(*), intent(in) :: prefix
+      character(:), allocatable :: word
+      word = prefix(:max(0, len_trim(prefix) - 1))
+   end function wheel_word
 
 end module ek_test_result
