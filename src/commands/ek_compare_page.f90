@@ -4,7 +4,8 @@ module ek_compare_page
    use ek_text, only: str
    use ek_version, only: version
    use ek_test_result, only: design_row
-   use ek_test_charts, only: quantity_t, all_quantities, quantities_of, quantity_named, quantity_chart
+   use ek_quantity, only: quantity_t, all_quantities, quantities_of, quantity_named
+   use ek_test_charts, only: quantity_chart
    use ek_chart, only: chart_t, add_trace, append_chart
    use ek_comparison, only: difference_t, difference, percent
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &

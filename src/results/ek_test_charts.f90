@@ -1,4 +1,5 @@
-!> The charts that an engineer expects of a test, side by side: which quantities, in which order.
+!> The charts that an engineer expects of a test, side by side, in the order of ek_quantity: one a quantity, then springs,
+!> bushings and bars together.
 !>
 !> A quantity whose column the table does not hold, or that never has a value, is left out.
 module ek_test_charts
@@ -6,122 +7,16 @@ module ek_test_charts
    use ek_kinds, only: wp
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
+   use ek_quantity, only: quantity_t, quantities_of, quantity_named
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
-   public :: quantity_t, all_quantities, quantities_of, quantity_named, test_charts, quantity_chart
-
-   !> A quantity as it is drawn: column without the wheel's name, title, unit and sign.
-   type :: quantity_t
-      character(36) :: column = ''
-      character(34) :: title = ''
-      character(60) :: label = ''
-      real(wp) :: noise = 0.0_wp         !! unit of the column; a smaller span is drawn flat
-   end type quantity_t
+   public :: test_charts, quantity_chart
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is as good as none, and passes infinity
    integer, parameter :: most_curves = 8       !! in one chart, then it becomes a thicket
 
-   ! Every quantity with a name of its own, once
-   type(quantity_t), parameter :: all_quantities(*) = [ &
-      quantity_t('toe_deg', 'Toe', 'deg    (+ front edge inward)', 0.01_wp), &
-      quantity_t('steer_deg', 'Steer', 'deg    (+ to the left)', 0.01_wp), &
-      quantity_t('camber_deg', 'Camber', 'deg    (+ top outward)', 0.01_wp), &
-      quantity_t('inclination_deg', 'Inclination to the road', 'deg    (+ top outward)', 0.01_wp), &
-      quantity_t('caster_deg', 'Caster', 'deg    (+ top rearward)', 0.01_wp), &
-      quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'deg    (+ top inward)', 0.01_wp), &
-      quantity_t('track_change_mm', 'Half-track change', 'contact patch, mm    (+ outward)', 0.1_wp), &
-      quantity_t('wheelbase_change_mm', 'Wheelbase change', 'contact patch, mm    (+ rearward)', 0.1_wp), &
-      quantity_t('wheel_centre_x_mm', 'Wheel centre, longitudinal', 'mm    (x of the deck)', 0.1_wp), &
-      quantity_t('wheel_travel_mm', 'Wheel travel', 'mm    (+ bump)', 0.1_wp), &
-      quantity_t('scrub_radius_mm', 'Scrub radius', 'mm    (+ axis inboard of the patch)', 0.1_wp), &
-      quantity_t('caster_trail_mm', 'Caster trail', 'mm    (+ axis ahead of the patch)', 0.1_wp), &
-      quantity_t('spindle_length_mm', 'Spindle length', 'mm    (+ wheel centre outboard)', 0.1_wp), &
-      quantity_t('instant_caster_deg', 'Caster, instant axis', 'deg    (+ top rearward)', 0.01_wp), &
-      quantity_t('instant_kingpin_inclination_deg', 'Kingpin inclination, instant axis', 'deg    (+ top inward)', 0.01_wp), &
-      quantity_t('instant_scrub_radius_mm', 'Scrub radius, instant axis', 'mm    (+ axis inboard of the patch)', 0.1_wp), &
-      quantity_t('instant_caster_trail_mm', 'Caster trail, instant axis', 'mm    (+ axis ahead of the patch)', 0.1_wp), &
-      quantity_t('vertical_force_n', 'Wheel load', 'N    (ground on wheel, + up)', 1.0_wp), &
-      quantity_t('wheel_rate_n_per_mm', 'Wheel rate', 'N/mm    (both wheels in phase)', 0.1_wp), &
-      quantity_t('ride_rate_n_per_mm', 'Ride rate', 'N/mm    (with the tyre)', 0.1_wp), &
-      quantity_t('roll_centre_height_mm', 'Roll centre, height', 'mm    (+ above the ground)', 0.1_wp), &
-      quantity_t('roll_centre_z_mm', 'Roll centre, vertical', 'mm    (z of the deck)', 0.1_wp), &
-      quantity_t('roll_centre_y_mm', 'Roll centre, lateral', 'mm    (y of the deck)', 0.1_wp), &
-      quantity_t('suspension_roll_rate_nm_per_deg', 'Suspension roll rate', 'N m/deg', 1.0_wp), &
-      quantity_t('total_roll_rate_nm_per_deg', 'Total roll rate', 'N m/deg    (with the tyres)', 1.0_wp), &
-      quantity_t('roll_moment_nm', 'Roll moment', 'N m    (+ left wheel loaded)', 1.0_wp), &
-      quantity_t('side_view_arm_length_mm', 'Side-view swing arm length', 'mm', 1.0_wp), &
-      quantity_t('side_view_arm_angle_deg', 'Side-view swing arm angle', 'deg', 0.01_wp), &
-      quantity_t('front_view_arm_length_mm', 'Front-view swing arm length', 'mm', 1.0_wp), &
-      quantity_t('front_view_arm_angle_deg', 'Front-view swing arm angle', 'deg', 0.01_wp), &
-      quantity_t('anti_dive_percent', 'Anti-dive', '%', 0.1_wp), &
-      quantity_t('anti_lift_drive_percent', 'Anti-lift, drive', '%', 0.1_wp), &
-      quantity_t('anti_lift_brake_percent', 'Anti-lift, braking', '%', 0.1_wp), &
-      quantity_t('anti_squat_percent', 'Anti-squat', '%', 0.1_wp), &
-      quantity_t('bump_steer_deg_per_m', 'Bump steer, local slope', 'deg/m    (+ to the left in bump)', 0.1_wp), &
-      quantity_t('roll_steer_deg_per_deg', 'Roll steer, local slope', 'deg/deg', 0.001_wp), &
-      quantity_t('ackermann_percent', 'Ackermann', '%    (100: wheels roll about one point)', 0.1_wp), &
-      quantity_t('ackermann_error_deg', 'Ackermann error', 'deg', 0.01_wp), &
-      quantity_t('turning_circle_m', 'Turning circle', 'm', 0.1_wp), &
-      quantity_t('steering_ratio', 'Steering ratio', 'steering wheel over road wheel', 0.01_wp), &
-      quantity_t('steering_wheel_deg', 'Steering wheel', 'deg    (+ left)', 0.1_wp), &
-      quantity_t('lateral_in_steer_deg_per_kn', 'Lateral compliance, steer', 'deg/kN    (in phase)', 1e-4_wp), &
-      quantity_t('lateral_in_camber_deg_per_kn', 'Lateral compliance, camber', 'deg/kN    (in phase)', 1e-4_wp), &
-      quantity_t('lateral_in_deflection_mm_per_kn', 'Lateral compliance, patch', 'mm/kN    (in phase)', 1e-3_wp)]
-
 contains
-
-   !> The columns drawn for a kind of test, in order; the first ones matter most.
-   pure function quantities_of(kind) result(columns)
-      character(*), intent(in) :: kind
-      character(36), allocatable :: columns(:)
-
-      select case (kind)
-      case ('roll')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
-            'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
-            'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
-      case ('steering')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
-            'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
-            'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
-            'track_change_mm', 'wheelbase_change_mm']
-      case ('lateral_force')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
-            'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
-      case ('aligning_torque')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
-      case ('braking', 'traction')
-         columns = [character(36) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
-            'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
-      case ('vertical_force')
-         columns = [character(36) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
-            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
-      case default
-         columns = [character(36) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
-            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
-            'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
-            'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
-            'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
-            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_deflection_mm_per_kn', &
-            'lateral_in_steer_deg_per_kn', 'lateral_in_camber_deg_per_kn']
-         if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(36) :: columns(:13), &
-            'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
-         if (kind == 'other') columns = [character(36) :: 'steer_deg', columns]
-      end select
-   end function quantities_of
-
-   !> A quantity by its column; one without a declared name is called by its column.
-   pure type(quantity_t) function quantity_named(name) result(quantity)
-      character(*), intent(in) :: name
-      integer :: k
-
-      quantity%column = name
-      quantity%title = name
-      do k = 1, size(all_quantities)
-         if (all_quantities(k)%column == name) quantity = all_quantities(k)
-      end do
-   end function quantity_named
 
    !> All charts of a test, named <test>_<column>.
    pure subroutine test_charts(test, charts)
