@@ -1,12 +1,10 @@
 !> The page of a report, from its tests, gradients and pictures.
 module ek_report_page
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
-   use ek_text, only: str, plural
+   use ek_text, only: plural
    use ek_file, only: read_whole, join_path, file_exists
    use ek_test_result, only: test_result_t, design_row, converged_rows, wheel_word
-   use ek_table, only: row_count
    use ek_chart, only: chart_t
    use ek_chart_set, only: chart_set_t
    use ek_gradient, only: gradient_t

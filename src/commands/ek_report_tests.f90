@@ -2,7 +2,6 @@
 module ek_report_tests
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
-   use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t, load_number
    use ek_rig, only: mount

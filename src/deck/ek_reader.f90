@@ -4,7 +4,7 @@
 !> Every mistake of the deck is collected; the suspension is only complete when there is none.
 module ek_reader
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, lower
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
    use ek_record, only: place_t, element, place_of, place_in, own_name, single

@@ -1,7 +1,7 @@
 !> &measure and &joint: the geometry of what is held, driven, coupled or read out.
 module ek_reader_joints
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, quoted
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
    use ek_joint, only: joint_geometry_t, joint_kinds, needs_axis, needs_second_axis
    use ek_suspension, only: suspension_t, readout_t

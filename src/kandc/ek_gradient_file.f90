@@ -1,7 +1,5 @@
 !> Gradients as files: gradients.csv and gradients.json, each number with its window, unit and sign in words.
 module ek_gradient_file
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted
    use ek_decimal, only: put_decimal, get_decimal, longest_decimal

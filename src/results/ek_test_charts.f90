@@ -5,7 +5,7 @@
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_table, only: table_t, name_length, column_index, row_count
+   use ek_table, only: name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantities_of, quantity_named
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
