@@ -269,6 +269,7 @@ contains
       end do
    end function program_exists
 
+   !> Whether a path is a file that may be run.
    logical function is_program(path)
       character(*), intent(in) :: path
 

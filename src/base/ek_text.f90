@@ -13,6 +13,7 @@ module ek_text
 
 contains
 
+   !> A whole number without blanks.
    pure function str_integer(value) result(text)
       integer, intent(in) :: value
       character(:), allocatable :: text

@@ -45,16 +45,19 @@ contains
       end if
    end function new_units
 
+   !> Whether a deck may give lengths in this unit.
    pure logical function is_length_unit(name)
       character(*), intent(in) :: name
       is_length_unit = name == 'mm' .or. name == 'm'
    end function is_length_unit
 
+   !> Whether a deck may give forces in this unit; letters may be small.
    pure logical function is_force_unit(name)
       character(*), intent(in) :: name
       is_force_unit = name == 'N' .or. name == 'n' .or. name == 'kN' .or. name == 'kn'
    end function is_force_unit
 
+   !> Whether a deck may give angles in this unit.
    pure logical function is_angle_unit(name)
       character(*), intent(in) :: name
       is_angle_unit = name == 'deg' .or. name == 'rad'

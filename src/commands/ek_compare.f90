@@ -4,7 +4,7 @@ module ek_compare
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: put_decimal, longest_decimal
+   use ek_decimal, only: decimal
    use ek_file, only: make_folder, write_whole, join_path, write_standard_output
    use ek_table, only: column_index
    use ek_chart, only: chart_t, charts_script
@@ -201,6 +201,7 @@ contains
       text = out%text()
    end function words_of
 
+   !> A number for the table on the terminal; '-' where there is none.
    pure function number_text(value, digits) result(text)
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
@@ -254,17 +255,6 @@ contains
       end do
       call write_whole(path, text_table_csv(table), error)
    end subroutine write_differences
-
-   pure function decimal(value) result(text)
-      real(wp), intent(in) :: value
-      character(:), allocatable :: text
-      character(longest_decimal) :: number
-      integer :: used
-
-      used = 0
-      call put_decimal(value, number, used)
-      text = number(:used)
-   end function decimal
 
    !> All charts by one run of gnuplot.
    subroutine draw(arguments, sets, folder, message, error)

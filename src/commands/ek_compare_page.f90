@@ -172,6 +172,7 @@ contains
       if (k > 0) title = results%tests(k)%title
    end function title_of
 
+   !> The place of a test among those of a result, by its name; 0 when it has none of this name.
    pure integer function test_number(results, name) result(number)
       type(results_t), intent(in) :: results
       character(*), intent(in) :: name

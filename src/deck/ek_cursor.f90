@@ -133,6 +133,7 @@ contains
       is_word_begin = (c >= 'a' .and. c <= 'z') .or. (c >= 'A' .and. c <= 'Z') .or. c == '_'
    end function is_word_begin
 
+   !> Whether a string begins, or ends, so.
    pure logical function is_quote(c)
       character, intent(in) :: c
       is_quote = c == "'" .or. c == '"'

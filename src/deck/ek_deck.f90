@@ -193,6 +193,7 @@ contains
       end if
    end function deck_checksum
 
+   !> FNV-1a, 64 bits, of all records in hexadecimal digits; titles and notes do not count.
    function checksum_of(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits

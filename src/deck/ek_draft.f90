@@ -73,6 +73,7 @@ contains
       words = line_words(deck%records(j), deck%records(k))
    end function line_of
 
+   !> Whether record k gives any element of a key.
    pure logical function has_key(deck, k, key)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k

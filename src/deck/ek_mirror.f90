@@ -326,6 +326,7 @@ contains
          name = trim(lower(record%entries(e)%values(1)%text))
    end function name_of
 
+   !> Notes a mistake at a key of a record, or at the record where the key is ''.
    subroutine complain(complaints, record, key, what)
       type(complaints_t), intent(inout) :: complaints
       type(record_t), intent(in) :: record

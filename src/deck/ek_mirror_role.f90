@@ -107,6 +107,7 @@ contains
       is_element = any(elements == group)
    end function is_element
 
+   !> Whether &mirror may make two of a record of this group at all.
    pure logical function can_be_doubled(group)
       character(*), intent(in) :: group
       can_be_doubled = is_element(group) .or. group == 'point' .or. group == 'body'

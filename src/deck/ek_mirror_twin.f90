@@ -156,6 +156,7 @@ contains
       if (is_known) axis = axis/norm2(axis)
    end subroutine find_axis
 
+   !> Three numbers of a key, deck units.
    subroutine vector_of(record, key, vector, is_known)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

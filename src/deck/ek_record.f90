@@ -98,6 +98,7 @@ contains
       end if
    end subroutine complaints_add
 
+   !> Hands the texts over without a copy.
    pure subroutine move_complaint(from, to)
       type(complaint_t), intent(inout) :: from, to
 
@@ -125,6 +126,7 @@ contains
       plain = plain//text(first:)
    end function without
 
+   !> How many mistakes were noted.
    pure integer function complaints_count(self)
       class(complaints_t), intent(in) :: self
       complaints_count = self%used
@@ -154,6 +156,7 @@ contains
       if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes: is this a deck?'
    end function complaints_text
 
+   !> The order of messages: files as they were read, then lines.
    pure logical function is_before(a, b)
       type(place_t), intent(in) :: a, b
       is_before = a%source < b%source .or. (a%source == b%source .and. a%line < b%line)
@@ -280,6 +283,7 @@ contains
       if (k > 0) text = record%entries(k)%values(at - record%entries(k)%first + 1)%text
    end function element
 
+   !> Whether a record gives any element of a key.
    pure logical function is_given(record, key)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

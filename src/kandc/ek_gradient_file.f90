@@ -2,7 +2,7 @@
 module ek_gradient_file
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted
-   use ek_decimal, only: put_decimal, get_decimal, longest_decimal
+   use ek_decimal, only: decimal, get_decimal
    use ek_file, only: write_whole
    use ek_json, only: json_t
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
@@ -32,18 +32,15 @@ contains
       type(gradient_t), intent(in) :: gradients(:)
       character(:), allocatable :: text
       type(text_table_t) :: table
-      character(longest_decimal) :: number
-      integer :: k, used
+      integer :: k
 
       table = new_text_table(columns)
       do k = 1, size(gradients)
          call add_row(table)
-         used = 0
-         call put_decimal(gradients(k)%value, number, used)
          table%cells(1, k)%text = gradients(k)%test
          table%cells(2, k)%text = gradients(k)%quantity
          table%cells(3, k)%text = gradients(k)%side
-         table%cells(4, k)%text = number(:used)
+         table%cells(4, k)%text = decimal(gradients(k)%value)
          table%cells(5, k)%text = gradients(k)%unit
          table%cells(6, k)%text = gradients(k)%window
          table%cells(7, k)%text = str(gradients(k)%points)

@@ -301,6 +301,7 @@ contains
       end do
    end function row_change
 
+   !> The three columns of what a lateral force does.
    subroutine put_lateral(self, stem, sway)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: stem
@@ -310,6 +311,7 @@ contains
       call put_known(self, stem//'camber_deg_per_kn', sway%camber/deg_per_kn)
    end subroutine put_lateral
 
+   !> The six columns of a steer axis; not a number where the axis is not known.
    subroutine put_axis(self, stem, axis)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: stem

@@ -228,6 +228,7 @@ contains
       end do
    end subroutine from_tables
 
+   !> A column at design, or its largest or least value over the states that were found; not a number where there is none.
    pure real(wp) function value_of(test, place, how) result(value)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place
@@ -247,6 +248,7 @@ contains
       if (how == 'least') value = minval(test%table%values(place, :), mask=is_good)
    end function value_of
 
+   !> What stands for a number that a test does not give.
    pure real(wp) function nothing()
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing

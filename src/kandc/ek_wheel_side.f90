@@ -14,6 +14,7 @@ contains
       name = merge('left ', 'right', side == 1)
    end function side_name
 
+   !> What the rig calls its driver of a wheel's height; the deck has no name that begins with rig_.
    pure function height_name(side) result(name)
       integer, intent(in) :: side
       character(:), allocatable :: name

@@ -131,6 +131,7 @@ contains
       spring%law%curve = curve
    end function new_torsion
 
+   !> What all elements between two points share.
    pure function axial(name, where, body_i, body_j, point_i, point_j) result(spring)
       character(*), intent(in) :: name, where
       integer, intent(in) :: body_i, body_j

@@ -107,12 +107,14 @@ module ek_suspension
 
 contains
 
+   !> How many numbers Δq has.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
       unknowns = 0
       if (allocated(self%bodies)) unknowns = 6*size(self%bodies)
    end function unknowns
 
+   !> How many rows Φ has.
    pure integer function constraints(self)
       class(suspension_t), intent(in) :: self
       constraints = 0

@@ -37,6 +37,7 @@ module ek_chart
 
 contains
 
+   !> A chart without curves.
    pure type(chart_t) function new_chart(name, title, y_label, x_label) result(chart)
       character(*), intent(in) :: name, title, y_label, x_label
 
@@ -47,6 +48,7 @@ contains
       allocate (chart%traces(0))
    end function new_chart
 
+   !> Appends a curve.
    pure subroutine add_trace(chart, trace)
       type(chart_t), intent(inout) :: chart
       type(trace_t), intent(in) :: trace
@@ -60,6 +62,7 @@ contains
       call move_alloc(grown, chart%traces)
    end subroutine add_trace
 
+   !> Appends a chart to a list.
    pure subroutine append_chart(charts, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
       type(chart_t), intent(in) :: chart
@@ -186,6 +189,7 @@ contains
       end do
    end subroutine add_chart
 
+   !> The words of gnuplot for a dash pattern.
    pure function dashes(dash) result(words)
       integer, intent(in) :: dash
       character(:), allocatable :: words

@@ -17,7 +17,7 @@ module ek_decimal
    use ek_kinds, only: wp, i8
    implicit none(type, external)
    private
-   public :: put_decimal, get_decimal, longest_decimal
+   public :: decimal, put_decimal, get_decimal, longest_decimal
 
    integer, parameter :: longest_decimal = 24       !! letters that one number takes at most
    integer, parameter :: i16 = selected_int_kind(38)
@@ -69,6 +69,18 @@ contains
       call spell(number, text)
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
+
+   !> The same as a text of its own.
+   pure function decimal(x) result(text)
+      real(wp), intent(in) :: x
+      character(:), allocatable :: text
+      character(longest_decimal) :: buffer
+      integer :: used
+
+      used = 0
+      call put_decimal(x, buffer, used)
+      text = buffer(:used)
+   end function decimal
 
    pure subroutine put(word, buffer, used)
       character(*), intent(in) :: word

@@ -74,6 +74,7 @@ contains
       allocate (figure%panels(0))
    end function new_figure
 
+   !> Appends a curve; the first ones are drawn below the later ones.
    pure subroutine add_curve(panel, curve)
       type(panel_t), intent(inout) :: panel
       type(curve_t), intent(in) :: curve
@@ -87,6 +88,7 @@ contains
       call move_alloc(grown, panel%curves)
    end subroutine add_curve
 
+   !> Appends a pair of axes.
    pure subroutine add_panel(figure, panel)
       type(figure_t), intent(inout) :: figure
       type(panel_t), intent(in) :: panel

@@ -262,6 +262,7 @@ contains
       end do
    end subroutine add_plot
 
+   !> The words of gnuplot for the style of a curve.
    pure function drawn(style) result(with)
       character(*), intent(in) :: style
       character(:), allocatable :: with

@@ -11,7 +11,7 @@ module ek_json
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: put_decimal, longest_decimal
+   use ek_decimal, only: decimal
    implicit none(type, external)
    private
    public :: json_t, json_string, json_number
@@ -151,14 +151,9 @@ contains
    pure function json_number(value) result(literal)
       real(wp), intent(in) :: value
       character(:), allocatable :: literal
-      character(longest_decimal) :: buffer
-      integer :: used
 
       literal = 'null'
-      if (.not. ieee_is_finite(value)) return
-      used = 0
-      call put_decimal(value, buffer, used)
-      literal = buffer(:used)
+      if (ieee_is_finite(value)) literal = decimal(value)
    end function json_number
 
 end module ek_json

@@ -47,17 +47,20 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
+   !> After the last thing of a section.
    pure subroutine end_section(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</section>')
    end subroutine end_section
 
+   !> Words as they are: what HTML would read as markup is escaped.
    pure subroutine add_paragraph(page, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
       call page%body%line('<p>'//escape_html(text)//'</p>')
    end subroutine add_paragraph
 
+   !> A heading within a section.
    pure subroutine add_heading(page, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
@@ -118,6 +121,7 @@ contains
          escape_html(title)//'</th></tr>')
    end subroutine add_group
 
+   !> Before the first cell of a row; as many cells follow as there are heads.
    pure subroutine begin_row(page)
       type(page_t), intent(inout) :: page
       call page%body%add('<tr>')
@@ -136,11 +140,13 @@ contains
       end if
    end subroutine add_cell
 
+   !> After the last cell of a row.
    pure subroutine end_row(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</tr>')
    end subroutine end_row
 
+   !> After the last row of a table.
    pure subroutine end_table(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</tbody></table></div>')
@@ -152,6 +158,7 @@ contains
       call page%body%line('<div class="charts">')
    end subroutine begin_charts
 
+   !> After the last of the charts side by side.
    pure subroutine end_charts(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</div>')

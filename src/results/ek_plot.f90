@@ -224,6 +224,7 @@ contains
       call append(figures, figure)
    end subroutine add_bushings
 
+   !> The square of a column, in the words of gnuplot.
    pure function square(name) result(expression)
       character(*), intent(in) :: name
       character(:), allocatable :: expression

@@ -53,6 +53,7 @@ contains
       call add_run(scene%lines, kind, at)
    end subroutine add_line
 
+   !> Appends the points of one face or line; room doubles when it runs out.
    pure subroutine add_run(list, kind, at)
       type(run_t), intent(inout) :: list
       integer, intent(in) :: kind

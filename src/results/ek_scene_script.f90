@@ -166,6 +166,7 @@ contains
       end do
    end subroutine add_blocks
 
+   !> Whether there is anything of a kind to draw.
    pure logical function has_kind(list, kind)
       type(run_t), intent(in) :: list
       integer, intent(in) :: kind
@@ -174,6 +175,7 @@ contains
       if (list%runs > 0) has_kind = any(list%kind(:list%runs) == kind)
    end function has_kind
 
+   !> The data of all faces or lines of a kind [mm].
    pure subroutine add_block(script, name, list, kind, is_closed)
       type(buffer_t), intent(inout) :: script
       character(*), intent(in) :: name
@@ -275,6 +277,7 @@ contains
       if (kind == part_tyre) colour = '#CCCCCC'
    end function key_colour
 
+   !> The words of gnuplot for the faces of a kind.
    pure function fill(kind) result(words)
       integer, intent(in) :: kind
       character(:), allocatable :: words

@@ -136,6 +136,7 @@ contains
       end do
    end subroutine add_tag
 
+   !> Whether a word stands at a place of a text.
    pure logical function begins(text, at, word)
       character(*), intent(in) :: text, word
       integer, intent(in) :: at
