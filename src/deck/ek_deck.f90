@@ -12,7 +12,8 @@ module ek_deck
    use ek_error, only: error_t, fail, exit_deck, exit_usage
    use ek_file, only: read_whole
    use ek_text, only: str, lower
-   use ek_record, only: record_t, place_t, entry_t, complaints_t, element, is_given, add_value, add_entry
+   use ek_complaint, only: place_t, complaints_t
+   use ek_record, only: record_t, entry_t, element, is_given, add_value, add_entry
    use ek_scanner, only: scan_text
    use ek_include, only: read_text
    use ek_mirror, only: has_mirror, mirror_records

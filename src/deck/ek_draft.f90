@@ -9,8 +9,9 @@ module ek_draft
    use ek_units, only: units_t
    use ek_curve, only: curve_t
    use ek_rotation, only: unit_vector
-   use ek_record, only: complaints_t, place_t, entry_index, is_given, place_of, line_words, own_name, has_side, &
-      single, left_twin
+   use ek_twin, only: has_side, single, left_twin
+   use ek_complaint, only: complaints_t, place_t
+   use ek_record, only: entry_index, is_given, place_of, line_words, own_name
    use ek_group, only: group_names, record_head, did_you_mean, point_group, body_group, wheel_group, word_length
    use ek_deck, only: deck_t
    implicit none(type, external)

@@ -6,7 +6,8 @@ module ek_include
    use ek_error, only: error_t
    use ek_file, only: read_whole, join_path, folder_name
    use ek_text, only: str, quoted
-   use ek_record, only: record_t, place_t, complaints_t, add_record, entry_index, place_of
+   use ek_complaint, only: place_t, complaints_t
+   use ek_record, only: record_t, add_record, entry_index, place_of
    use ek_scanner, only: scan_text
    implicit none(type, external)
    private

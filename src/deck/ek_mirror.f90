@@ -10,8 +10,9 @@
 module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_record, only: record_t, entry_t, place_t, complaints_t, add_record, add_value, element, entry_index, &
-      place_of, line_words, has_side, left_twin, right_twin, twin_prefix
+   use ek_twin, only: has_side, left_twin, right_twin, twin_prefix
+   use ek_complaint, only: place_t, complaints_t
+   use ek_record, only: record_t, entry_t, add_record, add_value, element, entry_index, place_of, line_words
    use ek_group, only: word_length, did_you_mean
    use ek_mirror_role, only: role_of, is_element, can_be_doubled, is_name, named_group, loads
    use ek_mirror_twin, only: reflect, complete_marker, number_of

@@ -5,7 +5,8 @@
 !> judged here first (type, count, subscript, size), and only sound entries are written out again.
 module ek_namelist
    use ek_text, only: str, lower, quoted, plural
-   use ek_record, only: record_t, value_t, place_t, complaints_t, is_given, place_of
+   use ek_complaint, only: place_t, complaints_t
+   use ek_record, only: record_t, value_t, is_given, place_of
    use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
       word_length, note_length, largest_exponent
    implicit none(type, external)

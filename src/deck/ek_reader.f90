@@ -7,7 +7,9 @@ module ek_reader
    use ek_text, only: str, lower
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
-   use ek_record, only: place_t, element, place_of, place_in, own_name, single
+   use ek_twin, only: single
+   use ek_complaint, only: place_t, place_in
+   use ek_record, only: element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, &
       word_length, note_length, record_head, did_you_mean

@@ -3,7 +3,8 @@ module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_case, only: case_t, method_names, most_increments
-   use ek_record, only: value_t, own_name, right_twin
+   use ek_twin, only: right_twin
+   use ek_record, only: value_t, own_name
    use ek_namelist, only: value_fault
    use ek_group, only: wheel_group, case_group, load_group, number
    use ek_deck, only: deck_t

@@ -11,7 +11,8 @@ module ek_scanner
    use ek_text, only: str, lower, quoted
    use ek_cursor, only: cursor_t, skip_blanks, key_follows, take_subscript, take_word, take_anything, take_line, &
       is_word_begin, is_quote, tab, newline, return
-   use ek_record, only: entry_t, record_t, place_t, complaints_t, add_value, add_entry, add_record, entry_index, place_in
+   use ek_complaint, only: place_t, complaints_t, place_in
+   use ek_record, only: entry_t, record_t, add_value, add_entry, add_record, entry_index
    implicit none(type, external)
    private
    public :: scan_text, scan_values

@@ -7,7 +7,8 @@ module ek_study
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: lower
    use ek_case, only: method_names
-   use ek_record, only: element, place_t, place_of, place_in
+   use ek_complaint, only: place_t, place_in
+   use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, note_length, &
       most_values, did_you_mean, is_deck_group, names_of_groups
    use ek_namelist, only: check_record

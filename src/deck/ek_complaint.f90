@@ -1,0 +1,143 @@
+!> What is wrong with a deck, and where: mistakes are collected, and told together.
+module ek_complaint
+   use ek_text, only: str
+   use ek_twin, only: single, left_twin, right_twin, twin_prefix
+   implicit none(type, external)
+   private
+   public :: place_t, complaints_t, place_in
+
+   !> Where something stands.
+   type :: place_t
+      character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
+      integer :: source = 0, line = 0     !! messages are sorted by these
+      integer :: twin = single
+   end type place_t
+
+   type :: complaint_t
+      type(place_t) :: place
+      character(:), allocatable :: text
+   end type complaint_t
+
+   !> Mistakes found so far; handed out in the order of files and lines.
+   !>
+   !> What &mirror doubled is told once and under the name that the deck uses: a message about the right twin
+   !> is dropped where there is one about the left twin at the same place, and that one loses its prefixes.
+   type :: complaints_t
+      private
+      integer :: used = 0
+      type(complaint_t), allocatable :: list(:)
+   contains
+      procedure :: add => complaints_add
+      procedure :: count => complaints_count
+      procedure :: text => complaints_text
+   end type complaints_t
+
+contains
+
+   !> Note a mistake.
+   pure subroutine complaints_add(self, place, what)
+      class(complaints_t), intent(inout) :: self
+      type(place_t), intent(in) :: place
+      character(*), intent(in) :: what
+      type(complaint_t), allocatable :: grown(:)
+      integer :: k
+
+      if (place%twin == right_twin) then
+         do k = 1, self%used
+            if (self%list(k)%place%twin == left_twin .and. self%list(k)%place%words == place%words) return
+         end do
+      end if
+      if (.not. allocated(self%list)) allocate (self%list(8))
+      if (self%used == size(self%list)) then
+         allocate (grown(2*self%used))
+         do k = 1, self%used
+            call move_complaint(self%list(k), grown(k))
+         end do
+         call move_alloc(grown, self%list)
+      end if
+      self%used = self%used + 1
+      self%list(self%used)%place = place
+      if (place%twin == left_twin) then
+         self%list(self%used)%text = place%words//': '//without(what, "'"//trim(twin_prefix(left_twin)))
+      else
+         self%list(self%used)%text = place%words//': '//what
+      end if
+   end subroutine complaints_add
+
+   !> Hands the texts over without a copy.
+   pure subroutine move_complaint(from, to)
+      type(complaint_t), intent(inout) :: from, to
+
+      to%place%source = from%place%source
+      to%place%line = from%place%line
+      to%place%twin = from%place%twin
+      call move_alloc(from%place%words, to%place%words)
+      call move_alloc(from%text, to%text)
+   end subroutine move_complaint
+
+   !> A text in which a quote and a prefix have become the quote alone.
+   pure function without(text, prefix) result(plain)
+      character(*), intent(in) :: text, prefix
+      character(:), allocatable :: plain
+      integer :: first, found
+
+      plain = ''
+      first = 1
+      do
+         found = index(text(first:), prefix)
+         if (found == 0) exit
+         plain = plain//text(first:first + found - 1)
+         first = first + found - 1 + len(prefix)
+      end do
+      plain = plain//text(first:)
+   end function without
+
+   !> How many mistakes were noted.
+   pure integer function complaints_count(self)
+      class(complaints_t), intent(in) :: self
+      complaints_count = self%used
+   end function complaints_count
+
+   !> The messages, one a line, by file and line number; those of one line in the order they came. Who has so many has
+   !> given a file that is no deck.
+   pure function complaints_text(self) result(text)
+      class(complaints_t), intent(in) :: self
+      character(:), allocatable :: text
+      integer, parameter :: most = 100
+      integer :: order(self%used), k, j, this
+
+      do k = 1, self%used
+         this = k
+         do j = k - 1, 1, -1
+            if (.not. is_before(self%list(this)%place, self%list(order(j))%place)) exit
+            order(j + 1) = order(j)
+         end do
+         order(j + 1) = this
+      end do
+      text = ''
+      do k = 1, min(self%used, most)
+         if (k > 1) text = text//new_line('a')
+         text = text//self%list(order(k))%text
+      end do
+      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes: is this a deck?'
+   end function complaints_text
+
+   !> The order of messages: files as they were read, then lines.
+   pure logical function is_before(a, b)
+      type(place_t), intent(in) :: a, b
+      is_before = a%source < b%source .or. (a%source == b%source .and. a%line < b%line)
+   end function is_before
+
+   !> A line of a file; line 0: the file itself.
+   pure subroutine place_in(file, source, line, place)
+      character(*), intent(in) :: file
+      integer, intent(in) :: source, line
+      type(place_t), intent(out) :: place
+
+      place%words = file
+      if (line > 0) place%words = file//':'//str(line)
+      place%source = source
+      place%line = line
+   end subroutine place_in
+
+end module ek_complaint
