@@ -35,8 +35,8 @@ module ek_run
 
 contains
 
-   !> Runs the chosen cases of a deck. A case that fails part way is written as far as it came, the
-   !> others go on, and the error at the end has code exit_convergence.
+   !> Runs the chosen cases of a deck. A case that fails part way is written as far as it came, the others go on whatever
+   !> befell it, and the error at the end has the code of the first that was more than a state not found, else exit_convergence.
    subroutine run(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -44,8 +44,8 @@ contains
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble
       type(message_list_t) :: doubts
-      character(:), allocatable :: checksum, folder
-      integer :: k, failed
+      character(:), allocatable :: checksum, folder, words
+      integer :: k, failed, code
 
       call load_deck(arguments, suspension, cases, checksum, error)
       if (allocated(error)) return
@@ -72,18 +72,25 @@ contains
       end do
 
       failed = 0
+      code = exit_convergence
       do k = 1, size(chosen)
          call run_case(arguments, suspension, chosen(k), folder, checksum, trouble)
          if (.not. allocated(trouble)) cycle
-         if (trouble%code /= exit_convergence) then
+         if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
             call move_alloc(trouble, error)
             return
          end if
          call complain(trouble%message)
          failed = failed + 1
+         if (code == exit_convergence) code = trouble%code     ! the first that is more than states not found
       end do
-      if (failed > 0) call fail(error, exit_convergence, plural(failed, 'case', 'cases')//' of '//str(size(chosen))// &
-         ' ended early; all states before are written')
+      if (failed == 0) return
+      words = plural(failed, 'case', 'cases')//' of '//str(size(chosen))
+      if (code == exit_convergence) then
+         call fail(error, code, words//' ended early; all states before are written')
+      else
+         call fail(error, code, words//' went wrong, as told above; the others are written')
+      end if
    end subroutine run
 
    !> One case: examine, sweep, tell, write, draw.
@@ -93,7 +100,7 @@ contains
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: folder, checksum
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: trouble
+      type(error_t), allocatable :: trouble, undrawn
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -144,13 +151,14 @@ contains
          call write_csv(table, name, trouble)
          if (.not. allocated(trouble)) then
             write (output_unit, '(a)') name
-            if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, trouble)
+            if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, undrawn)
          end if
       end if
       if (.not. allocated(trouble) .and. len(case%target) > 0) &
          call aim(arguments, suspension, case, path, table, checksum, folder, kkt, trouble)
+      if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
       if (.not. allocated(trouble)) return
-      if (trouble%code == exit_convergence .and. len(words) > 0) trouble%message = words//new_line('a')//trouble%message
+      if (len(words) > 0) trouble%message = words//new_line('a')//trouble%message
       call move_alloc(trouble, error)
    end subroutine run_case
 
