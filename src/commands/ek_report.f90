@@ -114,7 +114,7 @@ contains
       write (output_unit, '(a)') join_path(folder, 'report.html')
       if (failed > 0) then
          call fail(error, code, plural(failed, 'test', 'tests')//' of '//str(size(tests))// &
-            ' ended early; all states before are written, and the page tells where')
+            ' lost states; all that were found are written, and the page tells where')
       else if (allocated(undrawn)) then
          call fail(error, undrawn%code, 'the report is written, but not all of its pictures')
       end if

@@ -87,7 +87,7 @@ contains
       if (failed == 0) return
       words = plural(failed, 'case', 'cases')//' of '//str(size(chosen))
       if (code == exit_convergence) then
-         call fail(error, code, words//' ended early; all states before are written')
+         call fail(error, code, words//' lost states; all that were found are written')
       else
          call fail(error, code, words//' went wrong, as told above; the others are written')
       end if

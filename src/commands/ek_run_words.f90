@@ -261,11 +261,19 @@ contains
       type(state_t) :: state
       type(diagnosis_t) :: diagnosis
       real(wp) :: unit
-      integer :: last
+      integer :: last, row
 
       unit = factor_unit(suspension, case)
       if (maxval(abs(path%settled)) <= 0.0_wp) then      ! no state has been stored there
          text = 'case '//quoted(case%name)//': no equilibrium under the constant loads'
+      else if (path%is_table) then
+         text = 'case '//quoted(case%name)//': '//lost_rows(path)//' not found; equilibrium'
+         row = nint(path%value(failure%state))
+         if (count(.not. path%is_reached) > 1) text = text//' of row '//str(row)
+         text = text//' is lost between '//str(100.0_wp*(failure%reached - row + 1), 4)//' and '// &
+            str(100.0_wp*(failure%value - row + 1), 4)//' % of the way to it from '
+         if (row == 1) text = text//'design'
+         if (row > 1) text = text//'row '//str(row - 1)
       else
          text = 'case '//quoted(case%name)//': state '//str(failure%state - 1)//' (factor '// &
             str(path%value(failure%state)/unit)//') was not found; equilibrium is lost between factor '// &
@@ -287,5 +295,30 @@ contains
       call diagnose(suspension, state, kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) text = text//new_line('a')//diagnosis%words()
    end function failure_words
+
+   !> 'row 3 of the table was', or 'rows 3, 4, 7 … of the table, 12 in all, were'.
+   function lost_rows(path) result(text)
+      type(path_t), intent(in) :: path
+      character(:), allocatable :: text
+      integer, parameter :: most_named = 10
+      integer :: k, lost
+
+      text = ''
+      lost = 0
+      do k = 1, path%states
+         if (path%is_reached(k)) cycle
+         lost = lost + 1
+         if (lost > most_named) cycle
+         if (lost > 1) text = text//', '
+         text = text//str(nint(path%value(k)))
+      end do
+      if (lost == 1) then
+         text = 'row '//text//' of the table was'
+      else if (lost <= most_named) then
+         text = 'rows '//text//' of the table were'
+      else
+         text = 'rows '//text//' … of the table, '//str(lost)//' in all, were'
+      end if
+   end function lost_rows
 
 end module ek_run_words

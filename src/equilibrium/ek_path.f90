@@ -1,10 +1,11 @@
 !> A sweep: from design outward to either end of a case, one state after the other.
 !>
 !> A state that is not found is approached by halved increments; if that fails too, the sweep in
-!> that direction ends there, and everything before it is kept.
+!> that direction ends there, and everything before it is kept. The rows of a table are states of their own:
+!> where one is not found, the next is reached from design.
 module ek_path
    use ek_kinds, only: wp
-   use ek_case, only: case_t
+   use ek_case, only: case_t, follows_table
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, demand_at
@@ -34,7 +35,8 @@ module ek_path
       integer, allocatable :: iterations(:)       !! factorisations spent on a state
       real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
-      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling
+      logical :: is_table = .false.               !! rows of a table, each a state of its own
+      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
 contains
@@ -73,6 +75,7 @@ contains
          path%start = before + 1
       end if
       path%states = n + 1
+      if (allocated(case%courses)) path%is_table = path%start == 0 .and. any(case%courses%law == follows_table)
       allocate (path%value(n + 1), path%pivot_ratio(n + 1), source=0.0_wp)
       allocate (path%packed(coordinates(suspension), n + 1), path%settled(coordinates(suspension)), source=0.0_wp)
       allocate (path%is_reached(n + 1), source=.false.)
@@ -119,7 +122,9 @@ contains
       end if
       call pack_state(state, path%settled)
       done = 0
-      if (path%start > 0) then
+      if (path%is_table) then
+         call walk_rows(path%failure(1))
+      else if (path%start > 0) then
          call keep(path%start)
          call walk_branch(path%start, path%states, 1, path%failure(1))
          call walk_branch(path%start, 1, -1, path%failure(2))
@@ -162,6 +167,26 @@ contains
          call keep(k)
       end subroutine approach
 
+      !> From row to row of a table, and from design again behind a row that is not found; `lost` is the first of those.
+      subroutine walk_rows(lost)
+         type(failure_t), intent(inout) :: lost
+         type(failure_t) :: failure
+         integer :: k
+
+         call restart()
+         do k = 1, path%states
+            failure = failure_t()
+            call advance(path%value(k), k, failure)
+            if (failure%state == 0) then
+               call keep(k)
+               cycle
+            end if
+            if (lost%state == 0) lost = failure
+            schedule%rest = nint(path%value(k))
+            call restart()
+         end do
+      end subroutine walk_rows
+
       !> From state `first` (known) to state `last`.
       subroutine walk_branch(first, last, direction, failure)
          integer, intent(in) :: first, last, direction
@@ -179,14 +204,14 @@ contains
          end do
       end subroutine walk_branch
 
-      !> Back to the settled state, at place 0.
+      !> Back to the settled state, at the place where nothing is asked for.
       subroutine restart()
          call unpack_state(path%settled, state)
-         here = 0.0_wp
+         here = schedule%rest
          call demand_at(schedule, here, demand)
          if (case%method == 'recursive') call start_recursion(suspension, state, kkt, carry)
          call forget(predictor)
-         call remember(predictor, 0.0_wp, path%settled)
+         call remember(predictor, here, path%settled)
       end subroutine restart
 
       !> The other branch, walked before, helps to guess the first states of this one.

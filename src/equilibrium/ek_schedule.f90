@@ -14,6 +14,7 @@ module ek_schedule
    !> The courses of a case with their names looked up.
    type :: schedule_t
       integer :: loads = 0, rows = 0
+      integer :: rest = 0               !! the row of a table that stands for nothing at all: the next is reached from there
       integer :: load(most_driven) = 0, row(most_driven) = 0     !! numbers in the suspension
       type(course_t), allocatable :: load_course(:), row_course(:)
    end type schedule_t
@@ -71,20 +72,21 @@ contains
       demand%loads = schedule%loads
       demand%load = schedule%load
       do k = 1, schedule%loads
-         demand%factor(k) = value_at(schedule%load_course(k), place)
+         demand%factor(k) = value_at(schedule%load_course(k), place, schedule%rest)
       end do
       demand%rows = schedule%rows
       demand%row = schedule%row
       do k = 1, schedule%rows
-         demand%change(k) = value_at(schedule%row_course(k), place)
+         demand%change(k) = value_at(schedule%row_course(k), place, schedule%rest)
       end do
    end subroutine demand_at
 
    !> share × place, share × tan(place), or the table's value there: linear between its rows, and from 0 at
-   !> place 0 to the first row at place 1.
-   pure real(wp) function value_at(course, place) result(value)
+   !> place `rest` to the row behind it (at first from place 0 to row 1).
+   pure real(wp) function value_at(course, place, rest) result(value)
       type(course_t), intent(in) :: course
       real(wp), intent(in) :: place
+      integer, intent(in) :: rest
       real(wp) :: before
       integer :: k
 
@@ -94,7 +96,7 @@ contains
       case (follows_table)
          k = min(max(int(place), 0), size(course%values) - 1)
          before = 0.0_wp
-         if (k > 0) before = course%values(k)
+         if (k /= rest) before = course%values(k)
          value = before + (place - k)*(course%values(k + 1) - before)
       case default
          value = course%share*place

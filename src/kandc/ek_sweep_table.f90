@@ -78,12 +78,17 @@ contains
       end do
    end subroutine sweep_table
 
-   !> The states to be told: those reached, and one beyond on a side that failed.
+   !> The states to be told: those reached, and one beyond on a side that failed; of a table every row.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last
       integer :: k
 
+      if (path%is_table) then
+         first = 1
+         last = path%states
+         return
+      end if
       first = path%states + 1
       last = 0
       do k = 1, path%states
