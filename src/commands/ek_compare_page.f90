@@ -142,7 +142,8 @@ contains
       do t = 1, size(sets)
          if (size(sets(t)%charts) == 0) cycle
          call begin_section(page, 'test-'//str(t), results(1)%tests(t)%title)
-         call add_legend(page, labels, design_row(results(1)%tests(t)%table) > 0)
+         call add_legend(page, labels, design_row(results(1)%tests(t)%table) > 0, &
+            results(1)%tests(t)%kind == 'table')
          call add_chart_set(page, sets(t)%charts, folder)
          call end_section(page)
       end do

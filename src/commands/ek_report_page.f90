@@ -143,7 +143,7 @@ contains
             names(k) = wheel_word(test%prefixes(k))
             if (len_trim(names(k)) == 0) names(k) = merge('right wheel', 'left wheel ', test%sides(k) > 0)
          end do
-         call add_legend(page, names, design_row(test%table) > 0)
+         call add_legend(page, names, design_row(test%table) > 0, test%kind == 'table')
       end if
       call add_chart_set(page, charts, folder)
       call add_gradients(page, test, gradients, words)

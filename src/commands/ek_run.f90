@@ -218,8 +218,10 @@ contains
       if (is_vertical(suspension, case)) then
          call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, elements=elements)
       else
-         label = case%place_name//' ['//case%unit_name//']'
-         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', label, elements)
+         label = case%place_name
+         if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
+         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', label, elements, &
+            case%test == 'table')
       end if
       do k = 1, size(figures)
          call write_figure(figures(k), folder, error)

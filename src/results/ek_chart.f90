@@ -31,6 +31,7 @@ module ek_chart
       character(:), allocatable :: x_label
       type(trace_t), allocatable :: traces(:)
       logical :: has_key = .false.           !! the curves are named in the chart
+      logical :: has_points = .false.        !! states that stand each for itself: points, and no line between them
       real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
       real(wp) :: cap = 0.0_wp               !! what lies beyond ± this is cut off; 0: nothing
    end type chart_t
@@ -173,8 +174,13 @@ contains
          associate (trace => chart%traces(k))
             line = '     '
             if (k == 1) line = 'plot '
-            line = line//'$data index '//str(2*k - 2)//" using 1:2 with lines linecolor rgb '"// &
-               palette(modulo(trace%colour - 1, size(palette)) + 1)//"' linewidth 2.2"//dashes(trace%dash)
+            line = line//'$data index '//str(2*k - 2)//' using 1:2 with '
+            if (chart%has_points) then
+               line = line//'points pointtype '//str(merge(7, 6, trace%dash == 0))//' pointsize 0.6 linewidth 1.6'
+            else
+               line = line//'lines linewidth 2.2'//dashes(trace%dash)
+            end if
+            line = line//" linecolor rgb '"//palette(modulo(trace%colour - 1, size(palette)) + 1)//"'"
             if (keys > 0) then
                line = line//' title '//gnuplot_text(trace%title)
             else

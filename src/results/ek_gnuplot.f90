@@ -149,8 +149,8 @@ contains
       if (is_single) then
          call add_plot(script, figure%panels(1), entries > 0)
       else
-         call script%add('   set multiplot layout '//str((size(figure%panels) + 1)/2)//', 2 margins 0.075, '// &
-            str(right)//', 0.085, 0.85 spacing 0.095, 0.155')
+         call script%add('   set multiplot layout '//str((size(figure%panels) + 1)/2)//', 2 margins 0.095, '// &
+            str(right)//', 0.085, 0.85 spacing 0.115, 0.155')
          do k = 1, size(figure%panels)
             call script%add('')
             call add_axes(script, figure%panels(k), '   ')
@@ -213,8 +213,8 @@ contains
       y = merge('x', 'y', panel%swap)
       if (len(panel%title) > 0) call script%add(indent//'set title '//gnuplot_text(panel%title)// &
          " font 'sans-serif:Bold,14' textcolor rgb '#202020'")
-      call script%add(indent//'set '//x//'label '//gnuplot_text(panel%x_label)//label_look)
-      call script%add(indent//'set '//y//'label '//gnuplot_text(panel%y_label)//label_look)
+      call script%add(indent//'set '//x//'label '//label(panel%x_label, panel%swap .and. len(indent) > 0)//label_look)
+      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. panel%swap .and. len(indent) > 0)//label_look)
       if (panel%log_x) call script%add(indent//'set logscale '//x)
       if (panel%log_y) call script%add(indent//'set logscale '//y)
       if (allocated(panel%least_y)) then
@@ -224,6 +224,21 @@ contains
          call script%add(indent//'set '//y//'range [*:*]')
       end if
    end subroutine add_axes
+
+   !> The text of a label; its sign, '(+ …)' behind a gap, on a line of its own where the panel is low.
+   pure function label(text, is_folded) result(words)
+      character(*), intent(in) :: text
+      logical, intent(in) :: is_folded
+      character(:), allocatable :: words
+      integer :: gap
+
+      gap = index(text, '    (')
+      if (is_folded .and. gap > 0) then
+         words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
+      else
+         words = gnuplot_text(text)
+      end if
+   end function label
 
    !> The plot command.
    pure subroutine add_plot(script, panel, has_legend)

@@ -202,17 +202,27 @@ contains
       call page%body%line('</figure>')
    end subroutine add_data_picture
 
-   !> What the curves of the charts below are: names in the order of the palette, dashed from the second on.
-   pure subroutine add_legend(page, names, has_design)
+   !> What the curves of the charts below are: names in the order of the palette, dashed (or rings instead of points)
+   !> from the second on.
+   pure subroutine add_legend(page, names, has_design, has_points)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: names(:)
       logical, intent(in) :: has_design
+      logical, intent(in) :: has_points          !! no lines
+      character(:), allocatable :: colour
       integer :: k
 
       call page%body%add('<p class="legend">')
       do k = 1, size(names)
-         call page%body%add('<span><i style="border-top:3px '//trim(merge('dashed', 'solid ', k > 1))//' '// &
-            palette(modulo(k - 1, size(palette)) + 1)//'"></i>'//escape_html(trim(names(k)))//'</span>')
+         colour = palette(modulo(k - 1, size(palette)) + 1)
+         if (has_points) then
+            call page%body%add('<span><b style="border-color:'//colour)
+            if (k == 1) call page%body%add(';background:'//colour)
+            call page%body%add('"></b>')
+         else
+            call page%body%add('<span><i style="border-top:3px '//trim(merge('dashed', 'solid ', k > 1))//' '//colour//'"></i>')
+         end if
+         call page%body%add(escape_html(trim(names(k)))//'</span>')
       end do
       if (has_design) call page%body%add('<span><b></b>design</span>')
       call page%body%line('</p>')

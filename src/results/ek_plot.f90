@@ -52,7 +52,7 @@ contains
    !>
    !> The stroke stands upward when the wheel moves by 1 mm or more; otherwise (a lateral force, say)
    !> everything is drawn over the load factor, or over `abscissa` when that is given.
-   pure subroutine run_figures(table, model, case_name, csv_name, figures, abscissa, abscissa_label, elements)
+   pure subroutine run_figures(table, model, case_name, csv_name, figures, abscissa, abscissa_label, elements, has_points)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: model, case_name          !! for the titles
       character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
@@ -60,6 +60,7 @@ contains
       character(*), intent(in), optional :: abscissa        !! column to draw over
       character(*), intent(in), optional :: abscissa_label  !! with its unit
       character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; none: all with _fx_n, _fy_n, _fz_n
+      logical, intent(in), optional :: has_points           !! states that stand each for itself: no line between them
       type(view_t) :: view
 
       allocate (figures(0))
@@ -73,7 +74,24 @@ contains
       call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', [caster, inclination, scrub, trail])
       call add_springs(figures, table, view)
       call add_bushings(figures, table, view, elements)
+      if (present(has_points)) then
+         if (has_points) call show_points(figures)
+      end if
    end subroutine run_figures
+
+   !> Every state a point of its own.
+   pure subroutine show_points(figures)
+      type(figure_t), intent(inout) :: figures(:)
+      integer :: f, p, k
+
+      do f = 1, size(figures)
+         do p = 1, size(figures(f)%panels)
+            do k = 1, size(figures(f)%panels(p)%curves)
+               if (figures(f)%panels(p)%curves(k)%style /= 'mark') figures(f)%panels(p)%curves(k)%style = 'points'
+            end do
+         end do
+      end do
+   end subroutine show_points
 
    !> Which wheels there are and what everything is drawn over.
    pure subroutine set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)

@@ -99,6 +99,7 @@ contains
          if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(36) :: columns(:13), &
             'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
          if (kind == 'other') columns = [character(36) :: 'steer_deg', columns]
+         if (kind == 'table') columns = [character(36) :: 'wheel_travel_mm', 'steer_deg', columns]
       end select
    end function quantities_of
 

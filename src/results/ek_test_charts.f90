@@ -54,6 +54,7 @@ contains
       integer :: wheel, place
 
       chart = new_chart(test%name//'_'//trim(quantity%column), trim(quantity%title), trim(quantity%label), test%label)
+      chart%has_points = test%kind == 'table'
       chart%noise = quantity%noise
       if (index(quantity%column, '_arm_length_mm') > 0) chart%cap = longest_arm
       place = column_index(test%table, quantity%column)
@@ -75,6 +76,7 @@ contains
       integer :: k, place
 
       chart = new_chart(test%name//'_'//name, title, label, test%label)
+      chart%has_points = test%kind == 'table'
       chart%has_key = .true.
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(ending)
@@ -116,6 +118,7 @@ contains
       integer :: k, place, row, n, design
 
       chart = new_chart(test%name//'_bushings', 'Bushings and joints', 'force, magnitude, N', test%label)
+      chart%has_points = test%kind == 'table'
       chart%has_key = .true.
       n = size(test%table%columns)
       allocate (names(n), places(3, n), peak(n), force(row_count(test%table), n))

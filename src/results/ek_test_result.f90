@@ -114,6 +114,8 @@ contains
          if (test%is_anti) call set_factor('aligning torque on the left wheel [N m]    (+ to the left)')
       case ('vertical_force')
          call set_factor('vertical force [N]    (+ up)')
+      case ('table')
+         call set('factor', 'row of the table')
       case default
          call set(travel_column, 'wheel travel [mm]    (+ bump)')
       end select
