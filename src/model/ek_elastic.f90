@@ -134,7 +134,8 @@ contains
       moment = moment - bushing%preload_moment
    end subroutine look_components
 
-   !> What the bushing exerts on body j, marker axes [N, N m].
+   !> The law of the bushing on body j, marker axes: preload less what the rates or curves resist with [N, N m]. The force
+   !> is what body j feels; the moment works on θ (−dV/dθ), and turns body j with ∂θ/∂δᵀ before it, as in bushing_pull.
    pure subroutine bushing_load(bushing, view, force, moment)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view      !! of look_bushing
