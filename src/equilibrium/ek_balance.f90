@@ -39,6 +39,9 @@ contains
    end subroutine balance
 
    !> Newton's method on the wheels' settled heights; the change of least norm where springs are many.
+   !>
+   !> The first change is that of the linear problem at design, where the answer lies. A wheel that settles without enough
+   !> preload lies on its stop, and the slope there would ask for many times too much.
    subroutine balance_springs(suspension, tolerance, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance
@@ -46,16 +49,24 @@ contains
       type(kkt_t) :: kkt
       type(state_t) :: state
       type(failure_t) :: failure
-      type(view_t) :: view
-      real(wp) :: height(size(suspension%wheels)), slope(size(suspension%wheels), size(suspension%springs))
-      real(wp) :: change(size(suspension%springs))     ! of springs; 0 of the other elements
-      integer :: s, w, iteration, at
+      real(wp) :: height(size(suspension%wheels))
+      integer :: w, iteration
 
       if (.not. any(suspension%springs%kind == axial_spring) .or. size(suspension%wheels) == 0) then
          call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
          return
       end if
       kkt = new_kkt(suspension)
+      state = design_state(suspension)
+      call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+      call factorise(kkt)
+      if (.not. kkt%is_singular) then
+         call solve(kkt)
+         do w = 1, size(height)
+            height(w) = rise(suspension, state, w, kkt%rhs)
+         end do
+         call lower_by(height, suspension, state, kkt)
+      end if
       do iteration = 1, 30
          state = design_state(suspension)
          failure = failure_t()
@@ -73,34 +84,58 @@ contains
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
          call assemble(suspension, state, demand_t(), whole_tangent, kkt)
          call factorise(kkt)
-         slope = 0.0_wp
-         do s = 1, size(change)
-            if (suspension%springs(s)%kind /= axial_spring) cycle
-            associate (m => suspension%springs(s)%measure)
-               call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-               kkt%rhs = 0.0_wp     ! a unit of preload pushes the ends apart
-               at = 6*(m%body_i - 1)
-               if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(1:6)
-               at = 6*(m%body_j - 1)
-               if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(7:12)
-            end associate
-            call solve(kkt)
-            do w = 1, size(height)
-               associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
-                  at = 6*(wheel%body - 1)
-                  slope(w, s) = kkt%rhs(at + 3) + dot_product([0.0_wp, 0.0_wp, 1.0_wp], &
-                     cross(kkt%rhs(at + 4:at + 6), rotated(pose%a, wheel%centre)))
-               end associate
-            end do
-         end do
-         call least_norm(slope, -height, change)
-         do s = 1, size(change)
-            suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
-         end do
+         call lower_by(height, suspension, state, kkt)
       end do
       call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; off by "// &
          str(maxval(abs(height))*1000.0_wp, 4)//' mm')
    end subroutine balance_springs
+
+   !> Changes the spring preloads so that, by the tangent at a state, the wheels come down by `height`.
+   subroutine lower_by(height, suspension, state, kkt)
+      real(wp), intent(in) :: height(:)                    !! of every wheel [m]
+      type(suspension_t), intent(inout) :: suspension
+      type(state_t), intent(in) :: state
+      type(kkt_t), intent(inout) :: kkt                    !! factorised there
+      type(view_t) :: view
+      real(wp) :: slope(size(suspension%wheels), size(suspension%springs))
+      real(wp) :: change(size(suspension%springs))         ! of springs; 0 of the other elements
+      integer :: s, w, at
+
+      slope = 0.0_wp
+      do s = 1, size(change)
+         if (suspension%springs(s)%kind /= axial_spring) cycle
+         associate (m => suspension%springs(s)%measure)
+            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            kkt%rhs = 0.0_wp     ! a unit of preload pushes the ends apart
+            at = 6*(m%body_i - 1)
+            if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(1:6)
+            at = 6*(m%body_j - 1)
+            if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(7:12)
+         end associate
+         call solve(kkt)
+         do w = 1, size(height)
+            slope(w, s) = rise(suspension, state, w, kkt%rhs)
+         end do
+      end do
+      call least_norm(slope, -height, change)
+      do s = 1, size(change)
+         suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
+      end do
+   end subroutine lower_by
+
+   !> How far a step of all bodies lifts the centre of a wheel [m].
+   pure real(wp) function rise(suspension, state, wheel, step)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: wheel
+      real(wp), intent(in) :: step(:)
+      real(wp) :: arm(3)
+      integer :: at
+
+      at = 6*(suspension%wheels(wheel)%body - 1)
+      arm = rotated(state%poses(suspension%wheels(wheel)%body + 1)%a, suspension%wheels(wheel)%centre)
+      rise = step(at + 3) + dot_product([0.0_wp, 0.0_wp, 1.0_wp], cross(step(at + 4:at + 6), arm))
+   end function rise
 
    !> One linear problem: min Σ f²/2k subject to Σ preloads + Φqᵀλ in balance with the loads at design.
    subroutine balance_all(suspension, error)
