@@ -6,7 +6,7 @@
 module ek_namelist
    use ek_text, only: str, lower, quoted, plural
    use ek_complaint, only: place_t, complaints_t
-   use ek_record, only: record_t, value_t, is_given, place_of
+   use ek_record, only: record_t, value_t, entry_index, is_given, place_of
    use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
       word_length, note_length, largest_exponent
    implicit none(type, external)
@@ -81,6 +81,13 @@ contains
             if (given < key%least .and. first == k) then
                call complain(k, trim(key%name)//' '//needs()//', found '//str(given))
                return
+            end if
+            if (entry%first > 1 .and. given >= key%least) then     ! lists are read from their first element on, without gaps
+               if (entry_index(record, entry%key, entry%first - 1) == 0) then
+                  call complain(k, trim(key%name)//element_text(entry%first - 1)//' is missing, found '//trim(key%name)// &
+                     element_text(entry%first))
+                  return
+               end if
             end if
             do j = 1, entry%used
                fault = value_fault(entry%values(j), key%type)

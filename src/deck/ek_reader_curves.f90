@@ -12,6 +12,8 @@ module ek_reader_curves
    private
    public :: read_curves, find_law, find_curve, check_rate, check_either
 
+   real(wp), parameter :: least_step = 1.0e-30_wp   !! deck unit; as no number is above 1e30, no slope overflows
+
 contains
 
    !> &curve: points, and what goes between them.
@@ -47,6 +49,11 @@ contains
             if (x(j) > x(j - 1)) cycle
             call complain(draft, deck, k, 'x', 'x must increase, found '//str(x(j))//' after '//str(x(j - 1)))
             exit
+         end do
+         do j = 2, n
+            if (.not. draft%cards(k)%is_good) exit
+            if (x(j) - x(j - 1) < least_step) call complain(draft, deck, k, 'x', 'x must increase by '//str(least_step)// &
+               ' or more, found '//str(x(j))//' after '//str(x(j - 1)))
          end do
          if (draft%cards(k)%is_good) draft%curves(used) = new_curve(x(:n), y(:n), lower(trim(kind)))
       end do
