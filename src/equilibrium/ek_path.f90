@@ -90,6 +90,7 @@ contains
             path%value(k) = case%to*real(k - path%start, wp)/(n + 1 - path%start)
          end if
       end do
+      if (path%start == 0) path%value(n + 1) = case%to      ! not just nearly, as from + (to − from) is
    end subroutine new_path
 
    !> Walks the whole path of new_path.

@@ -12,6 +12,8 @@ module ek_predictor
 
    integer, parameter, public :: depth = 6   !! states kept; more would amplify rounding (Σ|w| = 2^depth − 1)
 
+   real(wp), parameter :: too_near = 1.0e-6_wp   !! of the way ahead: further on, rounding grows beyond a sound guess
+
    !> The last states, newest first in age order through `slot`.
    type :: predictor_t
       real(wp), allocatable :: packed(:, :)   !! (coordinate, slot)
@@ -59,7 +61,7 @@ contains
       real(wp) :: weight(depth)
       integer :: slot(depth), n, j
 
-      n = min(self%count, most)
+      n = min(usable(self, abscissa), most)
       call find_weights(self, abscissa, n, slot, weight)
       self%guess = 0.0_wp
       do j = 1, n
@@ -76,14 +78,15 @@ contains
       integer, intent(in) :: used
       logical, intent(in) :: is_good
       real(wp) :: weight(depth), error, least, expected
-      integer :: slot(depth), n, j, k
+      integer :: slot(depth), most, n, j, k
 
       if (is_good) then
          self%trusted = min(self%trusted + 1, depth)
          return
       end if
       least = huge(least)
-      do n = 1, self%count
+      most = usable(self, abscissa)
+      do n = 1, most
          call find_weights(self, abscissa, n, slot, weight)
          error = 0.0_wp
          do k = 1, used
@@ -98,8 +101,28 @@ contains
          self%trusted = n
       end do
       ! the state itself will be one more; all that are there were best: nothing is wrong with the polynomial
-      if (self%trusted == self%count) self%trusted = depth
+      if (self%trusted == most) self%trusted = depth
    end subroutine judge
+
+   !> How many of the newest states can say what is at a place: those behind two that are nearly at one place, seen from
+   !> there, cannot. A range from 80 to -1e-18 has such.
+   pure integer function usable(self, abscissa)
+      type(predictor_t), intent(in) :: self
+      real(wp), intent(in) :: abscissa
+      real(wp) :: ahead
+      integer :: newer, older
+
+      usable = min(self%count, 1)
+      if (usable == 0) return
+      ahead = abs(abscissa - self%abscissa(self%newest))
+      newer = self%newest
+      do while (usable < self%count)
+         older = modulo(newer - 2, depth) + 1
+         if (.not. abs(self%abscissa(newer) - self%abscissa(older)) > too_near*ahead) exit
+         newer = older
+         usable = usable + 1
+      end do
+   end function usable
 
    !> Lagrange's weights at a place, of the newest n states, and where these are kept.
    pure subroutine find_weights(self, abscissa, n, slot, weight)
