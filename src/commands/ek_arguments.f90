@@ -87,6 +87,10 @@ contains
                k = k + 1
                value = argument(k)
             end if
+            if (len_trim(value) == 0) then      ! as of a variable of the shell that is not set
+               call fail(error, exit_usage, word//' needs a value, found an empty one')
+               return
+            end if
             select case (word)
             case ('--out')
                arguments%out = value

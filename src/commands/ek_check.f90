@@ -1,9 +1,10 @@
 !> elastokin check: what a deck holds, and whether its model can be solved.
 module ek_check
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model
    use ek_text, only: str, quoted, plural
+   use ek_buffer, only: buffer_t
+   use ek_file, only: write_standard_output
    use ek_spring, only: axial_spring, stop_spring, torsion_spring
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
@@ -24,6 +25,19 @@ contains
    subroutine check(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: unheard
+      type(buffer_t) :: words
+
+      call examine(arguments, words, error)
+      call write_standard_output(words%text(), unheard)
+      if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
+   end subroutine check
+
+   !> The findings, also those before a fault.
+   subroutine examine(arguments, words, error)
+      type(arguments_t), intent(in) :: arguments
+      type(buffer_t), intent(inout) :: words
+      type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base, suspension
       type(case_t), allocatable :: cases(:), chosen(:)
       type(diagnosis_t) :: diagnosis
@@ -42,7 +56,7 @@ contains
 
       kkt = new_kkt(base)
       call diagnose(base, design_state(base), kkt, diagnosis)
-      call tell_model(base, diagnosis, checksum)
+      call tell_model(base, diagnosis, checksum, words)
       found = ''
       do k = 1, size(chosen)
          suspension = base
@@ -50,7 +64,7 @@ contains
          if (allocated(error)) return
          kkt = new_kkt(suspension)
          call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-         call tell_case(chosen(k), diagnosis)
+         call tell_case(chosen(k), diagnosis, words)
          if (diagnosis%is_solvable()) cycle
          ! the same defect seen under two drives differs in a last digit
          if (index(without_numbers(found), without_numbers(diagnosis%words())) == 0) &
@@ -59,7 +73,7 @@ contains
       if (size(chosen) == 0) then
          if (.not. diagnosis%is_solvable()) found = diagnosis%words()//new_line('a')
       end if
-      call tell('warnings', diagnosis%warnings%text())
+      call tell(words, 'warnings', diagnosis%warnings%text())
       if (len(found) > 0) then
          call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found(:len(found) - 1))
          return
@@ -68,7 +82,7 @@ contains
          call balance(base, chosen(1)%tolerance, trouble)
          if (allocated(trouble)) call move_alloc(trouble, error)
       end if
-   end subroutine check
+   end subroutine examine
 
    !> A text less its digits, signs and points.
    pure function without_numbers(text) result(rest)
@@ -83,17 +97,18 @@ contains
    end function without_numbers
 
    !> Bodies, unknowns, constraints, freedoms, condition, unused points.
-   subroutine tell_model(suspension, diagnosis, checksum)
+   subroutine tell_model(suspension, diagnosis, checksum, words)
       type(suspension_t), intent(in) :: suspension
       type(diagnosis_t), intent(in) :: diagnosis
       character(*), intent(in) :: checksum
+      type(buffer_t), intent(inout) :: words
       character(:), allocatable :: held, unused
       integer :: k
 
-      call tell('model', suspension%name//' (checksum '//checksum//')')
-      call tell('bodies', str(size(suspension%bodies)))
-      call tell('unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
-      call tell('constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
+      call tell(words, 'model', suspension%name//' (checksum '//checksum//')')
+      call tell(words, 'bodies', str(size(suspension%bodies)))
+      call tell(words, 'unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
+      call tell(words, 'constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
          ', rank '//str(diagnosis%rank))
       held = plural(size(suspension%bushings), 'bushing', 'bushings')//' and '// &
          plural(count(suspension%springs%kind == axial_spring), 'spring', 'springs')
@@ -103,20 +118,21 @@ contains
       if (k > 0) held = held//', '//plural(k, 'stop', 'stops')
       k = count(suspension%rows%compliance > 0.0_wp)
       if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
-      call tell('degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
+      call tell(words, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
       unused = ''
       do k = 1, size(suspension%points)
          if (suspension%points(k)%is_used) cycle
          if (len(unused) > 0) unused = unused//', '
          unused = unused//suspension%points(k)%name//' ('//suspension%points(k)%where//')'
       end do
-      if (len(unused) > 0) call tell('unused points', unused)
+      if (len(unused) > 0) call tell(words, 'unused points', unused)
    end subroutine tell_model
 
    !> One case: what drives it, and whether it can be solved.
-   subroutine tell_case(case, diagnosis)
+   subroutine tell_case(case, diagnosis, words)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis
+      type(buffer_t), intent(inout) :: words
       character(:), allocatable :: text
 
       if (len(case%test) > 0) then
@@ -132,13 +148,14 @@ contains
       else
          text = text//': CANNOT be solved'
       end if
-      call tell('case '//case%name, text)
+      call tell(words, 'case '//case%name, text)
    end subroutine tell_case
 
-   !> 'name: text' on standard output; nothing for no text.
-   subroutine tell(name, text)
+   !> A line 'name: text'; none for no text.
+   subroutine tell(words, name, text)
+      type(buffer_t), intent(inout) :: words
       character(*), intent(in) :: name, text
-      if (len(text) > 0) write (output_unit, '(a,": ",a)') name, text
+      if (len(text) > 0) call words%line(name//': '//text)
    end subroutine tell
 
 end module ek_check

@@ -1,6 +1,5 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_error, only: error_t, message_list_t, fail, exit_convergence
    use ek_units, only: millimetre
    use ek_text, only: str, plural
@@ -24,7 +23,7 @@ module ek_report
    use ek_report_page, only: report_page
    use ek_window_option, only: chosen_windows
    use ek_run_words, only: say_preloads, patch_words, spring_words
-   use ek_words, only: say, warn, complain
+   use ek_words, only: say, warn, complain, tell_path
    implicit none(type, external)
    private
    public :: report
@@ -45,7 +44,7 @@ contains
       type(chart_set_t), allocatable :: sets(:)
       type(windows_t) :: windows
       type(message_list_t) :: warnings
-      type(error_t), allocatable :: trouble, undrawn
+      type(error_t), allocatable :: trouble, undrawn, unheard
       character(:), allocatable :: checksum, folder, message
       integer :: k, failed, code
 
@@ -88,15 +87,15 @@ contains
          films(k)%is_there = .true.
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
          if (allocated(error)) return
-         write (output_unit, '(a)') join_path(folder, tests(k)%file)
+         call tell_path(join_path(folder, tests(k)%file), unheard)
          call test_gradients(tests(k), windows, gradients)
          call test_charts(tests(k), sets(k)%charts)
       end do
       call write_gradients(gradients, suspension%name, checksum, join_path(folder, gradients_file), &
          join_path(folder, 'gradients.json'), error)
       if (allocated(error)) return
-      write (output_unit, '(a)') join_path(folder, gradients_file)
-      write (output_unit, '(a)') join_path(folder, 'gradients.json')
+      call tell_path(join_path(folder, gradients_file), unheard)
+      call tell_path(join_path(folder, 'gradients.json'), unheard)
 
       call write_contents(tests, join_path(folder, contents_file), error)
       if (allocated(error)) return
@@ -111,12 +110,14 @@ contains
       end if
       call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
       if (allocated(error)) return
-      write (output_unit, '(a)') join_path(folder, 'report.html')
+      call tell_path(join_path(folder, 'report.html'), unheard)
       if (failed > 0) then
          call fail(error, code, plural(failed, 'test', 'tests')//' of '//str(size(tests))// &
             ' lost states; all that were found are written, and the page tells where')
       else if (allocated(undrawn)) then
          call fail(error, undrawn%code, 'the report is written, but not all of its pictures')
+      else if (allocated(unheard)) then
+         call move_alloc(unheard, error)
       end if
    end subroutine report
 

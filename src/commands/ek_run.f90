@@ -1,6 +1,5 @@
 !> elastokin run: deck → model → sweep → table → CSV and figures, case by case.
 module ek_run
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model, exit_convergence
    use ek_units, only: millimetre
@@ -28,7 +27,7 @@ module ek_run
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
       warn_of_instability, warn_of_travel, failure_words
-   use ek_words, only: say, warn, complain, show_progress, clear_progress
+   use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run, add_header
@@ -42,7 +41,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), chosen(:)
-      type(error_t), allocatable :: trouble
+      type(error_t), allocatable :: trouble, unheard
       type(message_list_t) :: doubts
       character(:), allocatable :: checksum, folder, words
       integer :: k, failed, code
@@ -74,7 +73,7 @@ contains
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
-         call run_case(arguments, suspension, chosen(k), folder, checksum, trouble)
+         call run_case(arguments, suspension, chosen(k), folder, checksum, unheard, trouble)
          if (.not. allocated(trouble)) cycle
          if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
             call move_alloc(trouble, error)
@@ -84,7 +83,10 @@ contains
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first that is more than states not found
       end do
-      if (failed == 0) return
+      if (failed == 0) then
+         call move_alloc(unheard, error)
+         return
+      end if
       words = plural(failed, 'case', 'cases')//' of '//str(size(chosen))
       if (code == exit_convergence) then
          call fail(error, code, words//' lost states; all that were found are written')
@@ -94,11 +96,12 @@ contains
    end subroutine run
 
    !> One case: examine, sweep, tell, write, draw.
-   subroutine run_case(arguments, base, wanted, folder, checksum, error)
+   subroutine run_case(arguments, base, wanted, folder, checksum, unheard, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: folder, checksum
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
       type(suspension_t) :: suspension
@@ -150,12 +153,12 @@ contains
          name = join_path(folder, suspension%name//'_'//case%name//'.csv')
          call write_csv(table, name, trouble)
          if (.not. allocated(trouble)) then
-            write (output_unit, '(a)') name
+            call tell_path(name, unheard)
             if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, undrawn)
          end if
       end if
       if (.not. allocated(trouble) .and. len(case%target) > 0) &
-         call aim(arguments, suspension, case, path, table, checksum, folder, kkt, trouble)
+         call aim(arguments, suspension, case, path, table, checksum, folder, kkt, unheard, trouble)
       if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
       if (.not. allocated(trouble)) return
       if (len(words) > 0) trouble%message = words//new_line('a')//trouble%message
@@ -164,7 +167,7 @@ contains
 
    !> The place where the target of a case is met: told, and its state written to a file of its own (not when the
    !> results go to standard output). The linear methods, whose states are not equilibria, have none.
-   subroutine aim(arguments, suspension, case, path, table, checksum, folder, kkt, error)
+   subroutine aim(arguments, suspension, case, path, table, checksum, folder, kkt, unheard, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -172,6 +175,7 @@ contains
       type(table_t), intent(in) :: table
       character(*), intent(in) :: checksum, folder
       type(kkt_t), intent(inout) :: kkt
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
       character(:), allocatable :: name, words
@@ -188,7 +192,7 @@ contains
          name = join_path(folder, suspension%name//'_'//case%name//'_target.csv')
          call write_csv(found%table, name, error)
          if (allocated(error)) return
-         write (output_unit, '(a)') name
+         call tell_path(name, unheard)
       end if
       words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
          str(found%place/case%unit, 9)//' '//case%unit_name

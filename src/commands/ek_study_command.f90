@@ -1,6 +1,5 @@
 !> elastokin study: runs a study, writes its tables, draws its figures.
 module ek_study_command
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_error, only: error_t, fail, exit_convergence, message_list_t
    use ek_text, only: plural, quoted
    use ek_file, only: write_whole, make_folder, join_path, folder_name, file_exists, program_exists
@@ -12,7 +11,7 @@ module ek_study_command
    use ek_factor_sweep, only: sweep_factors
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: apply_settings
-   use ek_words, only: say, warn
+   use ek_words, only: say, warn, tell_path
    implicit none(type, external)
    private
    public :: run_study_command
@@ -24,6 +23,7 @@ contains
    subroutine run_study_command(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: unheard
       type(study_t) :: study
       type(deck_t) :: deck
       character(:), allocatable :: home, out, path
@@ -43,34 +43,37 @@ contains
       if (allocated(error)) return
 
       if (study%kind == 'step_size') then
-         call run_step_size(study, deck, out, error)
+         call run_step_size(study, deck, out, unheard, error)
       else
-         call run_sweep(study, deck, out, error)
+         call run_sweep(study, deck, out, unheard, error)
       end if
       if (allocated(error)) then
          if (error%code /= exit_convergence) return
       end if
       call draw(arguments, study, home, out)
+      if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
    end subroutine run_study_command
 
    !> out/<study>.csv
-   subroutine run_step_size(study, deck, out, error)
+   subroutine run_step_size(study, deck, out, unheard, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
+      type(error_t), allocatable, intent(inout) :: unheard
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: text
 
       call step_size_text(study, deck, text, error)
       if (allocated(error)) return
-      call write_table(join_path(out, study%name//'.csv'), text, error)
+      call write_table(join_path(out, study%name//'.csv'), text, unheard, error)
    end subroutine run_step_size
 
    !> out/<study>_curves.csv and out/<study>_responses.csv
-   subroutine run_sweep(study, deck, out, error)
+   subroutine run_sweep(study, deck, out, unheard, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
+      type(error_t), allocatable, intent(inout) :: unheard
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: curves, responses
       type(message_list_t) :: troubles
@@ -78,11 +81,11 @@ contains
 
       call sweep_factors(study, deck, curves, responses, troubles, error)
       if (allocated(error)) return
-      call write_table(join_path(out, study%name//'_curves.csv'), blocks(csv_text(curves), 1), error)
+      call write_table(join_path(out, study%name//'_curves.csv'), blocks(csv_text(curves), 1), unheard, error)
       if (allocated(error)) return
       ! two factors make a grid: gnuplot wants an empty line after every row of it
       call write_table(join_path(out, study%name//'_responses.csv'), blocks(csv_text(responses), &
-         merge(2, 0, size(study%factors) == 2)), error)
+         merge(2, 0, size(study%factors) == 2)), unheard, error)
       if (allocated(error)) return
       do k = 1, troubles%count()
          call warn(troubles%line(k))
@@ -92,11 +95,12 @@ contains
    end subroutine run_sweep
 
    !> Writes and tells the path.
-   subroutine write_table(path, text, error)
+   subroutine write_table(path, text, unheard, error)
       character(*), intent(in) :: path, text
+      type(error_t), allocatable, intent(inout) :: unheard     !! the path could not be told
       type(error_t), allocatable, intent(out) :: error
       call write_whole(path, text, error)
-      if (.not. allocated(error)) write (output_unit, '(a)') path
+      if (.not. allocated(error)) call tell_path(path, unheard)
    end subroutine write_table
 
    !> CSV text with an empty line wherever the value of a column changes; column 0: nowhere.

@@ -1,10 +1,11 @@
-!> Words for a person, on standard error; results go elsewhere.
+!> Words for a person, on standard error; results go elsewhere, and their paths to standard output.
 module ek_words
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use ek_file, only: is_terminal
+   use ek_error, only: error_t
+   use ek_file, only: is_terminal, write_standard_output
    implicit none(type, external)
    private
-   public :: say, warn, complain, show_progress, clear_progress
+   public :: say, warn, complain, tell_path, show_progress, clear_progress
 
 contains
 
@@ -26,6 +27,18 @@ contains
       character(*), intent(in) :: text
       write (error_unit, '(a)') 'error: '//text
    end subroutine complain
+
+   !> The path of a result, for whoever reads standard output. Where that is full or closed the work goes on: the result
+   !> is there. The first such failure is kept.
+   subroutine tell_path(path, unheard)
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(inout) :: unheard      !! exit_file
+      type(error_t), allocatable :: error
+
+      if (allocated(unheard)) return
+      call write_standard_output(path//new_line('a'), error)
+      if (allocated(error)) call move_alloc(error, unheard)
+   end subroutine tell_path
 
    !> A line that overwrites itself, on a terminal only.
    subroutine show_progress(done, total)
