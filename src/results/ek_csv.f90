@@ -2,7 +2,7 @@
 !>
 !> Numbers have 15 significant digits, `nan` where there is none.
 module ek_csv
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_file, only: write_whole, read_whole
@@ -22,22 +22,27 @@ contains
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
       character(:), allocatable :: head, buffer
-      integer :: row, k, used
+      character(size(table%values, 1)*(longest_decimal + 1)) :: line
+      integer(i8) :: used            ! the states of a long sweep take more than 2^31 letters
+      integer :: row, k, filled
       real(wp) :: value
 
       head = head_text(table)
-      allocate (character(len(head) + size(table%values)*(longest_decimal + 1)) :: buffer)
+      allocate (character(len(head) + size(table%values, 2)*len(line, i8)) :: buffer)
       buffer(:len(head)) = head
       used = len(head)
       do row = 1, size(table%values, 2)
+         filled = 0
          do k = 1, size(table%values, 1)
             value = table%values(k, row)
             if (table%is_whole(k)) value = whole(value)
-            call put_decimal(value, buffer, used)
-            used = used + 1
-            buffer(used:used) = ','
+            call put_decimal(value, line, filled)
+            filled = filled + 1
+            line(filled:filled) = ','
          end do
-         buffer(used:used) = line_end
+         line(filled:filled) = line_end
+         buffer(used + 1:used + filled) = line(:filled)
+         used = used + filled
       end do
       text = buffer(:used)
    end function csv_text
