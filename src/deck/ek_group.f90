@@ -2,7 +2,7 @@
 !>
 !> To add a key: its row here, and its variable in the namelist of the reader that takes the group.
 module ek_group
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: lower, quoted, nearest_name
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, names_of_groups, is_single
@@ -10,7 +10,7 @@ module ek_group
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
    public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group
-   public :: most_values, most_loads
+   public :: most_values, most_loads, is_legal_name
    public :: word_length, note_length, most_measures, largest_exponent
    public :: word, prose, number, whole, switch
 
@@ -217,7 +217,15 @@ module ek_group
       key_t(mirror_group, 'shared', word, 1, most_values, .false.), &
       key_t(mirror_group, 'note', prose, 1, 1, .false.)]
 
+   character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
+
 contains
+
+   !> Whether a name begins with a letter and has letters, digits and _ only: it stands in messages, paths and heads of columns.
+   pure logical function is_legal_name(name)
+      character(*), intent(in) :: name
+      is_legal_name = verify(lower(name), letters//'0123456789_') == 0 .and. scan(lower(name), letters) == 1
+   end function is_legal_name
 
    !> Its number, 0 if there is no such group.
    pure integer function group_number(name)

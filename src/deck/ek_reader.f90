@@ -12,7 +12,7 @@ module ek_reader
    use ek_record, only: element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, &
-      word_length, note_length, record_head, did_you_mean
+      word_length, note_length, record_head, did_you_mean, is_legal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
@@ -31,7 +31,6 @@ module ek_reader
    private
    public :: build_model
 
-   character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
    character(*), parameter :: reserved_names(3) = [character(12) :: 'chassis', 'ground', 'wheel_travel']
    ! heads of columns that are there anyway, of which an element could make the same by its own ending (_mm, _length_mm, …)
    character(*), parameter :: reserved_results(36) = [character(28) :: 'state', 'factor', 'converged', 'iterations', &
@@ -128,7 +127,7 @@ contains
          name = own_name(record)
          if (name == '') name = trim(card%name)
 
-         if (verify(lower(name), letters//'0123456789_') > 0 .or. verify(lower(name(1:1)), letters) > 0) then
+         if (.not. is_legal_name(name)) then
             call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
          else if (any(reserved_names == lower(name)) .or. index(lower(name), 'rig_') == 1) then
             call complain(draft, deck, k, 'name', 'the name is reserved')

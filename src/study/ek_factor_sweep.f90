@@ -86,6 +86,7 @@ contains
       type(case_t) :: case
       type(kkt_t) :: kkt
       type(path_t) :: path
+      character(*), parameter :: given = '--set '
       character(32) :: number
       integer :: f, k
 
@@ -93,7 +94,12 @@ contains
       do f = 1, size(values)
          write (number, '(es24.16)') values(f)
          call set_value(changed, study%factors(f)%path, trim(adjustl(number)), error)
-         if (allocated(error)) return
+         if (.not. allocated(error)) cycle
+         ! a mistake of the study, not of the command line; of a deck with mistakes of its own these come first
+         error%code = exit_deck
+         if (index(error%message, given) == 1) error%message = study%factors(f)%where//': factor '// &
+            quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
+         return
       end do
       call make_subject(changed, study%case, suspension, case, kkt, trouble)
       if (allocated(trouble)) return
@@ -115,11 +121,13 @@ contains
 
       text = ''
       do k = 1, size(study%columns)
-         call check(trim(study%columns(k)), '&study columns')
+         call check(trim(study%columns(k)), study%where//': columns')
       end do
       do k = 1, size(study%responses)
-         call check(study%responses(k)%column, 'response '//quoted(study%responses(k)%name))
-         if (study%responses(k)%of == 'slope') call check(study%responses(k)%over, 'response '//quoted(study%responses(k)%name))
+         associate (this => study%responses(k))
+            call check(this%column, this%where//': response '//quoted(this%name))
+            if (this%of == 'slope') call check(this%over, this%where//': response '//quoted(this%name))
+         end associate
       end do
       if (len(text) > 0) call fail(error, exit_deck, text(:len(text) - 1))
 
@@ -212,7 +220,7 @@ contains
    function response_value(response, table) result(value)
       type(response_t), intent(in) :: response
       type(table_t), intent(in) :: table
-      real(wp) :: value, centre, mean_x, mean_y
+      real(wp) :: value, centre, mean_x, mean_y, spread
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
 
@@ -228,7 +236,8 @@ contains
          if (count(is_near) < 2) return
          mean_x = sum(x, mask=is_near)/count(is_near)
          mean_y = sum(y, mask=is_near)/count(is_near)
-         value = sum((x - mean_x)*(y - mean_y), mask=is_near)/sum((x - mean_x)**2, mask=is_near)
+         spread = sum((x - mean_x)**2, mask=is_near)
+         if (spread > 0.0_wp) value = sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
       case default
          value = maxval(y) - minval(y)
       end select

@@ -5,15 +5,15 @@
 module ek_study
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: lower
-   use ek_case, only: method_names
+   use ek_text, only: str, lower, quoted
+   use ek_case, only: method_names, most_increments
    use ek_complaint, only: place_t, place_in
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, note_length, &
-      most_values, did_you_mean, is_deck_group, names_of_groups
+      most_values, did_you_mean, is_deck_group, names_of_groups, is_legal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, read_deck
-   use ek_draft, only: draft_t, complain, choice, has_key
+   use ek_draft, only: draft_t, complain, choice, has_key, where_of, line_of
    implicit none(type, external)
    private
    public :: study_t, factor_t, response_t, read_study
@@ -22,6 +22,7 @@ module ek_study
    type :: factor_t
       character(:), allocatable :: name, path     !! path as in --set
       real(wp), allocatable :: values(:)          !! in the deck's units
+      character(:), allocatable :: where          !! 'file:line', for messages
    end type factor_t
 
    !> A number read from the table of a run.
@@ -31,6 +32,7 @@ module ek_study
       real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
       character(:), allocatable :: over           !! column the slope is taken over
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
+      character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
 
    !> A study.
@@ -41,6 +43,7 @@ module ek_study
       integer, allocatable :: increments(:)
       type(factor_t), allocatable :: factors(:)
       type(response_t), allocatable :: responses(:)
+      character(:), allocatable :: where          !! 'file:line' of the &study, for messages
    end type study_t
 
    integer, parameter :: unset = -huge(1)
@@ -78,6 +81,7 @@ contains
             call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, &
                card%text, card%is_good)
          end associate
+         call check_name(file, draft, k)
          select case (draft%cards(k)%group)
          case (study_group)
             studies = studies + 1
@@ -96,6 +100,30 @@ contains
       if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(file, draft, study)
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
    end subroutine read_study
+
+   !> A name stands in paths and in heads of columns, where it is the only one.
+   subroutine check_name(file, draft, k)
+      type(deck_t), intent(in) :: file
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: k
+      character(*), parameter :: heads(3) = [character(9) :: 'design', 'factor', 'converged']   !! there anyway
+      integer :: j
+
+      associate (card => draft%cards(k))
+         if (card%name == '') return
+         if (.not. is_legal_name(trim(card%name))) then
+            call complain(draft, file, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
+         end if
+         if (card%group == study_group) return
+         if (any(heads == lower(card%name))) &
+            call complain(draft, file, k, 'name', 'the name is reserved for a column of the results')
+         do j = 1, k - 1
+            if (draft%cards(j)%group /= factor_group .and. draft%cards(j)%group /= response_group) cycle
+            if (draft%cards(j)%name == card%name) call complain(draft, file, k, 'name', 'the name is given twice, first in '// &
+               line_of(file, j, k))
+         end do
+      end associate
+   end subroutine check_name
 
    !> &study
    subroutine take_study(file, draft, k, study)
@@ -139,7 +167,13 @@ contains
       study%methods = pack(methods, methods /= '')
       study%columns = pack(columns, columns /= '')
       study%increments = pack(increments, increments /= unset)
-      if (any(study%increments < 1)) call complain(draft, file, k, 'increments', 'increments must be at least 1')
+      if (any(study%increments < 1 .or. study%increments > most_increments)) call complain(draft, file, k, 'increments', &
+         'increments must be 1 to '//str(most_increments))
+      do c = 2, size(study%columns)
+         if (any(study%columns(:c - 1) == study%columns(c))) call complain(draft, file, k, 'columns', &
+            'columns: '//quoted(study%columns(c))//' is named twice')
+      end do
+      study%where = where_of(file, k)
    end subroutine take_study
 
    !> &factor: values given one by one, or from, to, count and spacing.
@@ -189,6 +223,7 @@ contains
          call complain(draft, file, k, '', 'needs values, or from, to and count')
          return
       end if
+      this%where = where_of(file, k)
       study%factors = [study%factors, this]
    end subroutine take_factor
 
@@ -220,6 +255,7 @@ contains
       this%over = trim(over)
       this%at = at
       this%window = window
+      this%where = where_of(file, k)
       study%responses = [study%responses, this]
    end subroutine take_response
 
