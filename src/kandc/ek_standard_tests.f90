@@ -2,7 +2,7 @@
 module ek_standard_tests
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
-   use ek_text, only: lower
+   use ek_text, only: str, lower
    use ek_case, only: case_t
    use ek_suspension, only: suspension_t
    use ek_characteristics, only: trail
@@ -122,7 +122,6 @@ contains
    pure function test_title(this) result(title)
       type(case_t), intent(in) :: this
       character(:), allocatable :: title
-      character(8) :: number
       integer :: k
 
       title = this%name
@@ -139,10 +138,7 @@ contains
             title = title//', in phase'
          end if
       end if
-      if (abs(this%offset) > 0.0_wp) then
-         write (number, '(i0)') nint(this%offset/millimetre)
-         title = title//', '//trim(number)//' mm behind the patch'
-      end if
+      if (abs(this%offset) > 0.0_wp) title = title//', '//str(this%offset/millimetre)//' mm behind the patch'
       if (this%vertical == 'patch') title = title//', patch heights held'
       if (this%vertical == 'centre') title = title//', wheel centres held'
       if (this%vertical == 'force') title = title//', by vertical force'

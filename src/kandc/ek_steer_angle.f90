@@ -66,15 +66,16 @@ contains
    end function ackermann_angle
 
    !> 100 (δi − δo)/(δA − δo) [%]: 100 for wheels that roll about one point, 0 for parallel steer. Not a number
-   !> below a degree of steer.
+   !> below a degree of steer, nor where both angles are one: without a track, or beside an endless wheelbase.
    pure real(wp) function ackermann_percent(left, right, wheelbase, track) result(percent)
       real(wp), intent(in) :: left, right, wheelbase, track
-      real(wp) :: inner, outer
+      real(wp) :: inner, outer, wanted
 
       call sort(left, right, inner, outer)
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
       if (outer < least_steer) return
-      percent = 100.0_wp*(inner - outer)/(ackermann_angle(outer, wheelbase, track) - outer)
+      wanted = ackermann_angle(outer, wheelbase, track) - outer
+      if (abs(wanted) > 0.0_wp) percent = 100.0_wp*(inner - outer)/wanted
    end function ackermann_percent
 
    !> δi − δA: positive where the inner wheel steers more than rolling asks for.
