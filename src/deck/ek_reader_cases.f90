@@ -2,6 +2,7 @@
 module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
+   use ek_units, only: millimetre
    use ek_case, only: case_t, method_names, most_increments
    use ek_twin, only: right_twin
    use ek_record, only: value_t, own_name
@@ -14,6 +15,10 @@ module ek_reader_cases
    implicit none(type, external)
    private
    public :: read_cases
+
+   ! what a state may be off: rounding of a metre is 1e-13 mm, and no case converges below that; with more than a millimetre
+   ! the first guess of every state would do
+   real(wp), parameter :: least_tolerance = 1.0e-15_wp, most_tolerance = 1.0e-3_wp      !! m
 
 contains
 
@@ -54,8 +59,13 @@ contains
             call complain(draft, deck, k, 'increments', 'increments must be 1 to '//str(most_increments)//', found '// &
                str(words%increments))
          call choice(draft, deck, k, 'method', trim(words%method), method_names, c)
-         if (.not. words%tolerance > 0.0_wp) &
+         if (.not. words%tolerance > 0.0_wp) then
             call complain(draft, deck, k, 'tolerance', 'tolerance must be above 0, found '//str(words%tolerance))
+         else if (words%tolerance*draft%units%length < least_tolerance .or. &
+            words%tolerance*draft%units%length > most_tolerance) then
+            call complain(draft, deck, k, 'tolerance', 'tolerance must be '//str(least_tolerance/millimetre)//' to '// &
+               str(most_tolerance/millimetre)//' mm, found '//str(words%tolerance*draft%units%length/millimetre)//' mm')
+         end if
          call choice(draft, deck, k, 'quantities', trim(words%quantities), [character(5) :: 'basic', 'all'], c)
          cases(used)%has_all = c == 2
          call read_target()
