@@ -264,26 +264,28 @@ contains
       subroutine take_string(content)
          character(:), allocatable, intent(out) :: content
          character :: quote
-         integer :: k, first
+         integer :: k, first, last, used
 
          quote = text(cursor%at:cursor%at)
-         content = ''
          first = cursor%at + 1
+         last = first - 2 + scan(text(first:)//newline, newline//return)      ! of the line
+         allocate (character(last - first + 1) :: content)
+         used = 0
          k = first
-         do
-            if (k > len(text)) exit
-            if (text(k:k) == newline .or. text(k:k) == return) exit
+         do while (k <= last)
             if (text(k:k) == quote) then
-               content = content//text(first:k - 1)
-               cursor%at = k + 1
-               if (k == len(text)) return
-               if (text(k + 1:k + 1) /= quote) return
-               k = k + 1         ! a doubled quote stands for one
-               first = k
-            end if
+               k = k + 1
+               if (text(k:min(k, last)) /= quote) then
+                  cursor%at = k
+                  content = content(:used)
+                  return
+               end if
+            end if               ! a doubled quote stands for one
+            used = used + 1
+            content(used:used) = text(k:k)
             k = k + 1
          end do
-         call complain(complaints, file, cursor, cursor%line, 'the string '//quote//content//text(first:k - 1)// &
+         call complain(complaints, file, cursor, cursor%line, 'the string '//quote//content(:used)// &
             ' has no closing quote on its line')
          ! go on behind its first word: most strings are names, and the rest of the line is then read as meant
          first = cursor%at + 1
