@@ -22,7 +22,7 @@ contains
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
       character(:), allocatable :: head, buffer
-      character(size(table%values, 1)*(longest_decimal + 1)) :: line
+      character(max(size(table%values, 1)*(longest_decimal + 1), 1)) :: line
       integer(i8) :: used            ! the states of a long sweep take more than 2^31 letters
       integer :: row, k, filled
       real(wp) :: value
@@ -40,6 +40,7 @@ contains
             filled = filled + 1
             line(filled:filled) = ','
          end do
+         filled = max(filled, 1)     ! the last comma, where there is one
          line(filled:filled) = line_end
          buffer(used + 1:used + filled) = line(:filled)
          used = used + filled
