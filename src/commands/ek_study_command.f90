@@ -27,6 +27,7 @@ contains
       type(study_t) :: study
       type(deck_t) :: deck
       character(:), allocatable :: home, out, path
+      logical :: is_written
 
       call read_study(arguments%file, study, error)
       if (allocated(error)) return
@@ -43,42 +44,45 @@ contains
       if (allocated(error)) return
 
       if (study%kind == 'step_size') then
-         call run_step_size(study, deck, out, unheard, error)
+         call run_step_size(study, deck, out, unheard, is_written, error)
       else
-         call run_sweep(study, deck, out, unheard, error)
+         call run_sweep(study, deck, out, unheard, is_written, error)
       end if
-      if (allocated(error)) then
-         if (error%code /= exit_convergence) return
-      end if
+      if (.not. is_written) return
       call draw(arguments, study, home, out)
       if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
    end subroutine run_study_command
 
    !> out/<study>.csv
-   subroutine run_step_size(study, deck, out, unheard, error)
+   subroutine run_step_size(study, deck, out, unheard, is_written, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
       type(error_t), allocatable, intent(inout) :: unheard
+      logical, intent(out) :: is_written
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: text
 
+      is_written = .false.
       call step_size_text(study, deck, text, error)
       if (allocated(error)) return
       call write_table(join_path(out, study%name//'.csv'), text, unheard, error)
+      is_written = .not. allocated(error)
    end subroutine run_step_size
 
    !> out/<study>_curves.csv and out/<study>_responses.csv
-   subroutine run_sweep(study, deck, out, unheard, error)
+   subroutine run_sweep(study, deck, out, unheard, is_written, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
       type(error_t), allocatable, intent(inout) :: unheard
+      logical, intent(out) :: is_written       !! both tables, whatever else went wrong
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: curves, responses
       type(message_list_t) :: troubles
       integer :: k
 
+      is_written = .false.
       call sweep_factors(study, deck, curves, responses, troubles, error)
       if (allocated(error)) return
       call write_table(join_path(out, study%name//'_curves.csv'), blocks(csv_text(curves), 1), unheard, error)
@@ -87,6 +91,7 @@ contains
       call write_table(join_path(out, study%name//'_responses.csv'), blocks(csv_text(responses), &
          merge(2, 0, size(study%factors) == 2)), unheard, error)
       if (allocated(error)) return
+      is_written = .true.
       do k = 1, troubles%count()
          call warn(troubles%line(k))
       end do

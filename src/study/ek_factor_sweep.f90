@@ -2,7 +2,7 @@
 module ek_factor_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_deck, message_list_t
+   use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, set_value
    use ek_suspension, only: suspension_t
@@ -54,7 +54,8 @@ contains
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, error)
-               if (allocated(trouble)) call move_alloc(trouble, error)   ! the first design must stand
+               if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study must stand: '// &
+                  trim(label)//': '//trouble%message)
                if (allocated(error)) return
                call start_tables(study, table, designs, curves, responses)
                deallocate (rows)
@@ -106,7 +107,7 @@ contains
       call sweep(suspension, case, path, kkt)
       call sweep_table(suspension, case, path, kkt, table)
       do k = 1, 2
-         if (path%failure(k)%state > 0) call fail(trouble, exit_deck, 'state at factor '// &
+         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'state at factor '// &
             str(path%value(path%failure(k)%state))//' was not found')
       end do
    end subroutine run_design
