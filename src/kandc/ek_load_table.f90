@@ -30,6 +30,8 @@ module ek_load_table
    character(*), parameter :: load_columns(9) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
       'centre_fx_n', 'centre_fy_n', 'centre_fz_n']
 
+   real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are slips, and could overflow later
+
 contains
 
    !> Adds the loads and drivers of the table's columns, and makes its rows the path of the case.
@@ -54,6 +56,11 @@ contains
          end if
          if (.not. all(ieee_is_finite(table%values(k, :)))) then
             call fail(error, exit_deck, case%file//': column '//quoted(table%columns(k))//' holds a value that is not a number')
+            return
+         end if
+         if (any(abs(table%values(k, :)) >= most)) then
+            call fail(error, exit_deck, case%file//': column '//quoted(table%columns(k))//' holds '// &
+               str(table%values(k, maxloc(abs(table%values(k, :)), dim=1)))//'; a number must be below '//str(most))
             return
          end if
          call take_column(trim(table%columns(k)), table%values(k, :))
