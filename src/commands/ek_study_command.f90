@@ -6,6 +6,7 @@ module ek_study_command
    use ek_deck, only: deck_t, read_deck
    use ek_table, only: table_t
    use ek_csv, only: csv_text
+   use ek_gnuplot, only: gnuplot_text, shell_word
    use ek_study, only: study_t, read_study
    use ek_step_size, only: step_size_text
    use ek_factor_sweep, only: sweep_factors
@@ -174,8 +175,8 @@ contains
          call say(arguments%quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
          return
       end if
-      call execute_command_line('gnuplot -e "out='//achar(39)//out//achar(39)//'" "'//script//'"', exitstat=status, &
-         cmdstat=started)
+      call execute_command_line('gnuplot -e '//shell_word('out='//gnuplot_text(out))//' '//shell_word(script), &
+         exitstat=status, cmdstat=started)
       if (status == 0 .and. started == 0) then
          call say(arguments%quiet, 'figures in '//out)
       else

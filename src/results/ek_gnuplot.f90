@@ -8,7 +8,7 @@ module ek_gnuplot
    use ek_figure, only: figure_t, panel_t
    implicit none(type, external)
    private
-   public :: figure_script, write_figure, render_figures, run_gnuplot, gnuplot_text, palette, script_name_t
+   public :: figure_script, write_figure, render_figures, run_gnuplot, gnuplot_text, shell_word, palette, script_name_t
 
    !> Okabe and Ito's colours, which the colour-blind tell apart; the yellow is left out, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
