@@ -11,7 +11,7 @@ module ek_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
    public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group
    public :: most_values, most_loads, is_legal_name
-   public :: word_length, note_length, most_measures, largest_exponent
+   public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
    public :: word, prose, number, whole, switch
 
    ! groups, numbered as in group_names
@@ -38,6 +38,7 @@ module ek_group
    integer, parameter :: most_values = 200     !! of one factor, step sizes of one study, points of a curve, names in shared
    integer, parameter :: most_loads = 12       !! scaled together by one case
    integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
+   integer, parameter :: smallest_exponent = -100   !! so are those below 1e-100, of which the least are read as 0
 
    type :: key_t
       integer :: group

@@ -8,7 +8,7 @@ module ek_namelist
    use ek_complaint, only: place_t, complaints_t
    use ek_record, only: record_t, value_t, entry_index, is_given, place_of
    use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
-      word_length, note_length, largest_exponent
+      word_length, note_length, largest_exponent, smallest_exponent
    implicit none(type, external)
    private
    public :: check_record, value_fault
@@ -207,6 +207,8 @@ contains
             fault = expected//', found '//value%text
          else if (size_exponent(value%text) > largest_exponent) then
             fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
+         else if (size_exponent(value%text) < smallest_exponent) then
+            fault = '0 or a number above 1e'//str(smallest_exponent)//', found '//value%text
          end if
       end select
    end function value_fault
