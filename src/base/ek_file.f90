@@ -14,6 +14,7 @@ module ek_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
+   integer, parameter :: most_streamed = 1000000000   !! bytes of a pipe or a device; /dev/zero has no end
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
    integer(c_int), parameter :: may_execute = 1  !! X_OK
    integer(c_int), parameter :: all_may = 511    !! 0777, the umask takes away
@@ -165,12 +166,19 @@ contains
          status='old', iostat=status, iomsg=reason)
       if (status == 0) then
          inquire (unit=unit, size=size)
-         if (size > 0) then
+         if (size > huge(1)) then         ! its letters are counted in default integers
+            status = 1
+            reason = 'it is larger than 2 GB'
+         else if (size > 0) then
             deallocate (text)
             allocate (character(size) :: text)
             read (unit, iostat=status, iomsg=reason) text
          else
             call read_stream(unit, text)
+            if (len(text) == most_streamed) then
+               status = 1
+               reason = 'it does not end within 1 GB'
+            end if
          end if
          close (unit, iostat=ignored)
       end if
@@ -180,7 +188,7 @@ contains
       end if
    end subroutine read_whole
 
-   !> What a pipe delivers, which has no size beforehand.
+   !> What a pipe delivers, which has no size beforehand; not more than `most_streamed`.
    subroutine read_stream(unit, text)
       integer, intent(in) :: unit
       character(:), allocatable, intent(inout) :: text
@@ -191,9 +199,9 @@ contains
       used = 0
       do
          read (unit, iostat=status) letter
-         if (status /= 0) exit
+         if (status /= 0 .or. used == most_streamed) exit
          if (used == len(text)) then
-            allocate (character(max(4096, 2*used)) :: grown)
+            allocate (character(min(max(4096, 2*used), most_streamed)) :: grown)
             grown(:used) = text
             call move_alloc(grown, text)
          end if

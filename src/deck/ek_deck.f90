@@ -9,7 +9,7 @@
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_kinds, only: i8
-   use ek_error, only: error_t, fail, exit_deck, exit_usage
+   use ek_error, only: error_t, fail, exit_deck, exit_usage, exit_file
    use ek_file, only: read_whole
    use ek_text, only: str, lower
    use ek_complaint, only: place_t, complaints_t
@@ -50,7 +50,8 @@ contains
       character(:), allocatable :: text
 
       if (path == '-') then
-         call read_standard_input(text)
+         call read_standard_input(text, error)
+         if (allocated(error)) return
          call parse_deck(text, 'standard input', deck, error, is_study)
       else
          call read_whole(path, text, error)
@@ -238,8 +239,9 @@ contains
    end function checksum_of
 
    !> All of standard input, line by line: it may be a pipe, without a size.
-   subroutine read_standard_input(text)
+   subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: it has no end
       character(4096) :: chunk
       character(:), allocatable :: grown
       integer :: status, got, filled
@@ -250,6 +252,10 @@ contains
          read (input_unit, '(a)', advance='no', iostat=status, size=got) chunk
          if (status /= 0 .and. status /= iostat_eor) exit
          if (filled + got + 1 > len(text)) then
+            if (len(text) > 1000000000) then      ! twice that is beyond a default integer
+               call fail(error, exit_file, 'cannot read standard input: it does not end within 1 GB')
+               return
+            end if
             allocate (character(2*len(text)) :: grown)
             grown(:filled) = text(:filled)
             call move_alloc(grown, text)
