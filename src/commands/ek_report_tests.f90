@@ -16,7 +16,7 @@ module ek_report_tests
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
-   use ek_run_words, only: failure_words, settled_words, rack_words
+   use ek_run_words, only: failure_words, settled_words, rack_words, open_words
    implicit none(type, external)
    private
    public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
@@ -152,7 +152,7 @@ contains
       type(kkt_t) :: kkt
       type(diagnosis_t) :: diagnosis
       type(message_list_t) :: settled
-      character(:), allocatable :: words
+      character(:), allocatable :: words, gaping
       integer :: side, k
 
       test%name = planned%name
@@ -195,9 +195,15 @@ contains
          call test%remarks%add(settled%line(k))
       end do
       call rack_words(suspension, case, test%remarks)
+      call sweep_table(suspension, case, path, kkt, test%table)
+      gaping = open_words(case, test%table)
+      if (len(gaping) > 0) then
+         call test%remarks%add(gaping)
+         if (len(words) > 0) words = words//new_line('a')
+         words = words//gaping
+      end if
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
-      call sweep_table(suspension, case, path, kkt, test%table)
       call add_header(test%table, suspension, case, checksum)
       call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)

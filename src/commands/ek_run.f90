@@ -26,7 +26,7 @@ module ek_run
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
-      warn_of_instability, warn_of_travel, failure_words
+      warn_of_instability, warn_of_travel, failure_words, open_words
    use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
    implicit none(type, external)
    private
@@ -141,11 +141,14 @@ contains
       do side = 1, doubts%count()
          call warn('case '//quoted(case%name)//': '//doubts%line(side))
       end do
+      call sweep_table(suspension, case, path, kkt, table)
+      if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
+      words = words//lost
+      lost = open_words(case, table)
       if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
       words = words//lost
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
-      call sweep_table(suspension, case, path, kkt, table)
       call add_header(table, suspension, case, checksum)
       if (folder == '-') then
          call write_standard_output(csv_text(table), trouble)

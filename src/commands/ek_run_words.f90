@@ -1,5 +1,6 @@
 !> What `run` has to say besides its results: settling, preloads, drift, stability, and why a sweep ended.
 module ek_run_words
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_units, only: degree, millimetre
@@ -12,6 +13,7 @@ module ek_run_words
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t
    use ek_reach, only: failure_t
+   use ek_table, only: table_t, column, row_count
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_sweep_table, only: factor_unit
    use ek_drift, only: drift_t, drift_at
@@ -20,7 +22,7 @@ module ek_run_words
    implicit none(type, external)
    private
    public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel
-   public :: patch_words, spring_words, rack_words, failure_words
+   public :: patch_words, spring_words, rack_words, failure_words, open_words
 
 contains
 
@@ -181,6 +183,23 @@ contains
          end if
       end do
    end subroutine warn_of_drift
+
+   !> States of a linear method that the table marks as none because their joints are open; '' where there are none.
+   function open_words(case, table) result(words)
+      type(case_t), intent(in) :: case
+      type(table_t), intent(in) :: table         !! of sweep_table
+      character(:), allocatable :: words
+      real(wp) :: gap(row_count(table))
+      logical :: is_open(row_count(table))
+
+      words = ''
+      gap = column(table, 'constraint_error')
+      is_open = ieee_is_finite(gap) .and. column(table, 'converged') < 0.5_wp
+      if (.not. any(is_open)) return
+      words = 'case '//quoted(case%name)//', method '//case%method//': '//plural(count(is_open), 'state has', 'states have')// &
+         ' joints that are open (constraint_error up to '//str(maxval(gap, mask=is_open), 2)//' m or rad), and converged = 0'// &
+         '; more increments, or method ''equilibrium'', close them'
+   end function open_words
 
    !> What to do about drift.
    pure function advice(case) result(text)
