@@ -175,7 +175,8 @@ contains
          call say(arguments%quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
          return
       end if
-      call execute_command_line('gnuplot -e '//shell_word('out='//gnuplot_text(out))//' '//shell_word(script), &
+      ! a locale that has UTF-8 (gnuplot complains of the degree sign in C) and writes a decimal point
+      call execute_command_line('LC_ALL=C.UTF-8 gnuplot -e '//shell_word('out='//gnuplot_text(out))//' '//shell_word(script), &
          exitstat=status, cmdstat=started)
       if (status == 0 .and. started == 0) then
          call say(arguments%quiet, 'figures in '//out)
