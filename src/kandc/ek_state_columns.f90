@@ -194,7 +194,8 @@ contains
             at = at + 3
             if (.not. has_moment(suspension, joint)) cycle
             arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
-            row(at + 1:at + 3) = frame*(moment - cross(arm, force))
+            moment = moment - cross(arm, force)      ! about the joint's point; by itself, or the row would be put in a temporary
+            row(at + 1:at + 3) = frame*moment
             at = at + 3
          end associate
       end do
