@@ -16,7 +16,7 @@ module ek_report_tests
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
-   use ek_run_words, only: failure_words, settled_words, rack_words, open_words
+   use ek_run_words, only: failure_words, settled_words, rack_words, open_words, add_line
    implicit none(type, external)
    private
    public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
@@ -185,8 +185,7 @@ contains
       words = ''
       do side = 1, 2
          if (path%failure(side)%state == 0) cycle
-         if (len(words) > 0) words = words//new_line('a')
-         words = words//failure_words(suspension, case, path, path%failure(side), kkt)
+         call add_line(words, failure_words(suspension, case, path, path%failure(side), kkt))
          call test%remarks%add(failure_words(suspension, case, path, path%failure(side), kkt))
       end do
       call remark_instability(suspension, case, path, test)
@@ -199,8 +198,7 @@ contains
       gaping = open_words(case, test%table)
       if (len(gaping) > 0) then
          call test%remarks%add(gaping)
-         if (len(words) > 0) words = words//new_line('a')
-         words = words//gaping
+         call add_line(words, gaping)
       end if
       if (len(words) > 0) call fail(error, exit_convergence, words)
 

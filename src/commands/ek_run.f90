@@ -26,7 +26,7 @@ module ek_run
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
-      warn_of_instability, warn_of_travel, failure_words, open_words
+      warn_of_instability, warn_of_travel, failure_words, open_words, add_line
    use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
    implicit none(type, external)
    private
@@ -130,8 +130,7 @@ contains
       words = ''
       do side = 1, 2
          if (path%failure(side)%state == 0) cycle
-         if (len(words) > 0) words = words//new_line('a')
-         words = words//failure_words(suspension, case, path, path%failure(side), kkt)
+         call add_line(words, failure_words(suspension, case, path, path%failure(side), kkt))
       end do
       call say_settled(arguments, suspension, case, path)
       call warn_of_drift(suspension, case, path, kkt, lost)
@@ -142,11 +141,8 @@ contains
          call warn('case '//quoted(case%name)//': '//doubts%line(side))
       end do
       call sweep_table(suspension, case, path, kkt, table)
-      if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
-      words = words//lost
-      lost = open_words(case, table)
-      if (len(words) > 0 .and. len(lost) > 0) words = words//new_line('a')
-      words = words//lost
+      call add_line(words, lost)
+      call add_line(words, open_words(case, table))
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
       call add_header(table, suspension, case, checksum)
@@ -164,8 +160,8 @@ contains
          call aim(arguments, suspension, case, path, table, checksum, folder, kkt, unheard, trouble)
       if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
       if (.not. allocated(trouble)) return
-      if (len(words) > 0) trouble%message = words//new_line('a')//trouble%message
-      call move_alloc(trouble, error)
+      call add_line(words, trouble%message)
+      call fail(error, trouble%code, words)
    end subroutine run_case
 
    !> The place where the target of a case is met: told, and its state written to a file of its own (not when the

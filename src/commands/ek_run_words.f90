@@ -22,9 +22,19 @@ module ek_run_words
    implicit none(type, external)
    private
    public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel
-   public :: patch_words, spring_words, rack_words, failure_words, open_words
+   public :: patch_words, spring_words, rack_words, failure_words, open_words, add_line
 
 contains
+
+   !> Adds a line to words; an empty one adds nothing.
+   pure subroutine add_line(words, line)
+      character(:), allocatable, intent(inout) :: words
+      character(*), intent(in) :: line
+
+      if (len(line) == 0) return
+      if (len(words) > 0) words = words//new_line('a')
+      words = words//line
+   end subroutine add_line
 
    !> By how much the wheels moved under the constant loads.
    subroutine say_settled(arguments, suspension, case, path)
@@ -171,10 +181,9 @@ contains
          if (.not. path%is_reached(k) .or. k == path%start) cycle
          call drift_at(suspension, case, path, k, kkt, drift)
          if (.not. drift%is_known) then
-            if (len(lost) > 0) lost = lost//new_line('a')
-            lost = lost//'case '//quoted(case%name)//', method '//case%method// &
+            call add_line(lost, 'case '//quoted(case%name)//', method '//case%method// &
                ': no equilibrium was found near the state at factor '// &
-               str(path%value(k)/factor_unit(suspension, case))//'; the method has run past what the suspension can reach'
+               str(path%value(k)/factor_unit(suspension, case))//'; the method has run past what the suspension can reach')
          else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
             call warn('case '//quoted(case%name)//', method '//case%method//': at factor '// &
                str(path%value(k)/factor_unit(suspension, case))//' the state is off equilibrium by '// &

@@ -47,14 +47,22 @@ contains
       if (size(chart%traces) > 0) call append_chart(charts, chart)
    end subroutine append_if_drawn
 
+   !> A chart of a test without curves yet. The rows of a table of loads are no path: points.
+   pure type(chart_t) function chart_of(test, name, title, label) result(chart)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: name, title, label
+
+      chart = new_chart(test%name//'_'//name, title, label, test%label)
+      chart%has_points = test%kind == 'table'
+   end function chart_of
+
    !> A quantity of every wheel, or of the axle, over the abscissa of the test; without curves where there is none.
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
       type(test_result_t), intent(in) :: test
       type(quantity_t), intent(in) :: quantity
       integer :: wheel, place
 
-      chart = new_chart(test%name//'_'//trim(quantity%column), trim(quantity%title), trim(quantity%label), test%label)
-      chart%has_points = test%kind == 'table'
+      chart = chart_of(test, trim(quantity%column), trim(quantity%title), trim(quantity%label))
       chart%noise = quantity%noise
       if (index(quantity%column, '_arm_length_mm') > 0) chart%cap = longest_arm
       place = column_index(test%table, quantity%column)
@@ -75,8 +83,7 @@ contains
       character(name_length) :: stem
       integer :: k, place
 
-      chart = new_chart(test%name//'_'//name, title, label, test%label)
-      chart%has_points = test%kind == 'table'
+      chart = chart_of(test, name, title, label)
       chart%has_key = .true.
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(ending)
@@ -117,8 +124,7 @@ contains
       real(wp) :: least
       integer :: k, place, row, n, design
 
-      chart = new_chart(test%name//'_bushings', 'Bushings and joints', 'force, magnitude, N', test%label)
-      chart%has_points = test%kind == 'table'
+      chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
       n = size(test%table%columns)
       allocate (names(n), places(3, n), peak(n), force(row_count(test%table), n))
