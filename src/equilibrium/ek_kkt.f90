@@ -24,7 +24,7 @@ module ek_kkt
    use ek_substitution, only: substitute
    implicit none(type, external)
    private
-   public :: kkt_t, new_kkt, assemble, factorise, solve, condition, wrench, load_factor
+   public :: kkt_t, new_kkt, assemble, assemble_rate, factorise, solve, condition, wrench, load_factor
    public :: whole_tangent, material_only, residual_only
 
    integer, parameter :: whole_tangent = 1   !! T with geometric stiffness: corrected, equilibrium
@@ -221,6 +221,31 @@ contains
          end do
       end if
    end subroutine assemble_into
+
+   !> Right-hand side for a unit of place: what the demand grows by, at a state. Solved with the factors of T it becomes
+   !> the tangent of the path [Δq; Δλ] per place.
+   pure subroutine assemble_rate(suspension, state, rate, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: rate         !! demand per place
+      type(kkt_t), intent(inout) :: kkt          !! rhs
+      real(wp) :: force(3), moment(3), arm(3)
+      integer :: k, at
+
+      kkt%rhs = 0.0_wp
+      if (abs(rate%relief) > 0.0_wp) kkt%rhs(:kkt%nq) = -rate%relief*kkt%imbalance
+      do k = 1, rate%loads
+         associate (load => suspension%loads(rate%load(k)))
+            at = 6*(load%body - 1)
+            call wrench(load, state%poses(load%body + 1), force, moment, arm)
+            kkt%rhs(at + 1:at + 3) = kkt%rhs(at + 1:at + 3) + rate%factor(k)*force
+            kkt%rhs(at + 4:at + 6) = kkt%rhs(at + 4:at + 6) + rate%factor(k)*moment
+         end associate
+      end do
+      do k = 1, rate%rows
+         kkt%rhs(kkt%nq + rate%row(k)) = kkt%rhs(kkt%nq + rate%row(k)) + rate%change(k)
+      end do
+   end subroutine assemble_rate
 
    !> What a case load is scaled by: 0 where the demand does not name it.
    pure real(wp) function load_factor(demand, load)

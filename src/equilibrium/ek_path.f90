@@ -12,10 +12,15 @@ module ek_path
    use ek_kkt, only: kkt_t
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
+   use ek_branch, only: branch_t, new_branch, leave, most_crossings
    use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
    implicit none(type, external)
    private
    public :: path_t, sweep, new_path, walk, progress_procedure
+
+   real(wp), parameter :: least_step = 1.0e-9_wp      !! of the range: where a path ends is found that sharply
+   real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
+   real(wp), parameter :: least_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
 
    abstract interface
       !> Told now and then how many states of how many are there.
@@ -36,6 +41,8 @@ module ek_path
       real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
       logical :: is_table = .false.               !! rows of a table, each a state of its own
+      integer :: crossings = 0                    !! bifurcations that the path goes through
+      real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
@@ -103,15 +110,20 @@ contains
       type(state_t) :: state
       type(carry_t) :: carry
       type(predictor_t) :: predictor
+      type(branch_t) :: branch
       type(schedule_t) :: schedule
       type(demand_t) :: demand
       real(wp) :: here                   ! the place of `state`
-      integer :: done
+      integer :: done, settled_negative
 
       schedule = new_schedule(suspension, case)
       here = 0.0_wp
       call demand_at(schedule, here, demand)
       predictor = new_predictor(size(path%settled))
+      branch = new_branch(suspension)
+      branch%least = least_step*span(path)
+      branch%width = crossing_step*span(path)
+      settled_negative = -1
       state = design_state(suspension)
       path%failure = failure_t()
       path%is_reached = .false.
@@ -120,6 +132,7 @@ contains
       else
          call settle(suspension, case%tolerance, state, kkt, path%failure(1))
          if (path%failure(1)%state > 0) return
+         settled_negative = kkt%negative
       end if
       call pack_state(state, path%settled)
       done = 0
@@ -136,6 +149,8 @@ contains
          call approach(path%states)
          if (path%failure(1)%state == 0) call walk_branch(path%states, 1, -1, path%failure(1))
       end if
+      path%crossings = branch%crossings
+      path%crossing_place = branch%crossing_place
 
    contains
 
@@ -183,6 +198,7 @@ contains
                cycle
             end if
             if (lost%state == 0) lost = failure
+            branch%least = least_of_row
             schedule%rest = nint(path%value(k))
             call restart()
          end do
@@ -213,6 +229,7 @@ contains
          if (case%method == 'recursive') call start_recursion(suspension, state, kkt, carry)
          call forget(predictor)
          call remember(predictor, here, path%settled)
+         call leave(branch, settled_negative)
       end subroutine restart
 
       !> The other branch, walked before, helps to guess the first states of this one.
@@ -250,7 +267,8 @@ contains
             path%iterations(k) = 1
             call check_increment(kkt, k, here, value, failure)
          case default
-            call reach(suspension, schedule, value, case%tolerance, predictor, state, kkt, path%iterations(k), failure)
+            call reach(suspension, schedule, value, case%tolerance, predictor, branch, state, kkt, &
+               path%iterations(k), failure)
             if (failure%state > 0) failure%state = k
          end select
          demand = next
@@ -258,6 +276,13 @@ contains
       end subroutine advance
 
    end subroutine walk
+
+   !> The range of a path, or 1 row of a table [place].
+   pure real(wp) function span(path)
+      type(path_t), intent(in) :: path
+      span = 1.0_wp
+      if (.not. path%is_table) span = maxval(abs(path%value)) + maxval(path%value) - minval(path%value)
+   end function span
 
    !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
    subroutine check_increment(kkt, state_number, before, value, failure)

@@ -7,12 +7,16 @@ module ek_reach
    use ek_schedule, only: schedule_t, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge
+   use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge, depth
+   use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, &
+      same_branch, crossing, doubtful
    implicit none(type, external)
    private
    public :: failure_t, reach, settle
 
-   integer, parameter :: most_halvings = 12   !! an increment is cut to 1/4096 before a state is given up
+   integer, parameter :: bend_halvings = 5            !! behind so many a corner of a law is taken for what it is
+   real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a guess that near has seen the path coming
+   integer, parameter :: most_attempts = 400          !! of one increment
 
    !> Where and how a sweep stopped.
    type :: failure_t
@@ -31,18 +35,19 @@ contains
    !> Reaches equilibrium at a place of the path from the states remembered, halving the way when needed.
    !>
    !> On failure `state` is the last equilibrium.
-   subroutine reach(suspension, schedule, goal, tolerance, predictor, state, kkt, iterations, failure)
+   subroutine reach(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal               !! place
       real(wp), intent(in) :: tolerance          !! m
       type(predictor_t), intent(inout) :: predictor
+      type(branch_t), intent(inout) :: branch    !! of the newest state remembered
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: iterations         !! factorisations spent
       type(failure_t), intent(inout) :: failure
 
-      call follow(suspension, schedule, goal, .false., tolerance, predictor, state, kkt, iterations, failure)
+      call follow(suspension, schedule, goal, .false., tolerance, predictor, branch, state, kkt, iterations, failure)
    end subroutine reach
 
    !> From design to equilibrium under the constant loads and preloads alone.
@@ -56,61 +61,142 @@ contains
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
       type(predictor_t) :: predictor
+      type(branch_t) :: branch
+      real(wp), parameter :: least_share = 1.0e-6_wp
       integer :: iterations
 
       call assemble(suspension, state, demand_t(), residual_only, kkt)
       kkt%imbalance = kkt%rhs(:kkt%nq)
       predictor = new_predictor(coordinates(suspension))
+      branch = new_branch(suspension)
+      branch%least = least_share
       call store(predictor, 0.0_wp, state, .true.)
-      call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, state, kkt, iterations, failure)
+      call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, branch, state, kkt, iterations, failure)
    end subroutine settle
 
-   !> Walks from the newest state remembered to the place `goal` of a path.
-   subroutine follow(suspension, schedule, goal, is_settling, tolerance, predictor, state, kkt, iterations, failure)
+   !> Walks from the newest state remembered to the place `goal` of a path, in one step where the path allows it.
+   !>
+   !> A step is halved when no equilibrium is found, or one that the path does not lead to (ek_branch); it is doubled
+   !> again behind one that was taken. What is shorter than branch%least has come to the end of the path.
+   subroutine follow(suspension, schedule, goal, is_settling, tolerance, predictor, branch, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal
       logical, intent(in) :: is_settling         !! the place is the share of the imbalance, else that of the schedule
       real(wp), intent(in) :: tolerance
       type(predictor_t), intent(inout) :: predictor
+      type(branch_t), intent(inout) :: branch
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: iterations
       type(failure_t), intent(inout) :: failure
-      type(demand_t) :: demand
+      type(demand_t) :: here_demand, demand
       type(outcome_t) :: outcome
-      real(wp) :: here, place
-      integer :: halvings, points
+      real(wp) :: here, place, step, bend
+      real(wp) :: before      ! place of the newest state less that of the one before it
+      integer :: points, attempt, verdict, older
+      logical :: was_compared
 
       here = predictor%abscissa(predictor%newest)
+      call demand_of(here, here_demand)
       iterations = 0
-      halvings = 0
       points = predictor%trusted
-      do
-         place = here + (goal - here)*0.5_wp**halvings
-         if (halvings == 0) place = goal
+      step = goal - here
+      bend = abs(step)*0.5_wp**bend_halvings
+      do attempt = 1, most_attempts
+         place = here + step
+         if (abs(step) >= abs(goal - here)) place = goal
+         call demand_of(place, demand)
+         if (branch%has_tangent .and. min(points, predictor%count) <= 2) then
+            call unpack_state(predictor%packed(:, predictor%newest), state)
+            call go_along(branch, place - here, state)
+            call pack_state(state, predictor%guess)
+         else
+            call predict(predictor, place, points)
+            call unpack_state(predictor%guess, state)
+         end if
+         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
+         iterations = iterations + outcome%factorisations
+         verdict = doubtful
+         if (outcome%is_converged) then
+            verdict = same_branch
+            was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length)
+            if (was_compared) then
+               older = modulo(predictor%newest - 2, depth) + 1
+               before = 0.0_wp
+               if (predictor%count > 1) before = here - predictor%abscissa(older)
+               call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
+                  predictor%packed(:, older), before, state, abs(place - here) <= bend, &
+                  outcome%first, kkt, verdict)
+               iterations = iterations + branch%factorisations
+               kkt%pivot_ratio = outcome%pivot_ratio
+               if (verdict == crossing) then
+                  if (abs(place - here) > branch%width) then
+                     verdict = doubtful
+                  else
+                     call note_crossing(branch, 0.5_wp*(here + place))
+                     verdict = same_branch
+                  end if
+               end if
+            end if
+         end if
+         if (verdict == same_branch) then
+            call accept(branch, outcome%negative, was_compared)
+            call store(predictor, place, state, outcome%factorisations == 1)
+            here = place
+            here_demand = demand
+            if (abs(goal - here) <= 0.0_wp) return
+            step = 2.0_wp*step
+         else
+            points = min(points, 2)     ! a bold guess may itself be the trouble
+            step = 0.5_wp*(place - here)
+            if (abs(step) < branch%least) exit
+         end if
+      end do
+      call blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
+
+   contains
+
+      subroutine demand_of(place, demand)
+         real(wp), intent(in) :: place
+         type(demand_t), intent(inout) :: demand
+
          if (is_settling) then
             demand%relief = 1.0_wp - place
          else
             call demand_at(schedule, place, demand)
          end if
-         call predict(predictor, place, points)
-         call unpack_state(predictor%guess, state)
-         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
-         iterations = iterations + outcome%factorisations
-         if (outcome%is_converged) then
-            call store(predictor, place, state, outcome%factorisations == 1)
-            here = place
-            if (halvings == 0) return
-            halvings = halvings - 1
-         else
-            points = min(points, 2)     ! a bold guess may itself be the trouble
-            halvings = halvings + 1
-            if (halvings > most_halvings) exit
-         end if
-      end do
-      call blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
+      end subroutine demand_of
+
    end subroutine follow
+
+   !> The guess from earlier states came near enough, and the inertia is what it was: nothing has happened on the way.
+   pure logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length)
+      type(predictor_t), intent(in) :: predictor     !! with the guess
+      type(state_t), intent(in) :: state             !! where Newton's method went from it
+      integer, intent(in) :: negative, negative_before
+      real(wp), intent(in) :: tolerance, length      !! m
+      real(wp) :: moved, missed
+      integer :: k, at
+
+      moved = 0.0_wp
+      missed = 0.0_wp
+      at = 0
+      do k = 2, size(state%poses)
+         associate (pose => state%poses(k), old => predictor%packed(at + 1:at + 7, predictor%newest), &
+            guess => predictor%guess(at + 1:at + 7))
+            ! a quaternion turns by half the angle
+            moved = max(moved, sum((pose%r - old(1:3))**2), (2.0_wp*length)**2*sum((pose%q - old(4:7))**2))
+            missed = max(missed, sum((pose%r - guess(1:3))**2), (2.0_wp*length)**2*sum((pose%q - guess(4:7))**2))
+         end associate
+         at = at + 7
+      end do
+      if (moved <= (10.0_wp*tolerance)**2) then
+         is_foreseen = negative == negative_before .or. negative_before < 0
+      else
+         is_foreseen = negative == negative_before .and. missed <= good_guess**2*moved
+      end if
+   end function is_foreseen
 
    !> Hands an equilibrium to the predictor, and whether the guess of it was good.
    pure subroutine store(predictor, place, state, is_good)

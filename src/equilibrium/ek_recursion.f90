@@ -2,8 +2,8 @@
 module ek_recursion
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, move, move_as_screw
-   use ek_kkt, only: kkt_t, assemble, factorise, solve, wrench, whole_tangent, material_only
+   use ek_state, only: state_t, demand_t, demand_rate, move, move_as_screw
+   use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, material_only
    implicit none(type, external)
    private
    public :: carry_t, start_recursion, recursive_increment, corrected_increment
@@ -47,26 +47,13 @@ contains
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(carry_t), intent(inout) :: carry
-      real(wp) :: force(3), moment(3), arm(3), change
-      integer :: at, k
+      integer :: k
 
       call assemble(suspension, state, before, material_only, kkt)
-      kkt%rhs(:kkt%nq) = carry%pull
-      kkt%rhs(kkt%nq + 1:) = 0.0_wp
+      call assemble_rate(suspension, state, demand_rate(before, after, 1.0_wp), kkt)
+      kkt%rhs(:kkt%nq) = kkt%rhs(:kkt%nq) + carry%pull
       do k = 1, kkt%nc
-         if (suspension%rows(k)%compliance > 0.0_wp) kkt%rhs(kkt%nq + k) = -suspension%rows(k)%compliance*state%reaction(k)
-      end do
-      do k = 1, after%loads
-         associate (load => suspension%loads(after%load(k)))
-            change = after%factor(k) - before%factor(k)
-            at = 6*(load%body - 1)
-            call wrench(load, state%poses(load%body + 1), force, moment, arm)
-            kkt%rhs(at + 1:at + 3) = kkt%rhs(at + 1:at + 3) + change*force
-            kkt%rhs(at + 4:at + 6) = kkt%rhs(at + 4:at + 6) + change*moment
-         end associate
-      end do
-      do k = 1, after%rows
-         kkt%rhs(kkt%nq + after%row(k)) = kkt%rhs(kkt%nq + after%row(k)) + (after%change(k) - before%change(k))
+         kkt%rhs(kkt%nq + k) = kkt%rhs(kkt%nq + k) - suspension%rows(k)%compliance*state%reaction(k)
       end do
       call factorise(kkt)
       if (kkt%is_singular) return

@@ -2,11 +2,12 @@
 module ek_state
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
-   use ek_rotation, only: cross, rotate_quaternion, rotation_matrix
+   use ek_rotation, only: cross, rotate_quaternion, rotation_matrix, quaternion_product
    use ek_suspension, only: suspension_t, design_poses
    implicit none(type, external)
    private
    public :: state_t, demand_t, most_driven, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+   public :: demand_rate, motion_between
 
    integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads a wheel and some more
 
@@ -28,6 +29,37 @@ module ek_state
    end type demand_t
 
 contains
+
+   !> What two demands of the same things differ by, per place.
+   pure function demand_rate(a, b, width) result(rate)
+      type(demand_t), intent(in) :: a, b
+      real(wp), intent(in) :: width      !! place of b less that of a; not 0
+      type(demand_t) :: rate
+
+      rate = b
+      rate%factor = (b%factor - a%factor)/width
+      rate%change = (b%change - a%change)/width
+      rate%relief = (b%relief - a%relief)/width
+   end function demand_rate
+
+   !> The motion of every body from one state to another: Δr of its reference point, and its rotation vector, global axes.
+   pure subroutine motion_between(a, b, motion)
+      type(state_t), intent(in) :: a, b
+      real(wp), contiguous, intent(out) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
+      real(wp) :: q(4), sine
+      integer :: k, at
+
+      at = 0
+      do k = 2, size(a%poses)
+         motion(at + 1:at + 3) = b%poses(k)%r - a%poses(k)%r
+         q = quaternion_product(b%poses(k)%q, [a%poses(k)%q(1), -a%poses(k)%q(2:4)])
+         if (q(1) < 0.0_wp) q = -q
+         sine = norm2(q(2:4))
+         motion(at + 4:at + 6) = 2.0_wp*q(2:4)
+         if (sine > 1.0e-4_wp) motion(at + 4:at + 6) = 2.0_wp*atan2(sine, q(1))/sine*q(2:4)
+         at = at + 6
+      end do
+   end subroutine motion_between
 
    !> The design position, without reactions.
    function design_state(suspension) result(state)

@@ -12,6 +12,7 @@ module ek_target
    use ek_predictor, only: predictor_t, new_predictor, remember, forget
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
+   use ek_branch, only: branch_t, new_branch, leave
    use ek_table, only: table_t, column_index, column_range, row_count
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
@@ -118,11 +119,13 @@ contains
       logical, intent(out) :: is_jump          !! the value is not passed but jumped over, as at a pole
       type(error_t), allocatable, intent(out) :: error
       integer, parameter :: most_steps = 80
+      real(wp), parameter :: least_step = 1.0e-6_wp   ! of the way between the two states at hand
       real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states at hand
       real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer when the places have met
       type(path_t) :: here
       type(schedule_t) :: schedule
       type(predictor_t) :: predictor
+      type(branch_t) :: branch
       real(wp) :: low, high, f_low, f_high, middle, f, span
       integer :: first, second, step, last_side
 
@@ -132,6 +135,8 @@ contains
       call one_state(path, first, here)
       schedule = new_schedule(suspension, case)
       predictor = new_predictor(size(here%packed))
+      branch = new_branch(suspension)
+      branch%least = least_step*abs(path%value(second) - path%value(first))
       low = path%value(first)
       f_low = table%values(c, row) - found%wanted
       if (abs(f_low) <= 0.0_wp) then
@@ -178,7 +183,9 @@ contains
          state = design_state(suspension)
          call forget(predictor)
          call remember(predictor, path%value(from), path%packed(:, from))
-         call reach(suspension, schedule, place, case%tolerance, predictor, state, kkt, here%iterations(1), failure)
+         call leave(branch, -1)
+         call reach(suspension, schedule, place, case%tolerance, predictor, branch, state, kkt, &
+            here%iterations(1), failure)
          here%value(1) = place
          here%is_reached(1) = failure%state == 0
          here%is_stable(1) = kkt%negative == kkt%nc

@@ -1,0 +1,470 @@
+!> Whether a step of a path ends on the branch that it began on.
+!>
+!> Newton's method converges to some equilibrium near its guess: behind a lock, a limit point or a bifurcation that is
+!> another assembly or another branch. A step from state a to state b of width h is only sound when
+!>
+!> - the tangents dz/ds = N⁻¹ dF/ds at its ends explain where it landed: |d − h (t_a + t_b)/2| is small against |d|,
+!>   d the motion of the bodies from a to b (trapezoidal rule: of third order in h on a smooth path);
+!> - the matrix N has as many negative eigenvalues at b as at a: N is regular all along a smooth path;
+!> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are assembled the same way round. Where Φq loses rank N does not
+!>   change its inertia: its determinant goes with the square of that of Φq.
+!>
+!> A law with a corner bends the path. Where a slope of a law has changed between a and b, or in a step that was halved
+!> often enough, d need only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is
+!> asked for after new_branch.
+module ek_branch
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_measure, only: measure_value
+   use ek_spring, only: spring_tension
+   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
+   use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
+   use ek_lapack, only: dgesv
+   implicit none(type, external)
+   private
+   public :: branch_t, new_branch, leave, largest_motion, compare, accept, note_crossing, go_along
+   public :: same_branch, crossing, doubtful
+
+   integer, parameter :: same_branch = 1   !! the step is sound
+   integer, parameter :: crossing = 2      !! the path goes on smoothly, but inertia or assembly changed: a bifurcation between
+   integer, parameter :: doubtful = 3      !! the tangents do not explain the step: a jump, or a step too long to tell
+
+   integer, parameter, public :: most_crossings = 8   !! that are told
+
+   real(wp), parameter :: smooth = 2.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
+   real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times what Newton's method leaves
+   real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
+   real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors made no further away give a good tangent
+   real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump over a gap leaves more, unless it is forty times wider
+   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies that are asked for their direction
+   real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
+
+   !> What is known of the newest state of the path, and work space.
+   type :: branch_t
+      integer :: negative = -1              !! negative eigenvalues of N there; −1: not known
+      logical :: has_tangent = .false.      !! tangent_a is that of the newest state
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
+      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
+      real(wp) :: width_before = 0.0_wp     !! place of a less that of the state before; 0: not known
+      real(wp), allocatable :: rows_a(:, :), rows_b(:, :), product(:, :), unit(:, :)   !! scaled Φq of the rows that hold for certain
+      integer, allocatable :: held(:), pivots(:)
+      integer, allocatable :: touching(:, :), count(:)     !! held rows that touch a body, and how many
+      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
+      logical :: is_symmetric = .true.      !! no load leaves the tangent unsymmetric
+      type(state_t) :: before, shifted
+      logical :: knows_end = .false.        !! tangent_b is that of the state that was looked at last
+      integer :: factorisations = 0         !! that the last comparison needed
+      real(wp) :: least = 0.0_wp            !! shortest step that is tried before the path is said to end [place]
+      real(wp) :: width = 0.0_wp            !! of the step that is taken across a bifurcation [place]
+      integer :: crossings = 0              !! bifurcations met so far
+      real(wp) :: crossing_place(most_crossings) = 0.0_wp
+   end type branch_t
+
+contains
+
+   !> Room for a model.
+   function new_branch(suspension) result(self)
+      type(suspension_t), intent(in) :: suspension
+      type(branch_t) :: self
+      integer :: k, n, body
+
+      self%held = pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp)
+      n = size(self%held)
+      allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
+         self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
+         self%motion_before(suspension%unknowns()), source=0.0_wp)
+      allocate (self%rows_a(suspension%unknowns(), n), self%rows_b(suspension%unknowns(), n), self%product(n, n), &
+         self%unit(n, 1), source=0.0_wp)
+      allocate (self%pivots(n), source=0)
+      allocate (self%touching(n, size(suspension%bodies)), self%count(size(suspension%bodies)), source=0)
+      do body = 1, size(suspension%bodies)
+         do k = 1, n
+            associate (row => suspension%rows(self%held(k)))
+               if (.not. any(suspension%terms(row%first:row%first + row%terms - 1)%measure%body_i == body .or. &
+                  suspension%terms(row%first:row%first + row%terms - 1)%measure%body_j == body)) cycle
+            end associate
+            self%count(body) = self%count(body) + 1
+            self%touching(self%count(body), body) = k
+         end do
+      end do
+      allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
+         self%defect(suspension%unknowns() + suspension%constraints()), source=0.0_wp)
+      self%before = design_state(suspension)
+      self%shifted = self%before
+      do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
+      end do
+   end function new_branch
+
+   !> The walk goes on from another state, of which only the inertia may be known.
+   pure subroutine leave(self, negative)
+      type(branch_t), intent(inout) :: self
+      integer, intent(in) :: negative     !! −1: not known
+
+      self%negative = negative
+      self%has_tangent = .false.
+   end subroutine leave
+
+   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m].
+   pure real(wp) function largest_motion(motion, length)
+      real(wp), contiguous, intent(in) :: motion(:)    !! twists
+      real(wp), intent(in) :: length                   !! m
+      integer :: k
+
+      largest_motion = 0.0_wp
+      do k = 1, size(motion), 6
+         largest_motion = max(largest_motion, body_motion(motion(k:k + 5), length))
+      end do
+   end function largest_motion
+
+   !> The same of one body.
+   pure real(wp) function body_motion(twist, length)
+      real(wp), intent(in) :: twist(6), length
+      body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
+   end function body_motion
+
+   !> Compares both ends of a step. The factors of N at b, or near, must be at hand in kkt.
+   !>
+   !> Tried with these factors and a tangent of a that may be old; where that does not explain the step, with fresh ones.
+   !> After it self%tangent_b and rows_b are those of b; `accept` makes them those of the newest state.
+   subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
+      is_short, missed, kkt, verdict)
+      type(branch_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      real(wp), contiguous, intent(in) :: packed_a(:)        !! state a
+      type(demand_t), intent(in) :: demand_a, demand_b
+      real(wp), intent(in) :: width                          !! h: place of b less that of a
+      real(wp), contiguous, intent(in) :: packed_before(:)   !! the state before a
+      real(wp), intent(in) :: width_before                   !! place of a less that of the state before; 0: there is none
+      type(state_t), intent(in) :: state_b
+      logical, intent(in) :: is_short                        !! halved often enough for a bend
+      real(wp), intent(in) :: missed                         !! how far from b the factors at hand were made [m]
+      type(kkt_t), intent(inout) :: kkt
+      integer, intent(out) :: verdict
+      type(demand_t) :: rate
+      integer :: negative_b
+      real(wp) :: rest
+      logical :: is_explained, can_bend
+
+      rate = demand_rate(demand_a, demand_b, width)
+      negative_b = kkt%negative
+      self%factorisations = 0
+      call unpack_state(packed_a, self%before)
+      call motion_between(self%before, state_b, self%motion)
+      self%width_before = width_before
+      if (abs(width_before) > 0.0_wp .and. .not. self%has_tangent) then
+         call unpack_state(packed_before, self%shifted)
+         call motion_between(self%shifted, self%before, self%motion_before)
+      end if
+      call find_tangent(self, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
+      if (self%has_tangent) then
+         rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
+      else
+         rest = three_point_rest(self, kkt%nq, width, kkt%length)
+         ! the way to a says nearly what its tangent would
+         if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
+      end if
+      is_explained = rest <= smooth
+      can_bend = .false.
+      if (.not. is_explained) then
+         can_bend = is_short .or. has_bent_law(suspension, self%before, state_b)
+         if (can_bend .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
+            is_explained = is_bend(self, width, kkt%length)
+      end if
+      if (.not. (is_explained .or. self%has_tangent)) then
+         call at_beginning()
+         rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
+         is_explained = rest <= smooth
+         if (can_bend .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
+      end if
+      if (.not. is_explained) then
+         call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
+         call factorise(kkt)
+         negative_b = kkt%negative
+         call find_tangent(self, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
+         if (self%factorisations == 0) call at_beginning()
+         self%factorisations = self%factorisations + 1
+         rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
+         is_explained = rest <= smooth
+         if (.not. is_explained .and. can_bend) is_explained = is_bend(self, width, kkt%length)
+      end if
+      if (.not. is_explained) then
+         verdict = doubtful
+      else if (negative_b /= self%negative .or. (rest > exact .and. is_turned_over(self, suspension, state_b, demand_a, &
+         demand_b, kkt))) then
+         verdict = crossing
+      else
+         verdict = same_branch
+      end if
+      kkt%negative = negative_b
+      self%knows_end = self%factorisations > 1 .or. missed <= fresh*largest_motion(self%motion, kkt%length)
+
+   contains
+
+      !> The tangent at a, from factors of its own.
+      subroutine at_beginning()
+         call assemble(suspension, self%before, demand_a, whole_tangent, kkt)
+         call factorise(kkt)
+         self%negative = kkt%negative
+         call find_tangent(self, suspension, self%before, demand_a, rate, kkt, self%tangent_a)
+         self%factorisations = self%factorisations + 1
+         self%has_tangent = .true.
+      end subroutine at_beginning
+
+   end subroutine compare
+
+   !> dz/ds = N⁻¹ dF/ds at a state, with the factors at hand; what it says of the bodies.
+   !>
+   !> Under a constant moment, a load that turns with its body, or the imbalance of design the true matrix is not
+   !> symmetric, N is its symmetric part. Then the residual's own derivative along the tangent corrects it.
+   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent)
+      type(branch_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand, rate
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: tangent(:)
+      integer, parameter :: most_refinements = 6
+      real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step
+      real(wp) :: step, largest
+      integer :: k
+
+      call assemble_rate(suspension, state, rate, kkt)
+      call solve(kkt)
+      self%whole = kkt%rhs
+      if (self%is_symmetric .and. .not. abs(rate%relief) > 0.0_wp) then
+         tangent = self%whole
+         return
+      end if
+      do k = 1, most_refinements
+         largest = largest_motion(self%whole(:kkt%nq), kkt%length)
+         if (.not. (largest > 0.0_wp .and. largest < huge(largest))) exit
+         step = small_motion*kkt%length/largest
+         call shifted_residual(step)
+         self%defect = kkt%rhs
+         call shifted_residual(-step)
+         self%defect = (self%defect - kkt%rhs)/(2.0_wp*step)
+         call assemble_rate(suspension, state, rate, kkt)
+         kkt%rhs = kkt%rhs + self%defect
+         call solve(kkt)
+         self%whole = self%whole + kkt%rhs
+         if (largest_motion(kkt%rhs(:kkt%nq), kkt%length) <= 0.1_wp*smooth*largest) exit
+      end do
+      tangent = self%whole
+
+   contains
+
+      !> The residual a bit further along the tangent, demand unchanged.
+      subroutine shifted_residual(distance)
+         real(wp), intent(in) :: distance     !! place
+
+         self%shifted = state
+         self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)
+         call move_as_screw(self%shifted, distance*self%whole(:kkt%nq))
+         call assemble(suspension, self%shifted, demand, residual_only, kkt)
+      end subroutine shifted_residual
+
+   end subroutine find_tangent
+
+   !> The step was taken: b is the newest state.
+   pure subroutine accept(self, negative, was_compared)
+      type(branch_t), intent(inout) :: self
+      integer, intent(in) :: negative            !! negative eigenvalues of N at b
+      logical, intent(in) :: was_compared
+
+      self%negative = negative
+      self%has_tangent = was_compared .and. self%knows_end
+      if (self%has_tangent) self%tangent_a = self%tangent_b
+   end subroutine accept
+
+   !> From the newest state along its tangent.
+   pure subroutine go_along(self, width, state)
+      type(branch_t), intent(in) :: self
+      real(wp), intent(in) :: width              !! place
+      type(state_t), intent(inout) :: state      !! the newest → the guess
+      integer :: nq
+
+      nq = size(self%motion)
+      state%reaction = state%reaction + width*self%tangent_a(nq + 1:)
+      call move_as_screw(state, width*self%tangent_a(:nq))
+   end subroutine go_along
+
+   !> A bifurcation was passed at a place.
+   pure subroutine note_crossing(self, place)
+      type(branch_t), intent(inout) :: self
+      real(wp), intent(in) :: place
+
+      self%crossings = min(self%crossings + 1, most_crossings)
+      self%crossing_place(self%crossings) = place
+   end subroutine note_crossing
+
+   !> What the trapezoidal rule leaves of the motion, as a share of it; huge when it is not a number.
+   pure real(wp) function trapezoidal_rest(self, nq, width, length) result(rest)
+      type(branch_t), intent(in) :: self
+      integer, intent(in) :: nq
+      real(wp), intent(in) :: width, length
+      real(wp) :: twist(6), part
+      integer :: k
+
+      rest = 0.0_wp
+      do k = 1, nq, 6
+         twist = self%motion(k:k + 5) - 0.5_wp*width*(self%tangent_a(k:k + 5) + self%tangent_b(k:k + 5))
+         part = body_motion(twist, length)
+         if (.not. part < huge(rest)) part = huge(rest)
+         rest = max(rest, part)
+      end do
+      if (rest <= nothing*smooth) then
+         rest = 0.0_wp
+      else if (rest < huge(rest)) then
+         rest = rest/max(largest_motion(self%motion, length), nothing)
+      end if
+   end function trapezoidal_rest
+
+   !> The same of the parabola through the state before a, a and b: how far its slope at b is from the tangent there.
+   pure real(wp) function three_point_rest(self, nq, width, length) result(rest)
+      type(branch_t), intent(in) :: self
+      integer, intent(in) :: nq
+      real(wp), intent(in) :: width, length
+      real(wp) :: twist(6), part, bow
+      integer :: k
+
+      rest = huge(rest)
+      if (.not. abs(self%width_before) > 0.0_wp) return
+      rest = 0.0_wp
+      bow = width/(width + self%width_before)
+      do k = 1, nq, 6
+         twist = (1.0_wp + bow)*self%motion(k:k + 5) - (bow*width/self%width_before)*self%motion_before(k:k + 5) &
+            - width*self%tangent_b(k:k + 5)
+         part = body_motion(twist, length)
+         if (.not. part < huge(rest)) part = huge(rest)
+         rest = max(rest, part)
+      end do
+      if (rest < huge(rest)) rest = rest/max(largest_motion(self%motion, length), nothing)
+   end function three_point_rest
+
+   !> The motion lies between what the tangents at both ends say, and no body turns off.
+   pure logical function is_bend(self, width, length)
+      type(branch_t), intent(in) :: self
+      real(wp), intent(in) :: width, length
+      real(wp) :: share, rest, along, square, twist(6), change(6), scale(6), largest, a, b
+      integer :: k
+
+      is_bend = .false.
+      scale = [1.0_wp, 1.0_wp, 1.0_wp, length, length, length]
+      largest = largest_motion(self%motion, length)
+      along = 0.0_wp
+      square = 0.0_wp
+      do k = 1, size(self%motion), 6
+         twist = (self%motion(k:k + 5) - width*self%tangent_b(k:k + 5))*scale
+         change = width*(self%tangent_a(k:k + 5) - self%tangent_b(k:k + 5))*scale
+         along = along + dot_product(twist, change)
+         square = square + dot_product(change, change)
+      end do
+      if (.not. square < huge(square)) return
+      share = 0.5_wp
+      if (square > 0.0_wp) share = min(max(along/square, 0.0_wp), 1.0_wp)
+      rest = 0.0_wp
+      do k = 1, size(self%motion), 6
+         twist = self%motion(k:k + 5) - width*(share*self%tangent_a(k:k + 5) + (1.0_wp - share)*self%tangent_b(k:k + 5))
+         rest = max(rest, body_motion(twist, length))
+         if (body_motion(self%motion(k:k + 5), length) < takes_part*largest) cycle
+         a = norm2(self%tangent_a(k:k + 5)*scale)
+         b = norm2(self%tangent_b(k:k + 5)*scale)
+         if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < least_cosine*a*b) return
+      end do
+      is_bend = rest <= bent*largest
+   end function is_bend
+
+   !> The slope of a law, a stop's or a curve's, is another at b than at a: it may have a corner in between.
+   pure logical function has_bent_law(suspension, a, b)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: a, b
+      real(wp), parameter :: other = 0.01_wp     ! of the slope
+      type(bushing_view_t) :: from, to
+      real(wp) :: force, slope_a, slope_b
+      integer :: k, i, j
+
+      has_bent_law = .true.
+      do k = 1, size(suspension%springs)
+         associate (spring => suspension%springs(k))
+            if (.not. spring%has_law) cycle
+            i = spring%measure%body_i + 1
+            j = spring%measure%body_j + 1
+            call spring_tension(spring, measure_value(spring%measure, a%poses(i), a%poses(j)), force, slope_a)
+            call spring_tension(spring, measure_value(spring%measure, b%poses(i), b%poses(j)), force, slope_b)
+            if (abs(slope_b - slope_a) > other*max(abs(slope_a), abs(slope_b))) return
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         associate (bushing => suspension%bushings(k))
+            if (.not. bushing%has_curves) cycle
+            call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
+            call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
+            if (maxval(abs(to%stiffness_t - from%stiffness_t)) > other*maxval(abs(from%stiffness_t))) return
+            if (maxval(abs(to%stiffness_r - from%stiffness_r)) > other*maxval(abs(from%stiffness_r))) return
+         end associate
+      end do
+      has_bent_law = .false.
+   end function has_bent_law
+
+   !> det(Φq(a) Φq(b)ᵀ) < 0.
+   logical function is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt)
+      type(branch_t), intent(inout) :: self      !! with state a in `before`
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state_b
+      type(demand_t), intent(in) :: demand_a, demand_b
+      type(kkt_t), intent(inout) :: kkt
+      integer :: i, j, k, l, body, n, info
+
+      call assemble(suspension, self%before, demand_a, residual_only, kkt)
+      call gather_rows(self, suspension, kkt, self%rows_a)
+      call assemble(suspension, state_b, demand_b, residual_only, kkt)
+      call gather_rows(self, suspension, kkt, self%rows_b)
+      is_turned_over = .false.
+      n = size(self%held)
+      if (n == 0) return
+      self%product = 0.0_wp
+      do body = 1, size(self%count)
+         do j = 1, self%count(body)
+            l = self%touching(j, body)
+            do i = 1, self%count(body)
+               k = self%touching(i, body)
+               self%product(k, l) = self%product(k, l) &
+                  + dot_product(self%rows_a(6*body - 5:6*body, k), self%rows_b(6*body - 5:6*body, l))
+            end do
+         end do
+      end do
+      ! for the LU factors; without a right-hand side OpenBLAS would not make them
+      self%unit = 0.0_wp
+      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
+      if (info /= 0) return
+      do k = 1, n
+         if (self%product(k, k) < 0.0_wp) is_turned_over = .not. is_turned_over
+         if (self%pivots(k) /= k) is_turned_over = .not. is_turned_over
+      end do
+   end function is_turned_over
+
+   !> Φq from the gradients of the last assembly, scaled; of the rows that hold for certain.
+   pure subroutine gather_rows(self, suspension, kkt, rows)
+      type(branch_t), intent(in) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt
+      real(wp), intent(inout) :: rows(:, :)      !! (unknown, row)
+      integer :: k, t, i, j
+
+      rows = 0.0_wp
+      do k = 1, size(self%held)
+         associate (row => suspension%rows(self%held(k)))
+            do t = row%first, row%first + row%terms - 1
+               i = 6*(suspension%terms(t)%measure%body_i - 1)
+               j = 6*(suspension%terms(t)%measure%body_j - 1)
+               if (i >= 0) rows(i + 1:i + 6, k) = rows(i + 1:i + 6, k) + kkt%gradients(1:6, t)
+               if (j >= 0) rows(j + 1:j + 6, k) = rows(j + 1:j + 6, k) + kkt%gradients(7:12, t)
+            end do
+         end associate
+         rows(:, k) = rows(:, k)*(kkt%scale(kkt%nq + self%held(k))*kkt%scale(:kkt%nq))
+      end do
+   end subroutine gather_rows
+
+end module ek_branch
