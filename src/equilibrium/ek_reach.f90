@@ -28,6 +28,7 @@ module ek_reach
       real(wp) :: moved = 0.0_wp           !! how far [m]
       integer :: row = 0                   !! constraint furthest from its value
       real(wp) :: gap = 0.0_wp             !! by how much [m, - or rad]
+      real(wp), allocatable :: last(:)     !! packed state of the last equilibrium
    end type failure_t
 
 contains
@@ -227,6 +228,7 @@ contains
 
       before = state
       call unpack_state(predictor%packed(:, predictor%newest), before)
+      failure%last = predictor%packed(:, predictor%newest)
       failure%state = 1
       failure%value = place
       failure%reached = here

@@ -1,0 +1,118 @@
+!> Why a path ends: at its last equilibrium either the joints lock or the tangent stiffness vanishes.
+!>
+!> Near the end of a path N is nearly singular, and so is one of two matrices, scaled as in ek_scale: Φq, whose least
+!> singular value goes to zero where the assembly of the joints closes (a lock), or Zᵀ T Z, Z a basis of the motions
+!> that the joints leave, whose least eigenvalue does where the load has its maximum (a limit point). Each is compared
+!> with itself at design.
+module ek_break
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t, design_state
+   use ek_kkt, only: kkt_t, assemble, whole_tangent
+   use ek_lapack, only: dgesvd, dsyev
+   implicit none(type, external)
+   private
+   public :: break_t, why_it_ends, no_reason, lock, limit_point
+
+   integer, parameter :: no_reason = 0, lock = 1, limit_point = 2
+
+   real(wp), parameter :: vanished = 1.0e-2_wp     !! of the value at design; at 1e-9 of the range from the end it is some 1e-4
+   real(wp), parameter :: takes_part = 0.3_wp      !! of the largest part of a left singular vector: joints that are named
+
+   !> What is singular.
+   type :: break_t
+      integer :: reason = no_reason
+      logical, allocatable :: locks(:)      !! joints that hold each other, of a lock
+      integer :: body = 0                   !! that moves most without stiffness, of a limit point
+   end type break_t
+
+contains
+
+   !> Examines the last equilibrium of a path. A few dense decompositions.
+   subroutine why_it_ends(suspension, state, demand, kkt, found)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state            !! the last equilibrium
+      type(demand_t), intent(in) :: demand          !! there
+      type(kkt_t), intent(inout) :: kkt             !! work space of this model
+      type(break_t), intent(out) :: found
+      real(wp) :: left(kkt%nc), motion(kkt%nq), closing(2), stiffness(2)
+      real(wp) :: part, most
+      integer :: k
+
+      allocate (found%locks(size(suspension%joints)), source=.false.)
+      call examine(suspension, design_state(suspension), demand_t(), kkt, closing(1), stiffness(1), left, motion)
+      call examine(suspension, state, demand, kkt, closing(2), stiffness(2), left, motion)
+      if (closing(2) < vanished*closing(1)) then
+         found%reason = lock
+         do k = 1, kkt%nc
+            if (abs(left(k)) > takes_part*maxval(abs(left))) found%locks(suspension%rows(k)%joint) = .true.
+         end do
+      else if (abs(stiffness(2)) < vanished*abs(stiffness(1))) then
+         found%reason = limit_point
+         most = 0.0_wp
+         do k = 1, size(suspension%bodies)
+            part = norm2(motion(6*k - 5:6*k))
+            if (part > most) found%body = k
+            most = max(most, part)
+         end do
+      end if
+   end subroutine why_it_ends
+
+   !> The least singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z nearest to zero with its motion.
+   subroutine examine(suspension, state, demand, kkt, closing, stiffness, left_vector, motion)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: closing, stiffness
+      real(wp), intent(out) :: left_vector(:)       !! a row; 0 for rows with a stiffness
+      real(wp), intent(out) :: motion(:)            !! scaled unknowns
+      real(wp) :: tangent(kkt%nq, kkt%nq), gradient(kkt%nq)
+      real(wp), allocatable :: jacobian(:, :), left(:, :), right(:, :), singular(:), reduced(:, :), value(:), work(:)
+      integer, allocatable :: rows(:)
+      integer :: i, j, m, n, info
+
+      n = kkt%nq
+      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
+      m = size(rows)
+      allocate (jacobian(m, n), left(m, m), right(n, n), singular(max(1, min(m, n))), work(10*(m + n) + 40*n))
+      call assemble(suspension, state, demand, whole_tangent, kkt)
+      do j = 1, n
+         do i = 1, n
+            tangent(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
+         end do
+         jacobian(:, j) = kkt%matrix(n + rows, j)*kkt%scale(n + rows)*kkt%scale(j)
+      end do
+      do i = 1, kkt%nc       ! a driver with a stiffness is a spring
+         if (.not. suspension%rows(i)%compliance > 0.0_wp) cycle
+         gradient = kkt%matrix(n + i, :n)*kkt%scale(:n)
+         do j = 1, n
+            tangent(:, j) = tangent(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
+         end do
+      end do
+      left_vector = 0.0_wp
+      motion = 0.0_wp
+      closing = 1.0_wp
+      stiffness = 1.0_wp
+      right = 0.0_wp
+      do j = 1, n
+         right(j, j) = 1.0_wp
+      end do
+      if (m > 0) then
+         call dgesvd('A', 'A', m, n, jacobian, m, singular, left, m, right, n, work, size(work), info)
+         if (info /= 0 .or. m > n) return
+         closing = singular(m)
+         left_vector(rows) = left(:, m)
+         right = transpose(right)
+      end if
+      if (m >= n) return
+      reduced = matmul(transpose(right(:, m + 1:)), matmul(tangent, right(:, m + 1:)))
+      allocate (value(n - m))
+      call dsyev('V', 'L', n - m, reduced, n - m, value, work, size(work), info)
+      if (info /= 0) return
+      i = minloc(abs(value), dim=1)
+      stiffness = value(i)
+      motion = matmul(right(:, m + 1:), reduced(:, i))
+   end subroutine examine
+
+end module ek_break
