@@ -11,7 +11,7 @@ module ek_reader
    use ek_complaint, only: place_t, place_in
    use ek_record, only: element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, &
+      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
       word_length, note_length, record_head, did_you_mean, is_legal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
@@ -43,34 +43,47 @@ module ek_reader
 contains
 
    !> The model and the cases of a deck, or all that is wrong with it, in the order of its files and lines.
-   subroutine build_model(deck, suspension, cases, error)
+   subroutine build_model(deck, suspension, cases, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; those with a mistake too
       type(error_t), allocatable, intent(out) :: error
+      logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
       type(deck_t) :: finished
+      logical :: is_complete
 
       if (deck%is_finished()) then
-         call build_finished(deck, suspension, cases, error)
+         call build_finished(deck, suspension, cases, is_complete, error)
       else
          call finish_deck(deck, finished)
-         call build_finished(finished, suspension, cases, error)
+         call build_finished(finished, suspension, cases, is_complete, error)
       end if
+      if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
    !> The same of a deck in which nothing is left to be doubled.
-   subroutine build_finished(deck, suspension, cases, error)
+   subroutine build_finished(deck, suspension, cases, is_whole, error)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      logical, intent(out) :: is_whole
       type(error_t), allocatable, intent(out) :: error
       type(draft_t) :: draft
-      integer :: k
+      integer :: k, before, in_cases
 
+      is_whole = .false.
       draft%complaints = deck%complaints
+      if (deck%used == 0 .and. draft%complaints%count() == 1) then     ! not even text, and that is all there is to say
+         allocate (cases(0))
+         call fail(error, exit_deck, draft%complaints%text())
+         return
+      end if
       allocate (draft%cards(deck%used))
+      in_cases = 0
       do k = 1, deck%used
+         before = draft%complaints%count()
          call check_names(deck, k, draft)
+         if (draft%cards(k)%group == case_group) in_cases = in_cases + draft%complaints%count() - before
       end do
       call read_model(deck, draft, suspension)
       call read_points(deck, draft)
@@ -87,12 +100,11 @@ contains
       call read_axle(deck, draft, suspension)
       call read_steering(deck, draft, suspension)
       call read_loads(deck, draft, suspension)
-      call read_cases(deck, draft, cases)
       call check_bodies(deck, draft)
-      if (draft%complaints%count() > 0) then
-         call fail(error, exit_deck, draft%complaints%text())
-         return
-      end if
+      is_whole = draft%complaints%count() == in_cases
+      call read_cases(deck, draft, cases)
+      if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
+      if (.not. is_whole) return
       do k = 1, deck%used
          associate (card => draft%cards(k))
             if (card%group == point_group) call add_point(suspension, trim(card%name), where_of(deck, k), card%at, card%is_used)

@@ -7,6 +7,7 @@ module ek_subject
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
    use ek_case, only: case_t
+   use ek_case_inputs, only: check_inputs
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
@@ -38,6 +39,8 @@ contains
          call fail(error, exit_deck, deck%file//': there is no case '//quoted(case_name))
          return
       end if
+      call check_inputs(suspension, cases(k:k), error)
+      if (allocated(error)) return
       case = cases(k)
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
