@@ -30,7 +30,7 @@ module ek_study
       character(:), allocatable :: name, column
       character(:), allocatable :: of             !! 'value', 'slope' or 'span'
       real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
-      character(:), allocatable :: over           !! column the slope is taken over
+      character(:), allocatable :: over           !! column the slope is taken over; '': the travel of the wheel
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
@@ -242,7 +242,7 @@ contains
       name = ''
       column = ''
       of = 'value'
-      over = 'wheel_travel_mm'
+      over = ''
       at = 0.0_wp
       window = 15.0_wp
       read (draft%cards(k)%text, nml=response, iostat=status)
