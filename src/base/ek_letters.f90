@@ -2,7 +2,7 @@
 module ek_letters
    implicit none(type, external)
    private
-   public :: visible, bad_byte, is_wide, with_line_ends, save_as_utf8
+   public :: visible, bad_byte, as_utf8, is_wide, with_line_ends, save_as_utf8
 
    !> What to do with a file for which is_wide is true.
    character(*), parameter :: save_as_utf8 = &
@@ -56,6 +56,23 @@ contains
       end do
       k = 0
    end function bad_byte
+
+   !> A text in which every byte that is no UTF-8 has become the character that stands for such bytes, U+FFFD.
+   pure function as_utf8(text) result(sound)
+      character(*), intent(in) :: text
+      character(:), allocatable :: sound
+      integer :: first, bad
+
+      sound = ''
+      first = 1
+      do
+         bad = bad_byte(text(first:))
+         if (bad == 0) exit
+         sound = sound//text(first:first + bad - 2)//char(239)//char(191)//char(189)
+         first = first + bad
+      end do
+      sound = sound//text(first:)
+   end function as_utf8
 
    !> Whether a text has two or four bytes a character (UTF-16, UTF-32): by its byte order mark, or by a zero among its
    !> first four bytes.

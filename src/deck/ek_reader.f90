@@ -12,7 +12,7 @@ module ek_reader
    use ek_record, only: element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
-      word_length, note_length, record_head, did_you_mean, is_legal_name
+      word_length, note_length, record_head, did_you_mean, is_legal_name, illegal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
@@ -78,6 +78,12 @@ contains
          call fail(error, exit_deck, draft%complaints%text())
          return
       end if
+      if (is_study(deck)) then
+         allocate (cases(0))
+         call fail(error, exit_deck, where_of(deck, 1)//': this is a study (&'//deck%records(1)%group// &
+            '), not a deck; run it with: elastokin study '//deck%file)
+         return
+      end if
       allocate (draft%cards(deck%used))
       in_cases = 0
       do k = 1, deck%used
@@ -114,6 +120,22 @@ contains
       call complete(suspension)
    end subroutine build_finished
 
+   !> Whether a file holds groups of a study, and none of a deck.
+   pure logical function is_study(deck)
+      type(deck_t), intent(in) :: deck
+      integer :: k, group
+
+      is_study = .false.
+      do k = 1, deck%used
+         group = group_number(deck%records(k)%group)
+         if (is_deck_group(group)) then
+            is_study = .false.
+            return
+         end if
+         is_study = is_study .or. group > 0
+      end do
+   end function is_study
+
    !> Group, keys, counts and types of record k, and that its name is legal and new.
    subroutine check_names(deck, k, draft)
       type(deck_t), intent(in) :: deck
@@ -140,7 +162,7 @@ contains
          if (name == '') name = trim(card%name)
 
          if (.not. is_legal_name(name)) then
-            call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
+            call complain(draft, deck, k, 'name', illegal_name(name))
          else if (any(reserved_names == lower(name)) .or. index(lower(name), 'rig_') == 1) then
             call complain(draft, deck, k, 'name', 'the name is reserved')
          else if (has_results(card%group) .and. any(reserved_results == of_wheel(lower(name)))) then

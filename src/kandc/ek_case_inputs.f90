@@ -124,22 +124,51 @@ contains
       type(message_list_t), intent(inout) :: mistakes
       character(name_length), allocatable :: columns(:)
       type(case_t) :: this
-      character(:), allocatable :: deck
-      integer :: j, k
+      character(:), allocatable :: owners, place
+      integer :: j, k, m
 
       if (size(cases) == 0) return
-      deck = cases(1)%where
-      deck = deck(:index(deck, ':', back=.true.) - 1)
       this%has_all = .true.
       call sweep_columns(suspension, this, columns)
       do k = 2, size(columns)
          do j = 1, k - 1
             if (columns(j) /= columns(k)) cycle
-            call mistakes%add(deck//': two columns of the results would have the name '//quoted(columns(k))// &
-               '; rename one of the elements that it is made of')
+            owners = ''
+            place = cases(1)%where(:index(cases(1)%where, ':', back=.true.) - 1)
+            do m = 1, size(suspension%springs)
+               call add_owner(suspension%springs(m)%name, suspension%springs(m)%where)
+            end do
+            do m = 1, size(suspension%readouts)
+               call add_owner(suspension%readouts(m)%name, suspension%readouts(m)%where)
+            end do
+            do m = 1, size(suspension%bushings)
+               call add_owner(suspension%bushings(m)%name, suspension%bushings(m)%where)
+            end do
+            do m = 1, size(suspension%joints)
+               if (.not. suspension%joints(m)%is_rig) &
+                  call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
+            end do
+            call mistakes%add(place//': two columns of the results would have the name '//quoted(columns(k))// &
+               owners//'; rename one')
             exit
          end do
       end do
+
+   contains
+
+      !> An element that the name of the column begins with.
+      subroutine add_owner(name, where)
+         character(*), intent(in) :: name, where
+
+         if (index(columns(k), name//'_') /= 1) return
+         if (owners == '') then
+            owners = ', of '//quoted(name)//' ('//where//')'
+         else
+            owners = owners//' and of '//quoted(name)//' ('//where//')'
+         end if
+         place = where
+      end subroutine add_owner
+
    end subroutine compare_heads
 
 end module ek_case_inputs
