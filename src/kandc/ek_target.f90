@@ -240,9 +240,33 @@ contains
          return
       end if
       hint = nearest_name(name, columns)
-      if (hint /= '') hint = ' (did you mean '//quoted(hint)//'?)'
+      if (hint /= '') then
+         hint = ' (did you mean '//quoted(hint)//'?)'
+      else
+         hint = holders(columns, name)
+      end if
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
+
+   !> The first few columns that have a name in theirs, as left_coil_length_mm has coil_length.
+   pure function holders(columns, name) result(words)
+      character(*), intent(in) :: columns(:), name
+      character(:), allocatable :: words
+      integer, parameter :: most = 4
+      integer :: k, found
+
+      words = ''
+      found = 0
+      do k = 1, size(columns)
+         if (index(columns(k), name) == 0) cycle
+         found = found + 1
+         if (found > most) exit
+         if (found > 1) words = words//', '
+         words = words//trim(columns(k))
+      end do
+      if (found > most) words = words//', …'
+      if (found > 0) words = ' (columns with this in their name: '//words//')'
+   end function holders
 
    !> 'mm', 'deg', 'n_per_mm' …
    pure logical function is_unit(text)

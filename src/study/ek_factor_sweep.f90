@@ -51,7 +51,7 @@ contains
             do f = 1, n
                label = label//study%factors(f)%path//'='//shortest(values(f))//' '
             end do
-            call run_design(study, deck, values, table, unit, trouble, error)
+            call run_design(study, deck, values, design > 1, table, unit, trouble, error)
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, unit, readings, error)
@@ -77,10 +77,11 @@ contains
    end subroutine sweep_factors
 
    !> One design: its table, or why there is none. `error`: a path that no design can have.
-   subroutine run_design(study, deck, values, table, unit, trouble, error)
+   subroutine run_design(study, deck, values, is_known, table, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
+      logical, intent(in) :: is_known                    !! another design has shown that the inputs are sound
       type(table_t), intent(out) :: table
       character(:), allocatable, intent(out) :: unit     !! of the column `factor`: 'mm', 'N', …
       type(error_t), allocatable, intent(out) :: trouble, error
@@ -103,7 +104,7 @@ contains
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
          return
       end do
-      call make_subject(changed, study%case, suspension, case, kkt, trouble)
+      call make_subject(changed, study%case, suspension, case, kkt, trouble, is_known)
       if (allocated(trouble)) then
          do f = 1, size(values)
             call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &

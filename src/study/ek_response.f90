@@ -60,6 +60,7 @@ contains
       real(wp) :: at, centre, mean_x, mean_y, spread
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
+      integer :: k
 
       message = ''
       value = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -86,7 +87,10 @@ contains
       x = y
       y = table%values(column_index(table, reading%asked%column), :)
       if (.not. ieee_is_finite(centre)) return          ! the state is lost, or the column means nothing there
-      is_near = abs(x - centre) <= reading%asked%window
+      is_near = .false.
+      do k = 1, size(x)
+         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window
+      end do
       if (count(is_near) < 2) then
          message = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
             str(reading%asked%window)//', a slope needs 2; '//remedy(abs(x - centre), reading%asked%window)
