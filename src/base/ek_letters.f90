@@ -6,7 +6,7 @@ module ek_letters
 
    !> What to do with a file for which is_wide is true.
    character(*), parameter :: save_as_utf8 = &
-      "this is not UTF-8 text (it looks like UTF-16); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
+      "this is not UTF-8 text (it is UTF-16, or no text at all); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
 
    character(*), parameter :: hexadecimal = '0123456789ABCDEF'
 
@@ -74,15 +74,15 @@ contains
       sound = sound//text(first:)
    end function as_utf8
 
-   !> Whether a text has two or four bytes a character (UTF-16, UTF-32): by its byte order mark, or by a zero among its
-   !> first four bytes.
+   !> Whether a text has two or four bytes a character (UTF-16, UTF-32), or is none: it begins with the byte order mark of
+   !> UTF-16, or holds a zero.
    pure logical function is_wide(text)
       character(*), intent(in) :: text
 
       is_wide = .false.
       if (len(text) < 2) return
       is_wide = text(1:2) == char(255)//char(254) .or. text(1:2) == char(254)//char(255) .or. &
-         index(text(:min(4, len(text))), achar(0)) > 0
+         index(text, achar(0)) > 0
    end function is_wide
 
    !> A text with line ends of one byte each: those of Windows (CR LF) and of old Macs (CR alone) become a newline.

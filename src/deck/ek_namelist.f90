@@ -213,7 +213,7 @@ contains
       select case (type)
       case (word, prose)
          if (.not. value%is_string) then
-            fault = expected//', found '//value%text//' without quotes'
+            fault = expected//', found '//value%text//' without quotes'//quote_hint(value%text)
          else if (type == word .and. len(value%text) > word_length) then
             fault = 'at most '//str(word_length)//' characters long, found '//str(len(value%text))
          else if (len(value%text) > note_length) then
@@ -231,7 +231,7 @@ contains
          else if (type == whole) then
             if (.not. is_whole(value%text)) fault = expected//', found '//value%text
          else if (.not. is_number(value%text)) then
-            fault = expected//', found '//value%text
+            fault = expected//', found '//value%text//number_hint(value%text)
          else if (size_exponent(value%text) > largest_exponent) then
             fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
          else if (size_exponent(value%text) < smallest_exponent) then
@@ -239,6 +239,32 @@ contains
          end if
       end select
    end function value_fault
+
+   !> That a word stands in the quotes of a word processor.
+   pure function quote_hint(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+      character(*), parameter :: quotes(7) = ['‘', '’', '‚', '“', '”', '„', '´ ']
+      integer :: k
+
+      words = ''
+      do k = 1, size(quotes)
+         if (index(text, trim(quotes(k))) == 1) words = " (write straight quotes: ' or "")"
+      end do
+   end function quote_hint
+
+   !> What else than a number a text may be meant as.
+   pure function number_hint(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+
+      words = ''
+      if (index(text, '−') == 1 .or. index(text, '–') == 1) then
+         words = ' (write the minus sign as -)'
+      else if (index(text, ';') > 0) then
+         words = ' (separate values by commas or blanks)'
+      end if
+   end function number_hint
 
    pure logical function is_switch(text)
       character(*), intent(in) :: text

@@ -8,8 +8,8 @@ module ek_slip
    private
    public :: lacks_equals, drop_unit, unit_message
 
-   character(*), parameter :: units(18) = [character(7) :: 'n', 'kn', 'mm', 'cm', 'm', 'nm', 'knm', 'nmm', 'deg', 'degree', &
-      'degrees', 'grad', 'rad', 'kg', 'g', 's', 'ms', '%']
+   character(*), parameter :: units(19) = [character(7) :: 'n', 'kn', 'mm', 'cm', 'm', 'nm', 'knm', 'nmm', 'deg', 'degree', &
+      'degrees', 'grad', 'rad', 'kg', 'g', 's', 'ms', 'per', '%']
    character(*), parameter :: degree_sign = char(194)//char(176)
 
 contains

@@ -56,11 +56,11 @@ contains
       allocate (sheet%heads(0), sheet%values(0, 0), is_unnamed(0))
       call read_whole(path, text, error)
       if (allocated(error)) return
-      if (is_wide(text)) then
-         call sheet%head_mistakes%add(path//': '//save_as_utf8)
-         return
-      else if (index(text, 'PK'//achar(3)//achar(4)) == 1) then
+      if (index(text, 'PK'//achar(3)//achar(4)) == 1) then
          call sheet%head_mistakes%add(path//': this is a workbook, not text; save the sheet as CSV')
+         return
+      else if (is_wide(text)) then
+         call sheet%head_mistakes%add(path//': '//save_as_utf8)
          return
       end if
       text = with_line_ends(text)
