@@ -41,7 +41,10 @@ contains
       if (column_index(table, asked%column) == 0) message = no_column(asked%column, table)
       if (asked%of == 'slope') then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
-         if (message == '' .and. column_index(table, reading%over) == 0) message = no_column(reading%over, table)
+         if (message == '' .and. column_index(table, reading%over) == 0) then
+            message = no_column(reading%over, table)
+            if (asked%over == '') message = "'over' is missing: the results have no wheel travel that a slope could be taken over"
+         end if
          call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
          if (.not. ends_with(asked%name, '_'//unit)) reading%head = asked%name//'_'//unit
       end if
