@@ -2,6 +2,7 @@
 module ek_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
    use ek_kinds, only: wp
+   use ek_letters, only: visible
    implicit none(type, external)
    private
    public :: str, lower, quoted, nearest_name, vector_text, plural
@@ -97,11 +98,11 @@ contains
       end do
    end function lower
 
-   !> A name between single quotes.
+   !> A name between single quotes; characters in it that cannot be seen stand as <U+00A0>.
    pure function quoted(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
-      text = "'"//trim(name)//"'"
+      text = "'"//visible(trim(name))//"'"
    end function quoted
 
    !> '1 body', '3 bodies'.

@@ -1,11 +1,12 @@
 !> From a path and settings to a model: what every command begins with.
 module ek_load_deck
-   use ek_error, only: error_t, fail, exit_usage
+   use ek_error, only: error_t, fail, exit_usage, exit_file
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
+   use ek_case_inputs, only: check_inputs
    use ek_case, only: case_t, method_names, most_increments
    use ek_arguments, only: arguments_t
    implicit none(type, external)
@@ -14,7 +15,7 @@ module ek_load_deck
 
 contains
 
-   !> Reads a deck, applies --set, and builds the model.
+   !> Reads a deck, applies --set, builds the model, and reads the tables and targets of its cases: every mistake in one go.
    subroutine load_deck(arguments, suspension, cases, checksum, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(out) :: suspension
@@ -22,12 +23,21 @@ contains
       character(:), allocatable, intent(out) :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
+      type(error_t), allocatable :: fault
+      logical :: is_whole
 
       call read_deck(arguments%file, deck, error)
       if (allocated(error)) return
       call apply_settings(arguments, deck, error)
       if (allocated(error)) return
-      call build_model(deck, suspension, cases, error)
+      call build_model(deck, suspension, cases, error, is_whole)
+      call check_inputs(suspension, cases, fault, is_whole)
+      if (allocated(fault) .and. allocated(error)) then
+         error%message = error%message//new_line('a')//fault%message
+      else if (allocated(fault)) then
+         ! a file that is not there is told by the case that needs it: the others can be run
+         if (fault%code /= exit_file .or. arguments%command == 'check') call move_alloc(fault, error)
+      end if
       if (allocated(error)) return
       checksum = deck_checksum(deck)
    end subroutine load_deck

@@ -96,8 +96,8 @@ contains
       do k = 1, troubles%count()
          call warn(troubles%line(k))
       end do
-      if (troubles%count() > 0) call fail(error, exit_convergence, plural(troubles%count(), 'design', 'designs')// &
-         ' of the study could not be solved; the others are written')
+      if (troubles%count() > 0) call fail(error, exit_convergence, plural(troubles%count(), 'design of the study is', &
+         'designs of the study are')//' incomplete (see the warnings above); the others were written')
    end subroutine run_sweep
 
    !> Writes and tells the path.

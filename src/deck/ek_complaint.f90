@@ -1,6 +1,7 @@
 !> What is wrong with a deck, and where: mistakes are collected, and told together.
 module ek_complaint
    use ek_text, only: str
+   use ek_letters, only: visible
    use ek_twin, only: single, left_twin, right_twin, twin_prefix
    implicit none(type, external)
    private
@@ -34,7 +35,7 @@ module ek_complaint
 
 contains
 
-   !> Note a mistake.
+   !> Note a mistake. Characters that cannot be seen stand in it as <U+00A0>.
    pure subroutine complaints_add(self, place, what)
       class(complaints_t), intent(inout) :: self
       type(place_t), intent(in) :: place
@@ -58,9 +59,9 @@ contains
       self%used = self%used + 1
       self%list(self%used)%place = place
       if (place%twin == left_twin) then
-         self%list(self%used)%text = place%words//': '//without(what, "'"//trim(twin_prefix(left_twin)))
+         self%list(self%used)%text = place%words//': '//visible(without(what, "'"//trim(twin_prefix(left_twin))))
       else
-         self%list(self%used)%text = place%words//': '//what
+         self%list(self%used)%text = place%words//': '//visible(what)
       end if
    end subroutine complaints_add
 

@@ -18,7 +18,7 @@ module ek_cursor
 contains
 
    !> Skips blanks, line ends and comments, counting lines.
-   subroutine skip_blanks(text, cursor)
+   pure subroutine skip_blanks(text, cursor)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
 
@@ -41,7 +41,7 @@ contains
    end subroutine skip_blanks
 
    !> Whether a key stands here: a word, perhaps a subscript, and an = sign.
-   logical function key_follows(text, cursor)
+   pure logical function key_follows(text, cursor)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
       type(cursor_t) :: ahead
@@ -61,7 +61,7 @@ contains
    end function key_follows
 
    !> What stands between ( and ), blanks removed; the cursor ends behind the ).
-   subroutine take_subscript(text, cursor, content)
+   pure subroutine take_subscript(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: content
@@ -80,7 +80,7 @@ contains
    end subroutine take_subscript
 
    !> Letters, digits, _ and % from here on.
-   subroutine take_word(text, cursor, word)
+   pure subroutine take_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: word
@@ -96,7 +96,7 @@ contains
    end subroutine take_word
 
    !> Anything up to a separator, at least one character.
-   subroutine take_anything(text, cursor, word)
+   pure subroutine take_anything(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: word
@@ -112,7 +112,7 @@ contains
    end subroutine take_anything
 
    !> The rest of a line that belongs to no group, up to the next & or comment.
-   subroutine take_line(text, cursor, content)
+   pure subroutine take_line(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: content

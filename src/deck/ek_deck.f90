@@ -12,6 +12,7 @@ module ek_deck
    use ek_error, only: error_t, fail, exit_deck, exit_usage, exit_file
    use ek_file, only: read_whole
    use ek_text, only: str, lower
+   use ek_letters, only: visible
    use ek_complaint, only: place_t, complaints_t
    use ek_record, only: record_t, entry_t, element, is_given, add_value, add_entry
    use ek_scanner, only: scan_text
@@ -129,7 +130,7 @@ contains
          if (is_found .or. index(message, 'did you mean') == 0) message = late_message
       end if
       if (deck%complaints%count() > 0) message = deck%complaints%text()//new_line('a')//message
-      call fail(error, exit_usage, message)
+      call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
    !> Appends a setting to those that wait.

@@ -3,6 +3,7 @@
 !> To add a key: its row here, and its variable in the namelist of the reader that takes the group.
 module ek_group
    use ek_text, only: lower, quoted, nearest_name
+   use ek_letters, only: visible
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, names_of_groups, is_single
@@ -10,7 +11,7 @@ module ek_group
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
    public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group
-   public :: most_values, most_loads, is_legal_name
+   public :: most_values, most_loads, is_legal_name, illegal_name
    public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
    public :: word, prose, number, whole, switch
 
@@ -227,6 +228,20 @@ contains
       character(*), intent(in) :: name
       is_legal_name = verify(lower(name), letters//'0123456789_') == 0 .and. scan(lower(name), letters) == 1
    end function is_legal_name
+
+   !> What is wrong with a name that is not legal. A blank at an end of it, which nobody sees, is shown.
+   pure function illegal_name(name) result(words)
+      character(*), intent(in) :: name     !! as it was written
+      character(:), allocatable :: words
+
+      words = 'a name begins with a letter and has letters, digits and _ only'
+      if (len(name) == 0) return
+      if (name(len(name):) == ' ') then
+         words = words//", found '"//visible(trim(name))//"<U+0020>'; remove the blank at its end"
+      else if (name(:1) == ' ') then
+         words = words//", found '<U+0020>"//visible(trim(adjustl(name)))//"'; remove the blank at its beginning"
+      end if
+   end function illegal_name
 
    !> Its number, 0 if there is no such group.
    pure integer function group_number(name)

@@ -5,6 +5,7 @@
 !> judged here first (type, count, subscript, size), and only sound entries are written out again.
 module ek_namelist
    use ek_text, only: str, lower, quoted, plural
+   use ek_letters, only: bad_byte
    use ek_complaint, only: place_t, complaints_t
    use ek_record, only: record_t, value_t, entry_index, is_given, place_of
    use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
@@ -74,7 +75,7 @@ contains
                   call complain(k, trim(key%name)//' has '//plural(key%most, 'element', 'elements')//', found element '// &
                      str(entry%first + entry%used - 1))
                else
-                  call complain(k, trim(key%name)//' '//needs()//', found '//str(given))
+                  call complain(k, trim(key%name)//' '//needs()//', found '//str(given)//surplus())
                end if
                return
             end if
@@ -107,6 +108,30 @@ contains
             words = 'needs '//str(key%least)//' to '//str(key%most)//' values'
          end if
       end function needs
+
+      !> What values too many may come from: a decimal comma, or a key that nobody knows and no = behind it.
+      function surplus() result(words)
+         character(:), allocatable :: words
+         integer :: j
+
+         words = ''
+         associate (entry => record%entries(k))
+            do j = 2, entry%used
+               if (entry%values(j)%is_string .or. entry%values(j)%is_empty) cycle
+               if (scan(lower(entry%values(j)%text(:1)), 'abcdefghijklmnopqrstuvwxyz') == 1 .and. j < entry%used) then
+                  ! of an open string come words alone
+                  if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, '0123456789') == 0) cycle
+                  words = ' (is the = after '//quoted(entry%values(j)%text)//' missing?)'
+                  return
+               end if
+               if (key%type /= number .or. verify(entry%values(j)%text, '0123456789') > 0) cycle
+               if (verify(entry%values(j - 1)%text, '+-0123456789') > 0) cycle
+               words = ' (a decimal comma? Write '//entry%values(j - 1)%text//'.'//entry%values(j)%text//', not '// &
+                  entry%values(j - 1)%text//','//entry%values(j)%text//')'
+               return
+            end do
+         end associate
+      end function surplus
 
       pure function element_text(at) result(words)
          integer, intent(in) :: at
@@ -188,13 +213,15 @@ contains
       select case (type)
       case (word, prose)
          if (.not. value%is_string) then
-            fault = expected//', found '//value%text//' without quotes'
+            fault = expected//', found '//value%text//' without quotes'//quote_hint(value%text)
          else if (type == word .and. len(value%text) > word_length) then
             fault = 'at most '//str(word_length)//' characters long, found '//str(len(value%text))
          else if (len(value%text) > note_length) then
             fault = 'at most '//str(note_length)//' characters long, found '//str(len(value%text))
          else if (value%text == '') then
             fault = expected//', found an empty one'
+         else if (bad_byte(value%text) > 0) then
+            fault = 'UTF-8 text, found '//quoted(value%text)//'; save the file as UTF-8'
          end if
       case default
          if (value%is_string) then
@@ -204,7 +231,7 @@ contains
          else if (type == whole) then
             if (.not. is_whole(value%text)) fault = expected//', found '//value%text
          else if (.not. is_number(value%text)) then
-            fault = expected//', found '//value%text
+            fault = expected//', found '//value%text//number_hint(value%text)
          else if (size_exponent(value%text) > largest_exponent) then
             fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
          else if (size_exponent(value%text) < smallest_exponent) then
@@ -212,6 +239,32 @@ contains
          end if
       end select
    end function value_fault
+
+   !> That a word stands in the quotes of a word processor.
+   pure function quote_hint(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+      character(*), parameter :: quotes(7) = ['‘', '’', '‚', '“', '”', '„', '´ ']
+      integer :: k
+
+      words = ''
+      do k = 1, size(quotes)
+         if (index(text, trim(quotes(k))) == 1) words = " (write straight quotes: ' or "")"
+      end do
+   end function quote_hint
+
+   !> What else than a number a text may be meant as.
+   pure function number_hint(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+
+      words = ''
+      if (index(text, '−') == 1 .or. index(text, '–') == 1) then
+         words = ' (write the minus sign as -)'
+      else if (index(text, ';') > 0) then
+         words = ' (separate values by commas or blanks)'
+      end if
+   end function number_hint
 
    pure logical function is_switch(text)
       character(*), intent(in) :: text

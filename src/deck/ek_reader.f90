@@ -11,8 +11,8 @@ module ek_reader
    use ek_complaint, only: place_t, place_in
    use ek_record, only: element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, &
-      word_length, note_length, record_head, did_you_mean, is_legal_name
+      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
+      word_length, note_length, record_head, did_you_mean, is_legal_name, illegal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
@@ -43,34 +43,53 @@ module ek_reader
 contains
 
    !> The model and the cases of a deck, or all that is wrong with it, in the order of its files and lines.
-   subroutine build_model(deck, suspension, cases, error)
+   subroutine build_model(deck, suspension, cases, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; those with a mistake too
       type(error_t), allocatable, intent(out) :: error
+      logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
       type(deck_t) :: finished
+      logical :: is_complete
 
       if (deck%is_finished()) then
-         call build_finished(deck, suspension, cases, error)
+         call build_finished(deck, suspension, cases, is_complete, error)
       else
          call finish_deck(deck, finished)
-         call build_finished(finished, suspension, cases, error)
+         call build_finished(finished, suspension, cases, is_complete, error)
       end if
+      if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
    !> The same of a deck in which nothing is left to be doubled.
-   subroutine build_finished(deck, suspension, cases, error)
+   subroutine build_finished(deck, suspension, cases, is_whole, error)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      logical, intent(out) :: is_whole
       type(error_t), allocatable, intent(out) :: error
       type(draft_t) :: draft
-      integer :: k
+      integer :: k, before, in_cases
 
+      is_whole = .false.
       draft%complaints = deck%complaints
+      if (deck%used == 0 .and. draft%complaints%count() == 1) then     ! not even text, and that is all there is to say
+         allocate (cases(0))
+         call fail(error, exit_deck, draft%complaints%text())
+         return
+      end if
+      if (is_study(deck)) then
+         allocate (cases(0))
+         call fail(error, exit_deck, where_of(deck, 1)//': this is a study (&'//deck%records(1)%group// &
+            '), not a deck; run it with: elastokin study '//deck%file)
+         return
+      end if
       allocate (draft%cards(deck%used))
+      in_cases = 0
       do k = 1, deck%used
+         before = draft%complaints%count()
          call check_names(deck, k, draft)
+         if (draft%cards(k)%group == case_group) in_cases = in_cases + draft%complaints%count() - before
       end do
       call read_model(deck, draft, suspension)
       call read_points(deck, draft)
@@ -87,12 +106,11 @@ contains
       call read_axle(deck, draft, suspension)
       call read_steering(deck, draft, suspension)
       call read_loads(deck, draft, suspension)
-      call read_cases(deck, draft, cases)
       call check_bodies(deck, draft)
-      if (draft%complaints%count() > 0) then
-         call fail(error, exit_deck, draft%complaints%text())
-         return
-      end if
+      is_whole = draft%complaints%count() == in_cases
+      call read_cases(deck, draft, cases)
+      if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
+      if (.not. is_whole) return
       do k = 1, deck%used
          associate (card => draft%cards(k))
             if (card%group == point_group) call add_point(suspension, trim(card%name), where_of(deck, k), card%at, card%is_used)
@@ -101,6 +119,22 @@ contains
       call add_gravity(suspension, draft%gravity)
       call complete(suspension)
    end subroutine build_finished
+
+   !> Whether a file holds groups of a study, and none of a deck.
+   pure logical function is_study(deck)
+      type(deck_t), intent(in) :: deck
+      integer :: k, group
+
+      is_study = .false.
+      do k = 1, deck%used
+         group = group_number(deck%records(k)%group)
+         if (is_deck_group(group)) then
+            is_study = .false.
+            return
+         end if
+         is_study = is_study .or. group > 0
+      end do
+   end function is_study
 
    !> Group, keys, counts and types of record k, and that its name is legal and new.
    subroutine check_names(deck, k, draft)
@@ -128,7 +162,7 @@ contains
          if (name == '') name = trim(card%name)
 
          if (.not. is_legal_name(name)) then
-            call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
+            call complain(draft, deck, k, 'name', illegal_name(name))
          else if (any(reserved_names == lower(name)) .or. index(lower(name), 'rig_') == 1) then
             call complain(draft, deck, k, 'name', 'the name is reserved')
          else if (has_results(card%group) .and. any(reserved_results == of_wheel(lower(name)))) then

@@ -72,6 +72,7 @@ contains
 
          cases(used)%name = trim(words%name)
          cases(used)%where = where_of(deck, k)
+         cases(used)%is_good = draft%cards(k)%is_good
          cases(used)%from = words%from*factor
          cases(used)%to = words%to*factor
          cases(used)%increments = words%increments
@@ -89,6 +90,7 @@ contains
       !> target = 'column=value', the value in the unit of the column.
       subroutine read_target()
          type(value_t) :: value
+         character(:), allocatable :: hint
          integer :: equals
 
          cases(used)%target = trim(words%target)
@@ -97,8 +99,10 @@ contains
          value%text = trim(adjustl(words%target(equals + 1:)))
          value%is_empty = value%text == ''
          if (equals == 0 .or. words%target(:max(equals - 1, 0)) == '' .or. value_fault(value, number) /= '') then
+            hint = ''
+            if (index(value%text, ',') > 0) hint = ' (write the number with a decimal point)'
             call complain(draft, deck, k, 'target', &
-               "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target))
+               "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target)//hint)
          else if (words%method /= '' .and. lower(words%method) /= 'equilibrium') then
             call complain(draft, deck, k, 'target', "target: only method 'equilibrium' can look for one, found "// &
                quoted(words%method))

@@ -9,9 +9,11 @@
 !> Values are separated by commas, blanks or line ends; strings stand in ' or ", doubled inside.
 module ek_scanner
    use ek_text, only: str, lower, quoted
+   use ek_letters, only: is_wide, with_line_ends, save_as_utf8
    use ek_cursor, only: cursor_t, skip_blanks, key_follows, take_subscript, take_word, take_anything, take_line, &
       is_word_begin, is_quote, tab, newline, return
    use ek_complaint, only: place_t, complaints_t, place_in
+   use ek_slip, only: lacks_equals, drop_unit, unit_message
    use ek_record, only: entry_t, record_t, add_value, add_entry, add_record, entry_index
    implicit none(type, external)
    private
@@ -22,9 +24,9 @@ module ek_scanner
 
 contains
 
-   !> All records of a text. Mistakes go to `complaints`, as `file:line: what`.
-   subroutine scan_text(text, file, records, used, complaints, source)
-      character(*), intent(in) :: text
+   !> All records of a text. Mistakes go to `complaints`, as `file:line: what`. Lines end as on any system.
+   subroutine scan_text(written, file, records, used, complaints, source)
+      character(*), intent(in) :: written
       character(*), intent(in) :: file                        !! name for messages
       type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
       integer, intent(out) :: used
@@ -32,13 +34,18 @@ contains
       integer, intent(in), optional :: source                 !! number of the file, in the order of reading; 1
       type(record_t) :: record
       type(cursor_t) :: cursor
-      character(:), allocatable :: word
+      character(:), allocatable :: text, word
       integer :: last_stray
 
       allocate (records(32))
       used = 0
       last_stray = 0
       if (present(source)) cursor%source = source
+      if (is_wide(written)) then
+         call complain(complaints, file, cursor, 0, save_as_utf8)
+         return
+      end if
+      text = with_line_ends(written)
       if (len(text) >= 3) then
          if (text(1:3) == byte_order_mark) cursor%at = 4
       end if
@@ -78,6 +85,7 @@ contains
       character(:), allocatable, intent(out) :: message   !! '' if all is well
       type(complaints_t) :: complaints
       type(cursor_t) :: cursor
+      character(:), allocatable :: unit
       logical :: after_comma
 
       message = ''
@@ -90,6 +98,11 @@ contains
             return
          end if
          call scan_value(text, '', cursor, entry, after_comma, complaints)
+         call drop_unit(text, cursor, entry, unit)
+         if (unit /= '') then
+            message = unit_message(entry, unit)
+            return
+         end if
       end do
       if (complaints%count() > 0) message = 'the string has no closing quote, or the repeat count is wrong'
       if (entry%used == 0) message = 'no value'
@@ -139,6 +152,12 @@ contains
                cycle
             end if
             cursor = start
+            ! behind the values of a key the name of another one is no value
+            if ((.not. is_open .or. entry%used > 0) .and. lacks_equals(text, cursor, record%group)) then
+               if (is_open) call close_entry()
+               call open_entry()
+               cycle
+            end if
          end if
 
          if (.not. is_open) then
@@ -157,6 +176,11 @@ contains
             cursor%at = cursor%at + 1
          else
             call scan_value(text, file, cursor, entry, after_comma, complaints)
+            if (.not. after_comma) then
+               call drop_unit(text, cursor, entry, word)
+               if (word /= '') call complain(complaints, file, cursor, cursor%line, '&'//record%group//': '// &
+                  unit_message(entry, word))
+            end if
          end if
       end do
       if (is_open) call close_entry()
@@ -172,7 +196,7 @@ contains
          entry%key = lower(word)
          entry%first = 1
          call skip_blanks(text, cursor)
-         if (text(cursor%at:cursor%at) == '(') then
+         if (next_is('(')) then
             call take_subscript(text, cursor, subscript)
             status = 1
             if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
@@ -184,10 +208,27 @@ contains
             end if
             call skip_blanks(text, cursor)
          end if
-         cursor%at = cursor%at + 1      ! the = sign
+         if (next_is(':')) then
+            call complain(complaints, file, cursor, entry%line, '&'//record%group//": expected = after "//quoted(entry%key)// &
+               ', found :')
+            cursor%at = cursor%at + 1
+            if (next_is('=')) cursor%at = cursor%at + 1
+         else if (next_is('=')) then
+            cursor%at = cursor%at + 1
+         else
+            call complain(complaints, file, cursor, entry%line, '&'//record%group//': the = after '//quoted(entry%key)// &
+               ' is missing')
+         end if
          is_open = .true.
          after_comma = .true.           ! a comma right here leaves the first value empty
       end subroutine open_entry
+
+      !> Whether this character comes next.
+      logical function next_is(c)
+         character, intent(in) :: c
+         next_is = .false.
+         if (cursor%at <= len(text)) next_is = text(cursor%at:cursor%at) == c
+      end function next_is
 
       subroutine close_entry()
          integer :: k, before

@@ -10,27 +10,26 @@
 !>
 !> Loads and heights are in addition to the constant loads of the deck; what has no column stays.
 module ek_load_table
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: str, quoted, nearest_name
+   use ek_error, only: error_t, message_list_t, fail, exit_deck
+   use ek_text, only: str, quoted, nearest_name, plural
    use ek_units, only: degree, millimetre
    use ek_case, only: case_t, append_course, follows_table
    use ek_measure, only: rotation
    use ek_state, only: most_driven
    use ek_suspension, only: suspension_t, load_t, driver_row
    use ek_builder, only: add_height_driver, add_load
-   use ek_table, only: table_t, name_length, row_count, column_index
-   use ek_csv, only: read_csv
-   use ek_wheel_side, only: prefix_of, height_name
+   use ek_table, only: name_length
+   use ek_sheet, only: sheet_t, read_sheet, mistakes_of, head_place
+   use ek_wheel_side, only: prefix_of, height_name, left_and_right
    implicit none(type, external)
    private
-   public :: mount_table
+   public :: mount_table, check_table
 
    character(*), parameter :: load_columns(9) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
       'centre_fx_n', 'centre_fy_n', 'centre_fz_n']
 
-   real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are slips, and could overflow later
+   character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! of results that became loads
 
 contains
 
@@ -39,37 +38,29 @@ contains
       type(suspension_t), intent(inout) :: suspension
       type(case_t), intent(inout) :: case
       integer, intent(in) :: wheels(2)      !! left, right; 0: none
-      type(error_t), allocatable, intent(out) :: error   !! exit_file: not readable; exit_deck: a column without meaning
-      type(table_t) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file: not readable; exit_deck: every mistake in the table
+      type(sheet_t) :: sheet
+      type(message_list_t) :: mistakes
       integer :: k
 
-      call read_csv(case%file, table, error)
-      if (allocated(error)) return
-      if (row_count(table) == 0) call fail(error, exit_deck, case%file//': the table has no rows')
-      if (size(table%columns) > most_driven) call fail(error, exit_deck, case%file//': at most '//str(most_driven)// &
-         ' columns, found '//str(size(table%columns)))
-      if (allocated(error)) return
-      do k = 1, size(table%columns)
-         if (column_index(table, trim(table%columns(k))) /= k) then
-            call fail(error, exit_deck, case%file//': the column '//quoted(table%columns(k))//' is there twice')
-            return
-         end if
-         if (.not. all(ieee_is_finite(table%values(k, :)))) then
-            call fail(error, exit_deck, case%file//': column '//quoted(table%columns(k))//' holds a value that is not a number')
-            return
-         end if
-         if (any(abs(table%values(k, :)) >= most)) then
-            call fail(error, exit_deck, case%file//': column '//quoted(table%columns(k))//' holds '// &
-               str(table%values(k, maxloc(abs(table%values(k, :)), dim=1)))//'; a number must be below '//str(most))
-            return
-         end if
-         call take_column(trim(table%columns(k)), table%values(k, :))
-         if (allocated(error)) return
+      call read_sheet(case%file, sheet, error)
+      if (allocated(error)) then
+         error%message = error%message//'; in case '//quoted(case%name)//' ('//case%where//')'
+         return
+      end if
+      call judge_columns(sheet, suspension, wheels)
+      call mistakes_of(sheet, mistakes)
+      if (mistakes%count() > 0) then
+         call fail(error, exit_deck, mistakes%text())
+         return
+      end if
+      do k = 1, size(sheet%heads)
+         if (sheet%heads(k) /= '') call take_column(trim(sheet%heads(k)), sheet%values(k, :))
       end do
       case%from = 1.0_wp
-      case%to = row_count(table)
-      case%increments = row_count(table) - 1
-      if (row_count(table) == 1) then      ! from the design state, which comes out too
+      case%to = size(sheet%values, 2)
+      case%increments = size(sheet%values, 2) - 1
+      if (size(sheet%values, 2) == 1) then      ! from the design state, which comes out too
          case%from = 0.0_wp
          case%increments = 1
       end if
@@ -83,7 +74,7 @@ contains
          integer :: side, c, row
          logical :: is_angle
 
-         if (name == 'state' .or. name == 'factor') return
+         if (any(name == passed_over)) return
          do side = 1, 2
             if (wheels(side) == 0) cycle
             prefix = prefix_of(suspension, wheels(side))
@@ -101,19 +92,11 @@ contains
                return
             end do
          end do
-         c = index(name, '_', back=.true.)
-         if (c > 1) then
-            row = driver_row(suspension, name(:c - 1))
-            if (row > 0) then
-               is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
-               if (name(c:) == trim(merge('_deg', '_mm ', is_angle))) then
-                  call append_course(case%courses, '', name(:c - 1), 1.0_wp, follows_table, &
-                     values*merge(degree, millimetre, is_angle))
-                  return
-               end if
-            end if
-         end if
-         call fail(error, exit_deck, case%file//': there is no use for the column '//quoted(name)//advice(name))
+         row = driver_of(name, suspension)
+         if (row == 0) return
+         is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
+         call append_course(case%courses, '', name(:index(name, '_', back=.true.) - 1), 1.0_wp, follows_table, &
+            values*merge(degree, millimetre, is_angle))
       end subroutine take_column
 
       !> A unit force or moment along an axis of the deck, scaled by a column.
@@ -143,32 +126,107 @@ contains
          call append_course(case%courses, load%name, '', 1.0_wp, follows_table, values)
       end subroutine add_unit_load
 
-      !> The columns there might be.
-      function advice(name) result(words)
-         character(*), intent(in) :: name
-         character(:), allocatable :: words
-         character(name_length) :: known(2*size(load_columns) + 2)
-         integer :: side, c, used
-
-         known = ''
-         used = 0
-         do side = 1, 2
-            if (wheels(side) == 0) cycle
-            do c = 1, size(load_columns)
-               used = used + 1
-               known(used) = prefix_of(suspension, wheels(side))//load_columns(c)
-            end do
-            used = used + 1
-            known(used) = prefix_of(suspension, wheels(side))//'travel_mm'
-         end do
-         words = nearest_name(name, known)
-         if (words /= '') then
-            words = ' (did you mean '//quoted(words)//'?)'
-         else
-            words = ' (known: '//trim(known(1))//' … '//trim(known(used))//', <driver>_mm, <driver>_deg)'
-         end if
-      end function advice
-
    end subroutine mount_table
+
+   !> Every mistake in the table of a case, in `mistakes`, as 'table.csv:7: what'.
+   subroutine check_table(file, mistakes, error, suspension)
+      character(*), intent(in) :: file
+      type(message_list_t), intent(inout) :: mistakes
+      type(error_t), allocatable, intent(out) :: error           !! exit_file: it cannot be read
+      type(suspension_t), intent(in), optional :: suspension     !! else the heads are not compared with a model
+      type(sheet_t) :: sheet
+      integer :: wheels(2)
+
+      call read_sheet(file, sheet, error)
+      if (allocated(error)) return
+      if (present(suspension)) then
+         call left_and_right(suspension, wheels)
+         call judge_columns(sheet, suspension, wheels)
+      end if
+      call mistakes_of(sheet, mistakes)
+   end subroutine check_table
+
+   !> Notes in the sheet which of its heads mean nothing in a model, and that there are too many.
+   subroutine judge_columns(sheet, suspension, wheels)
+      type(sheet_t), intent(inout) :: sheet
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: wheels(2)
+      integer, parameter :: most_told = 10      ! a table that was meant for something else has many
+      integer :: k, unknown
+
+      if (count(sheet%heads /= '') > most_driven) call sheet%head_mistakes%add(head_place(sheet)//'expected at most '// &
+         str(most_driven)//' columns, found '//str(count(sheet%heads /= '')))
+      unknown = 0
+      do k = 1, size(sheet%heads)
+         if (sheet%heads(k) == '' .or. has_meaning(trim(sheet%heads(k)), suspension, wheels)) cycle
+         unknown = unknown + 1
+         if (unknown <= most_told) call sheet%head_mistakes%add(head_place(sheet)//'unknown column '// &
+            quoted(sheet%heads(k))//advice(trim(sheet%heads(k)), suspension, wheels))
+      end do
+      if (unknown > most_told) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
+         plural(unknown - most_told, 'more unknown column', 'more unknown columns'))
+   end subroutine judge_columns
+
+   !> Whether a column drives, loads or numbers something.
+   pure logical function has_meaning(name, suspension, wheels)
+      character(*), intent(in) :: name
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: wheels(2)
+      character(:), allocatable :: prefix
+      integer :: side
+
+      has_meaning = any(name == passed_over) .or. driver_of(name, suspension) > 0
+      do side = 1, 2
+         if (wheels(side) == 0) cycle
+         prefix = prefix_of(suspension, wheels(side))
+         if (index(name, prefix) /= 1) cycle
+         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == [character(11) :: load_columns, 'travel_mm'])
+      end do
+   end function has_meaning
+
+   !> The row of the driver joint that a column <driver>_mm or <driver>_deg changes; 0 if it is none, or has another unit.
+   pure integer function driver_of(name, suspension) result(row)
+      character(*), intent(in) :: name
+      type(suspension_t), intent(in) :: suspension
+      integer :: mark
+      logical :: is_angle
+
+      row = 0
+      mark = index(name, '_', back=.true.)
+      if (mark > 1) row = driver_row(suspension, name(:mark - 1))
+      if (row == 0) return
+      is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
+      if (name(mark:) /= trim(merge('_deg', '_mm ', is_angle))) row = 0
+   end function driver_of
+
+   !> The columns there might be.
+   function advice(name, suspension, wheels) result(words)
+      character(*), intent(in) :: name
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: wheels(2)
+      character(:), allocatable :: words
+      character(name_length) :: known(2*size(load_columns) + 2)
+      integer :: side, c, used
+
+      known = ''
+      used = 0
+      do side = 1, 2
+         if (wheels(side) == 0) cycle
+         do c = 1, size(load_columns)
+            used = used + 1
+            known(used) = prefix_of(suspension, wheels(side))//load_columns(c)
+         end do
+         used = used + 1
+         known(used) = prefix_of(suspension, wheels(side))//'travel_mm'
+      end do
+      words = nearest_name(name, known)
+      if (words /= '') then
+         words = ' (did you mean '//quoted(words)//'?)'
+      else if (index(name, ' ') > 0) then
+         words = ' (separate the columns by commas)'
+      else if (used > 0) then
+         words = ' (known: '//trim(known(1))//' … '//trim(known(used))//', <driver>_mm, <driver>_deg)'
+      end if
+   end function advice
 
 end module ek_load_table

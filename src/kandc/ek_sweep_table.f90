@@ -16,7 +16,7 @@ module ek_sweep_table
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: sweep_table, factor_unit
+   public :: sweep_table, sweep_columns, factor_unit
 
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is none
 
@@ -37,22 +37,13 @@ contains
       type(schedule_t) :: schedule
       type(demand_t) :: demand
       type(kandc_t) :: kandc
-      character(name_length), allocatable :: names(:), columns(:)
+      character(name_length), allocatable :: columns(:)
       real(wp) :: unit
       integer :: first, last, k, row, shown, told
 
-      if (case%has_all) call start_kandc(suspension, vehicle_of(suspension), kandc)
-      call state_columns(suspension, names)
-      shown = 2 + size(names)         ! the last column that shows the state itself
-      told = shown + kandc%used       ! the last one before the end
-      allocate (columns(told + 3))
-      columns(1) = 'state'
-      columns(2) = 'factor'
-      columns(3:shown) = names
-      if (case%has_all) columns(shown + 1:told) = kandc%names(:kandc%used)
-      columns(told + 1) = 'converged'
-      columns(told + 2) = 'iterations'
-      columns(told + 3) = 'constraint_error'
+      call list_columns(suspension, case, columns, kandc)
+      told = size(columns) - 3        ! the last one before the end
+      shown = told - kandc%used       ! the last column that shows the state itself
 
       call reached_rows(path, first, last)
       table = new_table(columns, last - first + 1)
@@ -77,6 +68,39 @@ contains
          table%values(shown + 1:told, row) = kandc%values
       end do
    end subroutine sweep_table
+
+   !> The heads of the table of a case, as sweep_table will have them.
+   subroutine sweep_columns(suspension, case, columns)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      character(name_length), allocatable, intent(out) :: columns(:)
+      type(kandc_t) :: kandc
+
+      call list_columns(suspension, case, columns, kandc)
+   end subroutine sweep_columns
+
+   !> The heads, and what will fill those of K&C where the case wants them.
+   subroutine list_columns(suspension, case, columns, kandc)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      character(name_length), allocatable, intent(out) :: columns(:)
+      type(kandc_t), intent(out) :: kandc
+      character(name_length), allocatable :: names(:)
+      integer :: shown, told
+
+      if (case%has_all) call start_kandc(suspension, vehicle_of(suspension), kandc)
+      call state_columns(suspension, names)
+      shown = 2 + size(names)
+      told = shown + kandc%used
+      allocate (columns(told + 3))
+      columns(1) = 'state'
+      columns(2) = 'factor'
+      columns(3:shown) = names
+      if (case%has_all) columns(shown + 1:told) = kandc%names(:kandc%used)
+      columns(told + 1) = 'converged'
+      columns(told + 2) = 'iterations'
+      columns(told + 3) = 'constraint_error'
+   end subroutine list_columns
 
    !> The states to be told: those reached, and one beyond on a side that failed; of a table every row.
    pure subroutine reached_rows(path, first, last)

@@ -13,11 +13,11 @@ module ek_target
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
    use ek_branch, only: branch_t, new_branch, leave
-   use ek_table, only: table_t, column_index, column_range, row_count
+   use ek_table, only: table_t, column_range, row_count
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
-   public :: target_t, find_target
+   public :: target_t, find_target, find_column
 
    !> What was looked for, and where it is.
    type :: target_t
@@ -50,7 +50,7 @@ contains
 
       k = index(case%target, '=')
       read (case%target(k + 1:), *, iostat=status) found%wanted      ! the reader has seen that it is a number
-      call find_column(table, trim(adjustl(case%target(:k - 1))), c, error)
+      call find_column(table%columns, trim(adjustl(case%target(:k - 1))), c, error)
       if (allocated(error)) then
          error%message = case%where//': case '//quoted(case%name)//': target: '//error%message
          return
@@ -221,28 +221,59 @@ contains
    end subroutine one_state
 
    !> The column of this name, or the only one that is this name with a unit behind it.
-   subroutine find_column(table, name, place, error)
-      type(table_t), intent(in) :: table
+   subroutine find_column(columns, name, place, error)
+      character(*), intent(in) :: columns(:)
       character(*), intent(in) :: name
       integer, intent(out) :: place
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: hint
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck: there is none, or more than one
+      character(:), allocatable :: hint, several
       integer :: k, alike
 
-      place = column_index(table, name)
+      place = findloc(columns, name, dim=1)
       if (place > 0) return
       alike = 0
-      do k = 1, size(table%columns)
-         if (index(table%columns(k), name//'_') /= 1) cycle
-         if (.not. is_unit(trim(table%columns(k)(len(name) + 2:)))) cycle
+      several = ''
+      do k = 1, size(columns)
+         if (index(columns(k), name//'_') /= 1) cycle
+         if (.not. is_unit(trim(columns(k)(len(name) + 2:)))) cycle
          place = k
          alike = alike + 1
+         if (alike > 1) several = several//' and '
+         several = several//quoted(columns(k))
       end do
       if (alike == 1) return
-      hint = nearest_name(name, table%columns)
-      if (hint /= '') hint = ' (did you mean '//quoted(hint)//'?)'
+      if (alike > 1) then
+         call fail(error, exit_deck, quoted(name)//' may be '//several//'; give the whole name')
+         return
+      end if
+      hint = nearest_name(name, columns)
+      if (hint /= '') then
+         hint = ' (did you mean '//quoted(hint)//'?)'
+      else
+         hint = holders(columns, name)
+      end if
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
+
+   !> The first few columns that have a name in theirs, as left_coil_length_mm has coil_length.
+   pure function holders(columns, name) result(words)
+      character(*), intent(in) :: columns(:), name
+      character(:), allocatable :: words
+      integer, parameter :: most = 4
+      integer :: k, found
+
+      words = ''
+      found = 0
+      do k = 1, size(columns)
+         if (index(columns(k), name) == 0) cycle
+         found = found + 1
+         if (found > most) exit
+         if (found > 1) words = words//', '
+         words = words//trim(columns(k))
+      end do
+      if (found > most) words = words//', …'
+      if (found > 0) words = ' (columns with this in their name: '//words//')'
+   end function holders
 
    !> 'mm', 'deg', 'n_per_mm' …
    pure logical function is_unit(text)

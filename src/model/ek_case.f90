@@ -40,6 +40,7 @@ module ek_case
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force behind the patch [m]
       character(:), allocatable :: file     !! of a table of loads
       character(:), allocatable :: target   !! 'column=value', '' for none
+      logical :: is_good = .true.           !! .false.: the deck has a mistake in it, and it cannot be put on the rig
       logical :: has_all = .false.          !! the compliance matrix and all it gives, at every state
       ! what the case drives, once it stands on the rig; not allocated: `load` or `drive` alone
       type(course_t), allocatable :: courses(:)

@@ -3,6 +3,7 @@
 !> Many pictures share one page, so every id gets a prefix of its own; prolog, document type, scripts, mouse events and
 !> fixed sizes go; the view box stays, so that the page decides the width.
 module ek_svg
+   use ek_letters, only: as_utf8
    use ek_buffer, only: buffer_t
    implicit none(type, external)
    private
@@ -180,13 +181,16 @@ contains
       digits = text(:verify(text//' ', '0123456789.') - 1)
    end function number_of
 
-   !> A text with &, <, > and quotes escaped, for HTML content and attributes.
-   pure function escape_html(text) result(escaped)
-      character(*), intent(in) :: text
+   !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are no UTF-8, as in the name of
+   !> a file, would make the page invalid and are replaced.
+   pure function escape_html(words) result(escaped)
+      character(*), intent(in) :: words
       character(:), allocatable :: escaped
+      character(:), allocatable :: text
       type(buffer_t) :: out
       integer :: k
 
+      text = as_utf8(words)
       escaped = text
       if (scan(text, '&<>"'//"'") == 0) return
       do k = 1, len(text)

@@ -7,7 +7,7 @@ module ek_table
    private
    public :: table_t, new_table, column_index, column, column_range, row_count, keep_rows, name_length
 
-   integer, parameter :: name_length = 64     !! longest column name
+   integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their endings
 
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg

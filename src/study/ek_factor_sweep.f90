@@ -1,6 +1,5 @@
 !> A sweep of one or two factors of a deck: the family of curves, and the responses of each design.
 module ek_factor_sweep
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted, nearest_name
@@ -11,7 +10,8 @@ module ek_factor_sweep
    use ek_path, only: path_t, sweep
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t, new_table, column_index, name_length
-   use ek_study, only: study_t, response_t
+   use ek_study, only: study_t
+   use ek_response, only: reading_t, prepare_reading, read_response
    use ek_subject, only: make_subject
    implicit none(type, external)
    private
@@ -29,8 +29,9 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! the study itself is wrong (a path, a column)
       type(table_t) :: table
       type(error_t), allocatable :: trouble
+      type(reading_t), allocatable :: readings(:)
       real(wp), allocatable :: values(:), rows(:, :)
-      character(:), allocatable :: label
+      character(:), allocatable :: label, unit
       integer :: design, designs, first, second, i, j, f, n, used
 
       n = size(study%factors)
@@ -48,16 +49,16 @@ contains
             if (n == 2) values(2) = study%factors(2)%values(j)
             label = ''
             do f = 1, n
-               label = label//study%factors(f)%path//'='//str(values(f), 9)//' '
+               label = label//study%factors(f)%path//'='//shortest(values(f))//' '
             end do
-            call run_design(study, deck, values, table, trouble, error)
+            call run_design(study, deck, values, design > 1, table, unit, trouble, error)
             if (allocated(error)) return
             if (design == 1) then
-               if (.not. allocated(trouble)) call check_columns(study, table, error)
+               if (.not. allocated(trouble)) call check_columns(study, table, unit, readings, error)
                if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study must stand: '// &
                   trim(label)//': '//trouble%message)
                if (allocated(error)) return
-               call start_tables(study, table, designs, curves, responses)
+               call start_tables(study, readings, table, designs, curves, responses)
                deallocate (rows)
                allocate (rows(size(curves%columns), designs*size(table%values, 2)))
             end if
@@ -69,18 +70,20 @@ contains
                cycle
             end if
             call take_curves(study, table, design, values, rows, used)
-            call take_responses(study, table, n + 1, responses%values(:, design))
+            call take_responses(readings, table, n + 1, trim(label), responses%values(:, design), troubles)
          end do
       end do
       curves%values = rows(:, :used)
    end subroutine sweep_factors
 
    !> One design: its table, or why there is none. `error`: a path that no design can have.
-   subroutine run_design(study, deck, values, table, trouble, error)
+   subroutine run_design(study, deck, values, is_known, table, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
+      logical, intent(in) :: is_known                    !! another design has shown that the inputs are sound
       type(table_t), intent(out) :: table
+      character(:), allocatable, intent(out) :: unit     !! of the column `factor`: 'mm', 'N', …
       type(error_t), allocatable, intent(out) :: trouble, error
       type(deck_t) :: changed
       type(suspension_t) :: suspension
@@ -88,13 +91,12 @@ contains
       type(kkt_t) :: kkt
       type(path_t) :: path
       character(*), parameter :: given = '--set '
-      character(32) :: number
       integer :: f, k
 
+      unit = ''
       changed = deck
       do f = 1, size(values)
-         write (number, '(es24.16)') values(f)
-         call set_value(changed, study%factors(f)%path, trim(adjustl(number)), error)
+         call set_value(changed, study%factors(f)%path, shortest(values(f)), error)
          if (.not. allocated(error)) cycle
          ! a mistake of the study, not of the command line; of a deck with mistakes of its own these come first
          error%code = exit_deck
@@ -102,8 +104,15 @@ contains
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
          return
       end do
-      call make_subject(changed, study%case, suspension, case, kkt, trouble)
-      if (allocated(trouble)) return
+      call make_subject(changed, study%case, suspension, case, kkt, trouble, is_known)
+      if (allocated(trouble)) then
+         do f = 1, size(values)
+            call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &
+               study%factors(f)%where//': factor '//quoted(study%factors(f)%name)//' = '//shortest(values(f)))
+         end do
+         return
+      end if
+      unit = case%unit_name
       call sweep(suspension, case, path, kkt)
       call sweep_table(suspension, case, path, kkt, table)
       do k = 1, 2
@@ -112,42 +121,70 @@ contains
       end do
    end subroutine run_design
 
-   !> All columns named by the study must be in the table.
-   subroutine check_columns(study, table, error)
+   !> The shortest text of nine digits or more that is read as this number again: -5, 0.1, 1E-05.
+   function shortest(value) result(text)
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+      real(wp) :: again
+      integer :: digits, status
+
+      do digits = 9, 17
+         text = str(value, digits)
+         read (text, *, iostat=status) again
+         if (status == 0 .and. abs(again - value) <= 0.0_wp) return
+      end do
+   end function shortest
+
+   !> Puts words in the place of others, wherever they stand.
+   pure subroutine replace(text, old, new)
+      character(:), allocatable, intent(inout) :: text
+      character(*), intent(in) :: old, new
+      integer :: first, at
+
+      first = 1
+      do
+         at = index(text(first:), old)
+         if (at == 0) return
+         at = first + at - 1
+         text = text(:at - 1)//new//text(at + len(old):)
+         first = at + len(new)
+      end do
+   end subroutine replace
+
+   !> All columns named by the study must be in the table, and its responses must be there to be read.
+   subroutine check_columns(study, table, unit, readings, error)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: text
-      integer :: k
+      character(*), intent(in) :: unit                   !! of the column `factor`
+      type(reading_t), allocatable, intent(out) :: readings(:)
+      type(error_t), allocatable, intent(out) :: error   !! exit_deck, every mistake
+      character(:), allocatable :: text, hint
+      integer :: j, k
 
       text = ''
       do k = 1, size(study%columns)
-         call check(trim(study%columns(k)), study%where//': columns')
+         if (column_index(table, trim(study%columns(k))) > 0) cycle
+         hint = nearest_name(trim(study%columns(k)), table%columns)
+         if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
+         text = text//study%where//': columns: the results have no column '//quoted(study%columns(k))//hint//new_line('a')
       end do
+      allocate (readings(size(study%responses)))
       do k = 1, size(study%responses)
-         associate (this => study%responses(k))
-            call check(this%column, this%where//': response '//quoted(this%name))
-            if (this%of == 'slope') call check(this%over, this%where//': response '//quoted(this%name))
-         end associate
+         call prepare_reading(study%responses(k), table, unit, readings(k), hint)
+         if (hint /= '') text = text//hint//new_line('a')
+         do j = 1, k - 1
+            if (readings(j)%head == readings(k)%head) text = text//readings(k)%asked%where//': response '// &
+               quoted(readings(k)%asked%name)//': its column would be called '//quoted(readings(k)%head)// &
+               ', as that of response '//quoted(readings(j)%asked%name)//'; rename one'//new_line('a')
+         end do
       end do
       if (len(text) > 0) call fail(error, exit_deck, text(:len(text) - 1))
-
-   contains
-
-      subroutine check(name, who)
-         character(*), intent(in) :: name, who
-         character(:), allocatable :: hint
-         if (column_index(table, name) > 0) return
-         hint = nearest_name(name, table%columns)
-         if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
-         text = text//who//': the results have no column '//quoted(name)//hint//new_line('a')
-      end subroutine check
-
    end subroutine check_columns
 
    !> Heads of both tables.
-   subroutine start_tables(study, table, designs, curves, responses)
+   subroutine start_tables(study, readings, table, designs, curves, responses)
       type(study_t), intent(in) :: study
+      type(reading_t), intent(in) :: readings(:)
       type(table_t), intent(in) :: table
       integer, intent(in) :: designs
       type(table_t), intent(out) :: curves, responses
@@ -173,7 +210,7 @@ contains
          heads(k + 1) = study%factors(k)%name
       end do
       do k = 1, size(study%responses)
-         heads(n + 1 + k) = study%responses(k)%name
+         heads(n + 1 + k) = readings(k)%head
       end do
       heads(size(heads)) = 'converged'
       responses = new_table(heads, designs)
@@ -203,64 +240,23 @@ contains
    end subroutine take_curves
 
    !> Evaluates the responses of a design.
-   subroutine take_responses(study, table, at, row)
-      type(study_t), intent(in) :: study
+   subroutine take_responses(readings, table, at, label, row, troubles)
+      type(reading_t), intent(in) :: readings(:)
       type(table_t), intent(in) :: table
       integer, intent(in) :: at                !! columns before the responses
+      character(*), intent(in) :: label        !! of the design, for messages
       real(wp), intent(inout) :: row(:)
+      type(message_list_t), intent(inout) :: troubles
+      character(:), allocatable :: message, all
       integer :: k
 
-      do k = 1, size(study%responses)
-         row(at + k) = response_value(study%responses(k), table)
+      all = ''
+      do k = 1, size(readings)
+         call read_response(readings(k), table, row(at + k), message)
+         if (message /= '') all = all//'; response '//quoted(readings(k)%asked%name)//': '//message
       end do
+      if (all /= '') call troubles%add(label//': '//all(3:))
       row(size(row)) = minval(table%values(column_index(table, 'converged'), :))
    end subroutine take_responses
-
-   !> A response of one table: the value at a factor (linear between states), the least-squares slope over a
-   !> window there, or the span over all states.
-   function response_value(response, table) result(value)
-      type(response_t), intent(in) :: response
-      type(table_t), intent(in) :: table
-      real(wp) :: value, centre, mean_x, mean_y, spread
-      real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
-      logical :: is_near(size(table%values, 2))
-
-      y = table%values(column_index(table, response%column), :)
-      select case (response%of)
-      case ('value')
-         value = between(table%values(2, :), y, response%at)
-      case ('slope')
-         x = table%values(column_index(table, response%over), :)
-         centre = between(table%values(2, :), x, response%at)
-         is_near = abs(x - centre) <= response%window
-         value = ieee_value(1.0_wp, ieee_quiet_nan)
-         if (count(is_near) < 2) return
-         mean_x = sum(x, mask=is_near)/count(is_near)
-         mean_y = sum(y, mask=is_near)/count(is_near)
-         spread = sum((x - mean_x)**2, mask=is_near)
-         if (spread > 0.0_wp) value = sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
-      case default
-         value = maxval(y) - minval(y)
-      end select
-   end function response_value
-
-   !> y at x = at, linear between the rows; not a number outside them.
-   pure real(wp) function between(x, y, at) result(value)
-      real(wp), intent(in) :: x(:), y(:), at
-      integer :: k
-
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-      do k = 1, size(x)
-         if (abs(x(k) - at) <= 0.0_wp) then
-            value = y(k)
-            return
-         end if
-         if (k == size(x)) exit
-         if ((x(k) - at)*(x(k + 1) - at) < 0.0_wp) then
-            value = y(k) + (y(k + 1) - y(k))*(at - x(k))/(x(k + 1) - x(k))
-            return
-         end if
-      end do
-   end function between
 
 end module ek_factor_sweep

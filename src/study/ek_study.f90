@@ -30,7 +30,7 @@ module ek_study
       character(:), allocatable :: name, column
       character(:), allocatable :: of             !! 'value', 'slope' or 'span'
       real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
-      character(:), allocatable :: over           !! column the slope is taken over
+      character(:), allocatable :: over           !! column the slope is taken over; '': the travel of the wheel
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
@@ -63,6 +63,16 @@ contains
 
       call read_deck(path, file, error, is_study=.true.)
       if (allocated(error)) return
+      if (file%used == 0 .or. is_deck(file)) then
+         if (file%used == 0) then
+            call fail(error, exit_deck, file%complaints%text())
+         else
+            call fail(error, exit_deck, where_of(file, 1)//': this is a deck (&'//file%records(1)%group// &
+               '), not a study; use it with: elastokin run, check or report '//file%file// &
+               '. A study is a file with a &study, which names its deck')
+         end if
+         return
+      end if
       draft%complaints = file%complaints
       allocate (draft%cards(file%used))
       allocate (study%factors(0), study%responses(0))
@@ -100,6 +110,22 @@ contains
       if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(file, draft, study)
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
    end subroutine read_study
+
+   !> Whether a file holds groups of a deck, and none of a study.
+   pure logical function is_deck(file)
+      type(deck_t), intent(in) :: file
+      integer :: k, group
+
+      is_deck = .false.
+      do k = 1, file%used
+         group = group_number(file%records(k)%group)
+         if (group > 0 .and. .not. is_deck_group(group)) then
+            is_deck = .false.
+            return
+         end if
+         is_deck = is_deck .or. group > 0
+      end do
+   end function is_deck
 
    !> A name stands in paths and in heads of columns, where it is the only one.
    subroutine check_name(file, draft, k)
@@ -242,7 +268,7 @@ contains
       name = ''
       column = ''
       of = 'value'
-      over = 'wheel_travel_mm'
+      over = ''
       at = 0.0_wp
       window = 15.0_wp
       read (draft%cards(k)%text, nml=response, iostat=status)

@@ -7,6 +7,7 @@ module ek_subject
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
    use ek_case, only: case_t
+   use ek_case_inputs, only: check_inputs
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
@@ -18,15 +19,17 @@ module ek_subject
 contains
 
    !> Builds the model of a deck for one case ('' is the first), puts it on the rig, and examines it.
-   subroutine make_subject(deck, case_name, suspension, case, kkt, error)
+   subroutine make_subject(deck, case_name, suspension, case, kkt, error, is_known)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(kkt_t), intent(out) :: kkt
       type(error_t), allocatable, intent(out) :: error
+      logical, intent(in), optional :: is_known     !! its inputs have been checked, in another design of the deck; .false.
       type(case_t), allocatable :: cases(:)
       type(diagnosis_t) :: diagnosis
+      logical :: is_checked
       integer :: k
 
       call build_model(deck, suspension, cases, error)
@@ -38,6 +41,10 @@ contains
          call fail(error, exit_deck, deck%file//': there is no case '//quoted(case_name))
          return
       end if
+      is_checked = .false.
+      if (present(is_known)) is_checked = is_known
+      if (.not. is_checked) call check_inputs(suspension, cases(k:k), error)
+      if (allocated(error)) return
       case = cases(k)
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return

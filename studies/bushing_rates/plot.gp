@@ -50,19 +50,19 @@ do for [format in 'png svg'] {
    set label 2 'McPherson strut; least squares over ±15 mm of wheel travel, negative: toe-out in bump' at screen 0.03, screen 0.915 textcolor rgb '#606060'
    set lmargin at screen 0.12; set rmargin at screen 0.82; set tmargin at screen 0.86; set bmargin at screen 0.12
    set colorbox user origin screen 0.85, screen 0.16 size screen 0.025, screen 0.65
-   set cblabel 'toe gradient [deg/mm]' offset 1.5, 0
+   set cblabel 'toe gradient [deg/m]' offset 1.5, 0
    set xlabel 'radial rate, front arm bushing [N/mm]'; set ylabel 'lateral rate, rear arm bushing [N/mm]'
    set logscale xy
    set xtics (500, 1000, 2000, 4000, 8000, 16000); set ytics (250, 500, 1000, 2000, 4000, 8000)
    set xrange [500:16000]; set yrange [250:8000]
    set table $grid
-   splot responses using 'lca_front_radial':'lca_rear_lateral':'toe_gradient' with lines
+   splot responses using 'lca_front_radial':'lca_rear_lateral':'toe_gradient_deg_per_m' with lines
    unset table
    set table $lines
    set contour base
    set cntrparam levels 8
    unset surface
-   splot responses using 'lca_front_radial':'lca_rear_lateral':'toe_gradient' with lines
+   splot responses using 'lca_front_radial':'lca_rear_lateral':'toe_gradient_deg_per_m' with lines
    unset table
    unset contour; set surface
    set view map

@@ -1,0 +1,162 @@
+!> The bytes of a text that comes from outside: its encoding, its line ends, and the characters in it that cannot be seen.
+module ek_letters
+   implicit none(type, external)
+   private
+   public :: visible, bad_byte, as_utf8, is_wide, with_line_ends, save_as_utf8
+
+   !> What to do with a file for which is_wide is true.
+   character(*), parameter :: save_as_utf8 = &
+      "this is not UTF-8 text (it is UTF-16, or no text at all); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
+
+   character(*), parameter :: hexadecimal = '0123456789ABCDEF'
+
+contains
+
+   !> A text in which every character that cannot be seen stands as its number: `<U+00A0>` for a no-break space,
+   !> `<U+00AD>` for a soft hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab; and every byte that is no
+   !> UTF-8 as `<E4>`. Line ends and ordinary blanks stay.
+   pure function visible(text) result(seen)
+      character(*), intent(in) :: text
+      character(:), allocatable :: seen
+      integer :: k, first, length, code
+
+      seen = ''
+      first = 1                    ! of what is not yet copied
+      k = 1
+      do while (k <= len(text))
+         code = ichar(text(k:k))
+         if (code >= 32 .and. code < 127 .or. text(k:k) == new_line('a')) then
+            k = k + 1
+            cycle
+         end if
+         call decode(text, k, code, length)
+         if (length == 0) then
+            seen = seen//text(first:k - 1)//'<'//byte_text(ichar(text(k:k)))//'>'
+            first = k + 1
+         else if (is_invisible(code)) then
+            seen = seen//text(first:k - 1)//'<U+'//byte_text(code/256)//byte_text(mod(code, 256))//'>'
+            first = k + length
+         end if
+         k = k + max(length, 1)
+      end do
+      seen = seen//text(first:)
+   end function visible
+
+   !> Place of the first byte that is no part of UTF-8; 0 if there is none.
+   pure integer function bad_byte(text) result(k)
+      character(*), intent(in) :: text
+      integer :: length, code
+
+      k = 1
+      do while (k <= len(text))
+         length = 1
+         if (ichar(text(k:k)) > 127) call decode(text, k, code, length)
+         if (length == 0) return
+         k = k + length
+      end do
+      k = 0
+   end function bad_byte
+
+   !> A text in which every byte that is no UTF-8 has become the character that stands for such bytes, U+FFFD.
+   pure function as_utf8(text) result(sound)
+      character(*), intent(in) :: text
+      character(:), allocatable :: sound
+      integer :: first, bad
+
+      sound = ''
+      first = 1
+      do
+         bad = bad_byte(text(first:))
+         if (bad == 0) exit
+         sound = sound//text(first:first + bad - 2)//char(239)//char(191)//char(189)
+         first = first + bad
+      end do
+      sound = sound//text(first:)
+   end function as_utf8
+
+   !> Whether a text has two or four bytes a character (UTF-16, UTF-32), or is none: it begins with the byte order mark of
+   !> UTF-16, or holds a zero.
+   pure logical function is_wide(text)
+      character(*), intent(in) :: text
+
+      is_wide = .false.
+      if (len(text) < 2) return
+      is_wide = text(1:2) == char(255)//char(254) .or. text(1:2) == char(254)//char(255) .or. &
+         index(text, achar(0)) > 0
+   end function is_wide
+
+   !> A text with line ends of one byte each: those of Windows (CR LF) and of old Macs (CR alone) become a newline.
+   pure function with_line_ends(text) result(plain)
+      character(*), intent(in) :: text
+      character(:), allocatable :: plain
+      character, parameter :: return = achar(13), newline = achar(10)
+      integer :: k, used
+
+      plain = text
+      if (index(text, return) == 0) return
+      used = 0
+      do k = 1, len(text)
+         if (text(k:k) == newline .and. k > 1) then
+            if (text(k - 1:k - 1) == return) cycle       ! it stands there already
+         end if
+         used = used + 1
+         if (text(k:k) == return) plain(used:used) = newline
+         if (text(k:k) /= return) plain(used:used) = text(k:k)
+      end do
+      plain = plain(:used)
+   end function with_line_ends
+
+   !> The character at byte k: its number and how many bytes it takes; length 0 where this is no UTF-8.
+   pure subroutine decode(text, k, code, length)
+      character(*), intent(in) :: text
+      integer, intent(in) :: k
+      integer, intent(out) :: code, length
+      integer, parameter :: least(4) = [0, 128, 2048, 65536]      ! shorter ones have to be written shorter
+      integer :: j, byte
+
+      length = 0
+      code = ichar(text(k:k))
+      if (code < 128) then
+         length = 1
+      else if (code >= 194 .and. code < 224) then
+         length = 2
+         code = code - 192
+      else if (code >= 224 .and. code < 240) then
+         length = 3
+         code = code - 224
+      else if (code >= 240 .and. code < 245) then
+         length = 4
+         code = code - 240
+      end if
+      if (k + length - 1 > len(text)) length = 0
+      do j = k + 1, k + length - 1
+         byte = ichar(text(j:j))
+         if (byte < 128 .or. byte > 191) length = 0
+         if (length == 0) return
+         code = 64*code + byte - 128
+      end do
+      if (length == 0) return
+      if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
+   end subroutine decode
+
+   !> Control characters, blanks other than the ordinary one, soft hyphen, zero-width characters, marks of direction.
+   pure logical function is_invisible(code)
+      integer, intent(in) :: code
+
+      select case (code)
+      case (0:9, 11:31, 127:160, 173, 847, 1564, 5760, 6155:6158, 8192:8207, 8232:8239, 8287:8303, 12288, 65279)
+         is_invisible = .true.
+      case default
+         is_invisible = .false.
+      end select
+   end function is_invisible
+
+   !> Two hexadecimal digits.
+   pure function byte_text(byte) result(digits)
+      integer, intent(in) :: byte
+      character(2) :: digits
+
+      digits = hexadecimal(byte/16 + 1:byte/16 + 1)//hexadecimal(mod(byte, 16) + 1:mod(byte, 16) + 1)
+   end function byte_text
+
+end module ek_letters

@@ -1,0 +1,174 @@
+!> Everything that is wrong with the tables and targets of a deck's cases, and with the heads of the results: found
+!> before anything is solved, and all of it at once.
+module ek_case_inputs
+   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
+   use ek_text, only: quoted
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_rig, only: mount
+   use ek_load_table, only: check_table
+   use ek_sweep_table, only: sweep_columns
+   use ek_target, only: find_column
+   use ek_table, only: name_length
+   implicit none(type, external)
+   private
+   public :: check_inputs
+
+contains
+
+   !> Reads every table, looks up every target, compares all heads of the results.
+   !>
+   !> A message about a table has its line in the file and the line of the case in the deck:
+   !> `loads.csv:7: column 'fz_n': expected a number, found 'two'; in case 'bench' (front.nml:41)`.
+   !> Of a deck with mistakes elsewhere the cases are looked at as far as that goes.
+   subroutine check_inputs(suspension, cases, error, is_whole)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file where all that is wrong is a file
+      logical, intent(in), optional :: is_whole            !! the suspension is complete; .true.
+      type(message_list_t) :: mistakes
+      integer :: k, unread
+      logical :: has_model
+
+      has_model = .true.
+      if (present(is_whole)) has_model = is_whole
+      unread = 0
+      if (has_model) call compare_heads(suspension, cases, mistakes)
+      do k = 1, size(cases)
+         call read_table(suspension, has_model, cases, k, mistakes, unread)
+         if (has_model) call look_up_target(suspension, cases(k), mistakes)
+      end do
+      if (mistakes%count() == 0) return
+      if (mistakes%count() == unread) then
+         call fail(error, exit_file, mistakes%text())
+      else
+         call fail(error, exit_deck, mistakes%text())
+      end if
+   end subroutine check_inputs
+
+   !> The table of case k, unless an earlier case reads the same one.
+   subroutine read_table(suspension, has_model, cases, k, mistakes, unread)
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: has_model
+      type(case_t), intent(in) :: cases(:)
+      integer, intent(in) :: k
+      type(message_list_t), intent(inout) :: mistakes
+      integer, intent(inout) :: unread            !! files that cannot be read
+      type(error_t), allocatable :: error
+      type(message_list_t) :: found
+      character(:), allocatable :: users
+      integer :: j
+
+      if (.not. reads_table(cases(k))) return
+      users = ''
+      do j = 1, size(cases)
+         if (.not. reads_table(cases(j))) cycle
+         if (cases(j)%file /= cases(k)%file) cycle
+         if (j < k) return
+         if (users /= '') users = users//', '
+         users = users//'in case '//quoted(cases(j)%name)//' ('//cases(j)%where//')'
+      end do
+      if (has_model) then
+         call check_table(cases(k)%file, found, error, suspension)
+      else
+         call check_table(cases(k)%file, found, error)
+      end if
+      if (allocated(error)) then
+         unread = unread + 1
+         call mistakes%add(error%message//'; '//users)
+         return
+      end if
+      do j = 1, found%count()
+         call mistakes%add(found%line(j)//'; '//users)
+      end do
+   end subroutine read_table
+
+   !> Whether a case has a table that is named.
+   pure logical function reads_table(case)
+      type(case_t), intent(in) :: case
+
+      reads_table = .false.
+      if (.not. allocated(case%test) .or. .not. allocated(case%file)) return
+      reads_table = case%test == 'table' .and. case%file /= '' .and. index(case%file, '/', back=.true.) /= len(case%file)
+   end function reads_table
+
+   !> Whether the results of a case have the column of its target.
+   subroutine look_up_target(suspension, case, mistakes)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(message_list_t), intent(inout) :: mistakes
+      type(suspension_t) :: mounted
+      type(case_t) :: this
+      type(error_t), allocatable :: error
+      character(name_length), allocatable :: columns(:)
+      integer :: mark, place
+
+      if (.not. allocated(case%target)) return
+      mark = index(case%target, '=')
+      if (mark < 2) return
+      if (case%target(:mark - 1) == '') return
+      if (.not. case%is_good .and. index(adjustl(case%target), 'rig_') == 1) return     ! it cannot be put on the rig
+      mounted = suspension
+      this = case
+      if (case%is_good) call mount(mounted, this, error)
+      if (allocated(error)) return
+      call sweep_columns(mounted, this, columns)
+      call find_column(columns, trim(adjustl(case%target(:mark - 1))), place, error)
+      if (allocated(error)) call mistakes%add(case%where//': case '//quoted(case%name)//': target: '//error%message)
+   end subroutine look_up_target
+
+   !> Two columns of the results with one head: names of elements that make the same together with what follows them.
+   subroutine compare_heads(suspension, cases, mistakes)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(message_list_t), intent(inout) :: mistakes
+      character(name_length), allocatable :: columns(:)
+      type(case_t) :: this
+      character(:), allocatable :: owners, place
+      integer :: j, k, m
+
+      if (size(cases) == 0) return
+      this%has_all = .true.
+      call sweep_columns(suspension, this, columns)
+      do k = 2, size(columns)
+         do j = 1, k - 1
+            if (columns(j) /= columns(k)) cycle
+            owners = ''
+            place = cases(1)%where(:index(cases(1)%where, ':', back=.true.) - 1)
+            do m = 1, size(suspension%springs)
+               call add_owner(suspension%springs(m)%name, suspension%springs(m)%where)
+            end do
+            do m = 1, size(suspension%readouts)
+               call add_owner(suspension%readouts(m)%name, suspension%readouts(m)%where)
+            end do
+            do m = 1, size(suspension%bushings)
+               call add_owner(suspension%bushings(m)%name, suspension%bushings(m)%where)
+            end do
+            do m = 1, size(suspension%joints)
+               if (.not. suspension%joints(m)%is_rig) &
+                  call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
+            end do
+            call mistakes%add(place//': two columns of the results would have the name '//quoted(columns(k))// &
+               owners//'; rename one')
+            exit
+         end do
+      end do
+
+   contains
+
+      !> An element that the name of the column begins with.
+      subroutine add_owner(name, where)
+         character(*), intent(in) :: name, where
+
+         if (index(columns(k), name//'_') /= 1) return
+         if (owners == '') then
+            owners = ', of '//quoted(name)//' ('//where//')'
+         else
+            owners = owners//' and of '//quoted(name)//' ('//where//')'
+         end if
+         place = where
+      end subroutine add_owner
+
+   end subroutine compare_heads
+
+end module ek_case_inputs

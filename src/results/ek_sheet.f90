@@ -1,0 +1,363 @@
+!> A table of numbers as people and spreadsheets write it: read with every mistake that is in it.
+!>
+!> Lines with # are comments, empty lines (and lines of separators alone) are passed over, the first other line holds the
+!> heads. Columns are separated by commas, or by semicolons or tabs where the line of heads has one. Read as meant are
+!> also a byte order mark, a first line `sep=;`, line ends of Windows and old Macs, heads and numbers in double quotes,
+!> empty cells behind the last head, and decimal commas where the commas separate nothing.
+module ek_sheet
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str, quoted, plural
+   use ek_letters, only: is_wide, with_line_ends, save_as_utf8
+   use ek_file, only: read_whole
+   use ek_decimal, only: get_decimal
+   use ek_table, only: name_length
+   implicit none(type, external)
+   private
+   public :: sheet_t, read_sheet, mistakes_of, head_place
+
+   character(*), parameter :: line_end = new_line('a'), tab = achar(9)
+   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
+   real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are slips, and could overflow later
+   integer, parameter :: most_told = 100        !! mistakes in the rows of one table
+
+   !> What a file holds. Rows with a mistake are not among the values.
+   type :: sheet_t
+      character(:), allocatable :: file
+      integer :: head_line = 0                          !! 0: there are no heads
+      character(name_length), allocatable :: heads(:)   !! '' where a column has none
+      real(wp), allocatable :: values(:, :)             !! (column, row)
+      type(message_list_t) :: head_mistakes, row_mistakes
+      integer :: untold = 0                             !! mistakes beyond `most_told`
+      character :: separator = ','
+      logical :: has_decimal_commas = .false., has_decimal_points = .false.
+   end type sheet_t
+
+   !> A line cut into cells.
+   type :: cells_t
+      integer :: count = 0
+      character(:), allocatable :: text(:)
+      logical :: is_closed = .true.                     !! every quote that was opened
+   end type cells_t
+
+contains
+
+   !> Reads a file; what is wrong with its content is kept in the sheet.
+   subroutine read_sheet(path, sheet, error)
+      character(*), intent(in) :: path
+      type(sheet_t), intent(out) :: sheet
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: it cannot be read
+      character(:), allocatable :: text, content
+      integer :: first, last, line, rows
+      logical, allocatable :: is_unnamed(:)
+
+      sheet%file = path
+      allocate (sheet%heads(0), sheet%values(0, 0), is_unnamed(0))
+      call read_whole(path, text, error)
+      if (allocated(error)) return
+      if (index(text, 'PK'//achar(3)//achar(4)) == 1) then
+         call sheet%head_mistakes%add(path//': this is a workbook, not text; save the sheet as CSV')
+         return
+      else if (is_wide(text)) then
+         call sheet%head_mistakes%add(path//': '//save_as_utf8)
+         return
+      end if
+      text = with_line_ends(text)
+      first = 1
+      if (index(text, byte_order_mark) == 1) first = len(byte_order_mark) + 1
+      line = 0
+      rows = 0
+      do while (first <= len(text))
+         last = index(text(first:), line_end) + first - 2
+         if (last < first - 1) last = len(text)
+         line = line + 1
+         content = text(first:last)
+         if (is_comment(content, sheet) .or. verify(content, ' ,;"'//tab) == 0) then
+            continue
+         else if (sheet%head_line == 0 .and. index(content, 'sep=') == 1 .and. len_trim(content) == 5) then
+            sheet%separator = content(5:5)               ! Excel's own line; what stands in the heads decides
+         else if (sheet%head_line == 0) then
+            sheet%head_line = line
+            call take_heads(content, sheet)
+            call find_decimal_marks(text(last + 1:), sheet)
+            deallocate (is_unnamed, sheet%values)
+            allocate (is_unnamed(size(sheet%heads)), source=.false.)
+            allocate (sheet%values(size(sheet%heads), count_lines(text(last + 1:))), source=0.0_wp)
+         else
+            call take_row(content, line, sheet, rows, is_unnamed)
+         end if
+         first = last + 2
+      end do
+      call judge_heads(sheet, rows, is_unnamed)
+   end subroutine read_sheet
+
+   !> All mistakes, heads first.
+   subroutine mistakes_of(sheet, mistakes)
+      type(sheet_t), intent(in) :: sheet
+      type(message_list_t), intent(inout) :: mistakes
+      integer :: k
+
+      do k = 1, sheet%head_mistakes%count()
+         call mistakes%add(sheet%head_mistakes%line(k))
+      end do
+      do k = 1, sheet%row_mistakes%count()
+         call mistakes%add(sheet%row_mistakes%line(k))
+      end do
+      if (sheet%untold > 0) call mistakes%add(sheet%file//': and '//plural(sheet%untold, 'more mistake', 'more mistakes'))
+   end subroutine mistakes_of
+
+   !> 'table.csv:1: ', for a message about the heads.
+   pure function head_place(sheet) result(words)
+      type(sheet_t), intent(in) :: sheet
+      character(:), allocatable :: words
+      words = sheet%file//':'//str(sheet%head_line)//': '
+   end function head_place
+
+   !> Whether a line says nothing: it begins with #, but not with one of the errors that a spreadsheet writes into cells.
+   pure logical function is_comment(content, sheet)
+      character(*), intent(in) :: content
+      type(sheet_t), intent(in) :: sheet
+      character(*), parameter :: cell_errors(8) = [character(7) :: '#REF!', '#DIV/0!', '#NAME?', '#VALUE!', '#N/A', '#NUM!', &
+         '#NULL!', '#SPILL!']
+      integer :: k
+
+      is_comment = index(content, '#') == 1 .or. index(content, '"#') == 1
+      if (.not. is_comment .or. sheet%head_line == 0) return
+      do k = 1, size(cell_errors)
+         if (index(content(:min(9, len(content))), trim(cell_errors(k))) > 0) is_comment = .false.
+      end do
+   end function is_comment
+
+   !> Upper bound of the rows still to come.
+   pure integer function count_lines(text) result(lines)
+      character(*), intent(in) :: text
+      integer :: k
+
+      lines = 1
+      do k = 1, len(text)
+         if (text(k:k) == line_end) lines = lines + 1
+      end do
+   end function count_lines
+
+   !> The line of heads also says what separates the columns.
+   subroutine take_heads(content, sheet)
+      character(*), intent(in) :: content
+      type(sheet_t), intent(inout) :: sheet
+      type(cells_t) :: cells
+      integer :: k
+
+      if (index(content, ';') > 0) then
+         sheet%separator = ';'
+      else if (index(content, tab) > 0) then
+         sheet%separator = tab
+      else if (index(content, ',') > 0) then
+         sheet%separator = ','
+      end if
+      call cut(content, sheet%separator, cells)
+      if (.not. cells%is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
+      do while (cells%text(cells%count) == '')     ! separators behind the last head; the line is not of separators alone
+         cells%count = cells%count - 1
+      end do
+      deallocate (sheet%heads)
+      allocate (sheet%heads(cells%count))
+      do k = 1, cells%count
+         sheet%heads(k) = cells%text(k)
+      end do
+   end subroutine take_heads
+
+   !> Where commas separate nothing they may be decimal commas, unless there are decimal points too.
+   pure subroutine find_decimal_marks(text, sheet)
+      character(*), intent(in) :: text
+      type(sheet_t), intent(inout) :: sheet
+      integer :: first, last
+
+      if (sheet%separator == ',') return
+      first = 1
+      do while (first <= len(text))
+         last = index(text(first:), line_end) + first - 2
+         if (last < first - 1) last = len(text)
+         if (text(first:min(first, len(text))) /= '#') then
+            sheet%has_decimal_commas = sheet%has_decimal_commas .or. index(text(first:last), ',') > 0
+            sheet%has_decimal_points = sheet%has_decimal_points .or. index(text(first:last), '.') > 0
+         end if
+         first = last + 2
+      end do
+   end subroutine find_decimal_marks
+
+   !> One line of numbers; it joins the rows when there is nothing wrong with it.
+   subroutine take_row(content, line, sheet, rows, is_unnamed)
+      character(*), intent(in) :: content
+      integer, intent(in) :: line
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(inout) :: rows
+      logical, intent(inout) :: is_unnamed(:)     !! a column without a head that holds something
+      type(cells_t) :: cells
+      character(:), allocatable :: fault, where
+      real(wp) :: row(size(sheet%heads))
+      integer :: k, columns
+      logical :: is_good
+
+      where = sheet%file//':'//str(line)//': '
+      call cut(content, sheet%separator, cells)
+      if (.not. cells%is_closed) then
+         call complain(sheet, where//'a double quote is not closed')
+         return
+      end if
+      columns = size(sheet%heads)
+      do while (cells%count > columns)             ! empty cells behind the last head say nothing
+         if (cells%text(cells%count) /= '') exit
+         cells%count = cells%count - 1
+      end do
+      if (cells%count /= columns) then
+         fault = where//'expected '//plural(columns, 'value', 'values')//', found '//str(cells%count)
+         if (cells%count > columns .and. sheet%separator == ',' .and. index(content, '.') == 0) fault = fault// &
+            ' (if some of the commas are decimal commas: write decimal points, or separate the columns by semicolons)'
+         call complain(sheet, fault)
+         return
+      end if
+      is_good = .true.
+      row = 0.0_wp
+      do k = 1, columns
+         if (sheet%heads(k) == '') then
+            is_unnamed(k) = is_unnamed(k) .or. cells%text(k) /= ''
+            cycle
+         end if
+         call read_number(trim(cells%text(k)), sheet, row(k), fault)
+         if (fault == '') cycle
+         call complain(sheet, where//'column '//quoted(sheet%heads(k))//': '//fault)
+         is_good = .false.
+      end do
+      if (.not. is_good) return
+      rows = rows + 1
+      sheet%values(:, rows) = row
+   end subroutine take_row
+
+   !> The number in a cell, or what is wrong with it.
+   subroutine read_number(cell, sheet, value, fault)
+      character(*), intent(in) :: cell
+      type(sheet_t), intent(in) :: sheet
+      real(wp), intent(out) :: value
+      character(:), allocatable, intent(out) :: fault
+      character(:), allocatable :: text
+      real(wp) :: ignored
+      logical :: is_number
+      integer :: comma, blank
+
+      value = 0.0_wp
+      fault = ''
+      text = cell
+      comma = index(text, ',')
+      if (comma > 0 .and. comma == index(text, ',', back=.true.) .and. index(text, '.') == 0 .and. &
+         sheet%separator /= ',' .and. .not. sheet%has_decimal_points) text(comma:comma) = '.'
+      call get_decimal(text, value, is_number)
+      if (is_number) then
+         if (.not. ieee_is_finite(value)) then
+            fault = 'expected a finite number, found '//quoted(cell)
+         else if (abs(value) >= most) then
+            fault = 'expected a number below '//str(most)//', found '//quoted(cell)
+         end if
+         return
+      end if
+      if (cell == '') then
+         fault = 'expected a number, found nothing'
+      else if (verify(cell, '+-.0123456789eEdD') == 0 .and. scan(cell, '0123456789') > 0 .and. scan(cell, 'eEdD') > 1) then
+         fault = 'expected a number below '//str(most)//', found '//quoted(cell)
+      else
+         fault = 'expected a number, found '//quoted(cell)
+         blank = scan(cell, ' abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ%')
+         if (index(cell, ',') > 0 .and. index(cell, '.') > 0) then
+            fault = fault//' (write numbers without separators of thousands)'
+         else if (index(cell, ',') > 0) then
+            fault = fault//' (write a decimal point, here and in all numbers of the file)'
+         else if (index(cell, char(226)//char(136)//char(146)) == 1 .or. index(cell, char(226)//char(128)//char(147)) == 1) then
+            fault = fault//' (write the minus sign as -)'
+         else if (blank > 1) then
+            call get_decimal(cell(:blank - 1), ignored, is_number)
+            if (is_number) fault = fault//' (write the number alone; its unit is the one in the name of the column)'
+         end if
+      end if
+   end subroutine read_number
+
+   !> What is wrong with the heads themselves, and whether there are rows.
+   subroutine judge_heads(sheet, rows, is_unnamed)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: rows
+      logical, intent(in) :: is_unnamed(:)
+      integer :: k, j
+
+      if (sheet%head_line == 0) then
+         call sheet%head_mistakes%add(sheet%file//': there is no line of column names')
+         return
+      end if
+      do k = 1, size(sheet%heads)
+         if (sheet%heads(k) == '') then
+            if (is_unnamed(k)) call sheet%head_mistakes%add(head_place(sheet)//'column '//str(k)//' has no name')
+            cycle
+         end if
+         do j = 1, k - 1
+            if (sheet%heads(j) /= sheet%heads(k)) cycle
+            call sheet%head_mistakes%add(head_place(sheet)//'the column '//quoted(sheet%heads(k))// &
+               ' is there twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
+            exit
+         end do
+      end do
+      sheet%values = sheet%values(:, :rows)
+      if (rows == 0 .and. sheet%row_mistakes%count() == 0) &
+         call sheet%row_mistakes%add(sheet%file//': the table has no rows')
+   end subroutine judge_heads
+
+   !> Notes a mistake in a row; of very many the first.
+   subroutine complain(sheet, what)
+      type(sheet_t), intent(inout) :: sheet
+      character(*), intent(in) :: what
+
+      if (sheet%row_mistakes%count() < most_told) then
+         call sheet%row_mistakes%add(what)
+      else
+         sheet%untold = sheet%untold + 1
+      end if
+   end subroutine complain
+
+   !> Cuts a line at its separators, those in double quotes apart; blanks around a cell and its quotes go away.
+   subroutine cut(content, separator, cells)
+      character(*), intent(in) :: content
+      character, intent(in) :: separator
+      type(cells_t), intent(out) :: cells
+      character(len(content)) :: cell
+      logical :: is_quoted
+      integer :: k, used, most
+
+      most = 1
+      do k = 1, len(content)
+         if (content(k:k) == separator) most = most + 1
+      end do
+      allocate (character(max(len(content), 1)) :: cells%text(most))
+      cells%text = ''
+      cell = ''
+      used = 0
+      is_quoted = .false.
+      do k = 1, len(content)
+         if (content(k:k) == '"') then
+            is_quoted = .not. is_quoted
+         else if (content(k:k) == separator .and. .not. is_quoted) then
+            call end_cell()
+         else
+            used = used + 1
+            cell(used:used) = content(k:k)
+         end if
+      end do
+      call end_cell()
+      cells%is_closed = .not. is_quoted
+
+   contains
+
+      subroutine end_cell()
+         cells%count = cells%count + 1
+         cells%text(cells%count) = adjustl(cell(:used))
+         used = 0
+      end subroutine end_cell
+
+   end subroutine cut
+
+end module ek_sheet

@@ -1,0 +1,241 @@
+!> What a study reads from the table of a design: a value, a slope or a span, and what its column is called.
+!>
+!> A slope is told in the units of the report: deg/m over the wheel travel, per kN over a force, per 100 N m over a
+!> moment, else in those of its two columns; the unit ends the head of its column.
+module ek_response
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str, quoted, nearest_name, plural
+   use ek_table, only: table_t, column_index
+   use ek_study, only: response_t
+   implicit none(type, external)
+   private
+   public :: reading_t, prepare_reading, read_response
+
+   !> A response as it is read from tables with certain columns.
+   type :: reading_t
+      type(response_t) :: asked
+      character(:), allocatable :: over      !! of a slope: the column
+      character(:), allocatable :: head      !! of its own column, with the unit of a slope
+      real(wp) :: size = 1.0_wp              !! times the slope in units of the columns
+   end type reading_t
+
+   character(*), parameter :: travel = 'wheel_travel_mm'
+
+contains
+
+   !> Compares a response with the table of the first design; `message` says why it cannot be read, '' if all is well.
+   subroutine prepare_reading(asked, table, factor_unit, reading, message)
+      type(response_t), intent(in) :: asked
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
+      type(reading_t), intent(out) :: reading
+      character(:), allocatable, intent(out) :: message
+      character(:), allocatable :: unit
+      real(wp) :: value
+
+      reading%asked = asked
+      reading%over = asked%over
+      reading%head = asked%name
+      message = ''
+      if (column_index(table, asked%column) == 0) message = no_column(asked%column, table)
+      if (asked%of == 'slope') then
+         if (reading%over == '') reading%over = usual_over(asked%column, table)
+         if (message == '' .and. column_index(table, reading%over) == 0) then
+            message = no_column(reading%over, table)
+            if (asked%over == '') message = "'over' is missing: the results have no wheel travel that a slope could be taken over"
+         end if
+         call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
+         if (.not. ends_with(asked%name, '_'//unit)) reading%head = asked%name//'_'//unit
+      end if
+      if (message == '') call read_response(reading, table, value, message)
+      if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
+   end subroutine prepare_reading
+
+   !> A response of one table: the value at a factor (linear between states), the least-squares slope over a
+   !> window there, or the span over all states. `message` says why there is no slope, or no such factor.
+   subroutine read_response(reading, table, value, message)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table
+      real(wp), intent(out) :: value             !! nan where there is none
+      character(:), allocatable, intent(out) :: message
+      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the ends of a case, which went through SI
+      real(wp) :: at, centre, mean_x, mean_y, spread
+      real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
+      logical :: is_near(size(table%values, 2))
+      integer :: k
+
+      message = ''
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      y = table%values(column_index(table, reading%asked%column), :)
+      if (reading%asked%of == 'span') then
+         value = maxval(y) - minval(y)
+         return
+      end if
+      x = table%values(2, :)
+      at = reading%asked%at
+      if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) at = minval(x)
+      if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) at = maxval(x)
+      if (.not. (at >= minval(x) .and. at <= maxval(x))) then
+         message = 'at = '//str(reading%asked%at)//' lies outside the case, whose factor goes from '// &
+            str(minval(x))//' to '//str(maxval(x))
+         return
+      end if
+      if (reading%asked%of == 'value') then
+         value = between(x, y, at)
+         return
+      end if
+      y = table%values(column_index(table, reading%over), :)
+      centre = between(x, y, at)
+      x = y
+      y = table%values(column_index(table, reading%asked%column), :)
+      if (.not. ieee_is_finite(centre)) return          ! the state is lost, or the column means nothing there
+      is_near = .false.
+      do k = 1, size(x)
+         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window
+      end do
+      if (count(is_near) < 2) then
+         message = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
+            str(reading%asked%window)//', a slope needs 2; '//remedy(abs(x - centre), reading%asked%window)
+         return
+      end if
+      mean_x = sum(x, mask=is_near)/count(is_near)
+      mean_y = sum(y, mask=is_near)/count(is_near)
+      spread = sum((x - mean_x)**2, mask=is_near)
+      if (spread > 0.0_wp) then
+         value = reading%size*sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
+      else
+         message = 'no slope: '//quoted(reading%over)//' does not change within the window'
+      end if
+   end subroutine read_response
+
+   !> What puts two states into a window.
+   pure function remedy(distance, window) result(words)
+      real(wp), intent(in) :: distance(:)      !! of the states from the centre of the window
+      real(wp), intent(in) :: window
+      character(:), allocatable :: words
+      real(wp) :: second
+      logical :: is_left(size(distance))
+
+      words = 'give the case more increments'
+      is_left = ieee_is_finite(distance)
+      if (count(is_left) < 2) return
+      is_left(minloc(distance, dim=1, mask=is_left)) = .false.
+      second = minval(distance, mask=is_left)
+      words = 'give the case '//str(ceiling(second/window))//' times as many increments or more, or the response a window of '// &
+         str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more'
+   end function remedy
+
+   !> What a slope is taken over unless the study says: the travel of the only wheel; with two wheels that of the column's
+   !> own side, or of the left one.
+   pure function usual_over(column, table) result(over)
+      character(*), intent(in) :: column
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: over
+      integer :: mark
+
+      over = travel
+      if (column_index(table, travel) > 0) return
+      over = 'left_'//travel
+      mark = index(column, '_')
+      if (mark == 0) return
+      if (column_index(table, column(:mark)//travel) > 0) over = column(:mark)//travel
+   end function usual_over
+
+   !> Unit of a slope as it ends a head, 'deg_per_m', and what the slope of the columns is multiplied with.
+   pure subroutine slope_unit(column, over, factor_unit, unit, size)
+      character(*), intent(in) :: column, over, factor_unit
+      character(:), allocatable, intent(out) :: unit
+      real(wp), intent(out) :: size
+      character(:), allocatable :: upper, lower
+
+      upper = unit_of(column)
+      lower = unit_of(over)
+      if (over == 'factor') then
+         select case (factor_unit)
+         case ('mm', 'deg')
+            lower = factor_unit
+         case ('N')
+            lower = 'n'
+         case ('N m')
+            lower = 'nm'
+         end select
+      end if
+      size = 1.0_wp
+      select case (lower)
+      case ('mm')
+         if (upper == 'deg' .and. ends_with(over, travel)) then
+            lower = 'm'
+            size = 1.0e3_wp
+         end if
+      case ('n')
+         if (upper /= 'n') then
+            lower = 'kn'
+            size = 1.0e3_wp
+         end if
+      case ('nm')
+         if (upper /= 'nm') then
+            lower = '100nm'
+            size = 100.0_wp
+         end if
+      case ('')
+         lower = over
+      end select
+      unit = 'per_'//lower
+      if (upper /= '') unit = upper//'_'//unit
+   end subroutine slope_unit
+
+   !> The unit that ends the name of a column: 'mm', 'n_per_mm'; '' where it has none.
+   pure function unit_of(column) result(unit)
+      character(*), intent(in) :: column
+      character(:), allocatable :: unit
+      character(*), parameter :: units(6) = [character(7) :: 'mm', 'deg', 'n', 'nm', 'm', 'percent']
+      integer :: mark
+
+      mark = index(column, '_per_')
+      if (mark > 0) then
+         unit = column(index(column(:mark - 1), '_', back=.true.) + 1:)
+      else
+         unit = column(index(column, '_', back=.true.) + 1:)
+         if (.not. any(units == unit)) unit = ''
+      end if
+   end function unit_of
+
+   pure logical function ends_with(text, ending)
+      character(*), intent(in) :: text, ending
+
+      ends_with = .false.
+      if (len(text) >= len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
+   end function ends_with
+
+   !> That a table has no such column, and which one may be meant.
+   function no_column(name, table) result(words)
+      character(*), intent(in) :: name
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: words
+
+      words = nearest_name(name, table%columns)
+      if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
+      words = 'the results have no column '//quoted(name)//words
+   end function no_column
+
+   !> y at x = at, linear between the rows; not a number outside them.
+   pure real(wp) function between(x, y, at)
+      real(wp), intent(in) :: x(:), y(:), at
+      integer :: k
+
+      between = ieee_value(1.0_wp, ieee_quiet_nan)
+      do k = 1, size(x)
+         if (abs(x(k) - at) <= 0.0_wp) then
+            between = y(k)
+            return
+         end if
+         if (k == size(x)) exit
+         if ((x(k) - at)*(x(k + 1) - at) < 0.0_wp) then
+            between = y(k) + (y(k + 1) - y(k))*(at - x(k))/(x(k + 1) - x(k))
+            return
+         end if
+      end do
+   end function between
+
+end module ek_response
