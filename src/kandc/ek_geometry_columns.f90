@@ -105,8 +105,9 @@ contains
             call put(list, prefix//'steer_camber_deg_per_deg', &
                quotient(camber_rate(spin, twist(4:6)), steer_rate(spin, twist(4:6)), least_turn))
          end if
-         mass = mass_on(suspension, w)
-         if (wheel%tyre_rate > 0.0_wp .and. mass > 0.0_wp) then
+         mass = 0.0_wp
+         if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, w)
+         if (mass > 0.0_wp) then
             frequency = ieee_value(1.0_wp, ieee_quiet_nan)
             if (compliance%is_known) frequency = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
             call put(list, prefix//'ride_frequency_hz', frequency)
