@@ -8,9 +8,9 @@ module ek_geometry_columns
    use ek_units, only: degree, millimetre
    use ek_rotation, only: cross
    use ek_block, only: rotated
-   use ek_measure, only: view_t, look
+   use ek_measure, only: view_t, look, measure_value
    use ek_law, only: deflection
-   use ek_spring, only: stop_spring
+   use ek_spring, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
    use ek_vehicle, only: vehicle_t
@@ -57,7 +57,13 @@ contains
       if (is_axle(suspension)) call list_axle(suspension, vehicle, compliance, state, list)
       if (compliance%wheels > 0) then
          do k = 1, size(suspension%springs)
-            if (suspension%springs(k)%kind == stop_spring) call list_stop(suspension, compliance, state, k, list)
+            select case (suspension%springs(k)%kind)
+            case (stop_spring)
+               call list_stop(suspension, compliance, state, k, list)
+            case (measure_spring)
+               if (is_of_angle(suspension%springs(k)%measure%kind)) cycle
+               call put(list, suspension%springs(k)%name//'_motion_ratio', length_ratio(suspension, compliance, state, k))
+            end select
          end do
       end if
       if (vehicle%steer_row > 0) call put(list, 'steering_rack_force_n', -state%reaction(vehicle%steer_row))
@@ -161,28 +167,41 @@ contains
       type(state_t), intent(in) :: state
       integer, intent(in) :: k                     !! number of the stop
       type(column_list_t), intent(inout) :: list
+      real(wp) :: gap
+
+      associate (stop => suspension%springs(k), m => suspension%springs(k)%measure)
+         gap = -deflection(stop%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)))
+         call put(list, stop%name//'_travel_left_mm', &
+            quotient(gap, abs(length_ratio(suspension, compliance, state, k)), least_ratio)/millimetre)
+      end associate
+   end subroutine list_stop
+
+   !> Change of the length of an element per wheel travel, all wheels travelling alike: the motion ratio of one that is no port
+   !> of the compliance matrix. Not a number where that is not known.
+   real(wp) function length_ratio(suspension, compliance, state, k) result(ratio)
+      type(suspension_t), intent(in) :: suspension
+      type(compliance_t), intent(in) :: compliance
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k                     !! number of the element
       type(view_t) :: view
-      real(wp) :: length(6*compliance%wheels), travel
+      real(wp) :: length(6*compliance%wheels)      ! per unit of each load of C [m/N, m/(N m)]
       integer :: n, j, at
 
-      travel = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (compliance%is_known) then
-         n = size(length)
-         associate (stop => suspension%springs(k), m => suspension%springs(k)%measure)
-            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            length = 0.0_wp
-            do j = 1, n
-               at = 6*(m%body_i - 1)
-               if (at >= 0) length(j) = dot_product(view%gradient(1:6), compliance%columns(at + 1:at + 6, j))
-               at = 6*(m%body_j - 1)
-               if (at >= 0) length(j) = length(j) + dot_product(view%gradient(7:12), compliance%columns(at + 1:at + 6, j))
-            end do
-            travel = quotient(-deflection(stop%law, view%value), abs(motion_ratio(compliance%response(:n, :n), length)), &
-               least_ratio)
-         end associate
-      end if
-      call put(list, suspension%springs(k)%name//'_travel_left_mm', travel/millimetre)
-   end subroutine list_stop
+      ratio = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. compliance%is_known) return
+      n = size(length)
+      associate (m => suspension%springs(k)%measure)
+         call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+         length = 0.0_wp
+         do j = 1, n
+            at = 6*(m%body_i - 1)
+            if (at >= 0) length(j) = dot_product(view%gradient(1:6), compliance%columns(at + 1:at + 6, j))
+            at = 6*(m%body_j - 1)
+            if (at >= 0) length(j) = length(j) + dot_product(view%gradient(7:12), compliance%columns(at + 1:at + 6, j))
+         end do
+      end associate
+      ratio = motion_ratio(compliance%response(:n, :n), length)
+   end function length_ratio
 
    !> What the wheel centre does per vertical force on every wheel: the third column of C, in phase. [m/N, rad/N]
    pure function in_phase(compliance, place) result(column)
