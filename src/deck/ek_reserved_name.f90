@@ -31,6 +31,8 @@ module ek_reserved_name
       column_t('front_view_arm', 'front_view_arm_length_mm'), column_t('front_view_arm_length', 'front_view_arm_length_mm'), &
       column_t('front_view_arm_angle', 'front_view_arm_angle_deg'), column_t('axle_roll', 'axle_roll_deg'), &
       column_t('roll_centre_y', 'roll_centre_y_mm'), column_t('roll_centre_z', 'roll_centre_z_mm'), &
+      column_t('wheel_travel', 'wheel_travel_mm'), column_t('roll', 'roll_moment_nm'), &
+      column_t('roll_centre_height', 'roll_centre_height_mm'), &
       column_t('ackermann_error', 'ackermann_error_deg'), column_t('steering_wheel', 'steering_wheel_deg'), &
       column_t('side_view', 'side_view_angle_deg'), column_t('side_view_angle', 'side_view_angle_deg'), &
       column_t('centre_axis_distance', 'centre_axis_distance_mm'), column_t('patch_axis_distance', 'patch_axis_distance_mm'), &
@@ -46,6 +48,7 @@ contains
    pure function reserved_because(name, has_results) result(words)
       character(*), intent(in) :: name
       logical, intent(in) :: has_results       !! things of its kind have columns in the results
+      character(*), parameter :: rate = '_per'
       character(:), allocatable :: words, head, rest
       integer :: k
 
@@ -63,6 +66,12 @@ contains
          return
       end if
       if (.not. has_results) return
+      if (len(name) > len(rate)) then
+         if (lower(name(len(name) - len(rate) + 1:)) == rate) then
+            words = 'the name is reserved: _per ends the names of rates, as in the column wheel_rate_n_per_mm'
+            return
+         end if
+      end if
       call split(lower(name), head, rest)
       do k = 1, size(reserved_columns)
          if (reserved_columns(k)%name /= rest) cycle
