@@ -3,7 +3,7 @@
 !> ek_kandc_columns appends it to its own. What a model does not define has no column; what has no value at a state is
 !> not a number. input/QUANTITIES.md says what each of them means.
 module ek_geometry_columns
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
    use ek_rotation, only: cross
@@ -79,7 +79,7 @@ contains
       type(column_list_t), intent(inout) :: list
       type(axis_distances_t) :: is
       character(:), allocatable :: prefix
-      real(wp) :: centre(3), patch(3), spin(3), twist(6), column(6), frequency, mass
+      real(wp) :: centre(3), patch(3), spin(3), twist(6), column(6), recession, steer_camber, frequency, mass
       integer :: w
 
       w = compliance%order(place)
@@ -103,14 +103,18 @@ contains
          end if
          call put_distances(list, prefix//'instant_', is)
 
-         column = in_phase(compliance, place)
-         call put(list, prefix//'recession_gradient_mm_per_m', 1.0e3_wp*quotient(column(1), column(3), least_compliance))
-         if (vehicle%steer_row > 0) then
-            twist = ieee_value(1.0_wp, ieee_quiet_nan)
-            if (compliance%is_known) twist = locked_twist(compliance, place, .true.)
-            call put(list, prefix//'steer_camber_deg_per_deg', &
-               quotient(camber_rate(spin, twist(4:6)), steer_rate(spin, twist(4:6)), least_turn))
+         ! a comparison with what is not a number would trap: such values are not computed at all
+         column = 0.0_wp
+         recession = ieee_value(1.0_wp, ieee_quiet_nan)
+         steer_camber = recession
+         if (compliance%is_known) then
+            column = in_phase(compliance, place)
+            recession = quotient(column(1), column(3), least_compliance)
+            twist = locked_twist(compliance, place, .true.)
+            steer_camber = quotient(camber_rate(spin, twist(4:6)), steer_rate(spin, twist(4:6)), least_turn)
          end if
+         call put(list, prefix//'recession_gradient_mm_per_m', 1.0e3_wp*recession)
+         if (vehicle%steer_row > 0) call put(list, prefix//'steer_camber_deg_per_deg', steer_camber)
          mass = 0.0_wp
          if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, w)
          if (mass > 0.0_wp) then
@@ -167,14 +171,23 @@ contains
       type(state_t), intent(in) :: state
       integer, intent(in) :: k                     !! number of the stop
       type(column_list_t), intent(inout) :: list
-      real(wp) :: gap
+      real(wp) :: gap, left
 
+      left = ieee_value(1.0_wp, ieee_quiet_nan)
       associate (stop => suspension%springs(k), m => suspension%springs(k)%measure)
          gap = -deflection(stop%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)))
-         call put(list, stop%name//'_travel_left_mm', &
-            quotient(gap, abs(length_ratio(suspension, compliance, state, k)), least_ratio)/millimetre)
+         if (compliance%is_known) left = gap_over(gap, length_ratio(suspension, compliance, state, k))
+         call put(list, stop%name//'_travel_left_mm', left/millimetre)
       end associate
    end subroutine list_stop
+
+   !> gap/|ratio|; not a number for a stop that does not feel the wheels, or wheels that do not move.
+   pure real(wp) function gap_over(gap, ratio)
+      real(wp), intent(in) :: gap, ratio      !! m, -
+      gap_over = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (ieee_is_nan(ratio)) return
+      gap_over = quotient(gap, abs(ratio), least_ratio)
+   end function gap_over
 
    !> Change of the length of an element per wheel travel, all wheels travelling alike: the motion ratio of one that is no port
    !> of the compliance matrix. Not a number where that is not known.
@@ -205,13 +218,11 @@ contains
 
    !> What the wheel centre does per vertical force on every wheel: the third column of C, in phase. [m/N, rad/N]
    pure function in_phase(compliance, place) result(column)
-      type(compliance_t), intent(in) :: compliance
+      type(compliance_t), intent(in) :: compliance     !! known
       integer, intent(in) :: place
       real(wp) :: column(6)
       integer :: at, k
 
-      column = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. compliance%is_known) return
       at = 6*(place - 1)
       column = compliance%response(at + 1:at + 6, at + 3)
       if (compliance%wheels /= 2) return
