@@ -21,6 +21,7 @@ module ek_kandc_columns
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
    use ek_steer_axis, only: instant_axis, locked_twist
+   use ek_geometry_columns, only: column_list_t, geometry_columns
    use ek_table, only: name_length
    implicit none(type, external)
    private
@@ -43,6 +44,7 @@ module ek_kandc_columns
       logical :: is_naming = .true.
       type(vehicle_t) :: vehicle
       type(compliance_t) :: compliance
+      type(column_list_t) :: geometry
    end type kandc_t
 
 contains
@@ -118,6 +120,10 @@ contains
       end do
       if (is_axle(suspension)) call list_axle(suspension, now, patch, lift, radius, roll, track, tyre, self)
       call list_steering(suspension, state, self)
+      call geometry_columns(suspension, self%vehicle, self%compliance, state, self%geometry)
+      do k = 1, self%geometry%used
+         call put(self, trim(self%geometry%names(k)), self%geometry%values(k))
+      end do
       if (n == 0) return                                ! no wheel, no travel
       do k = 1, self%compliance%springs
          ratio = 0.0_wp
