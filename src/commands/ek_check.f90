@@ -1,7 +1,7 @@
 !> elastokin check: what a deck holds, and whether its model can be solved.
 module ek_check
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model
+   use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_file, only: write_standard_output
@@ -13,6 +13,7 @@ module ek_check
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_plausibility, only: doubt
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    implicit none(type, external)

@@ -58,6 +58,7 @@ module ek_group
       key_t(model_group, 'axes', word, 1, 1, .false.), &
       key_t(model_group, 'balance', word, 1, 1, .false.), &
       key_t(model_group, 'gravity', number, 1, 1, .false.), &
+      key_t(model_group, 'plausible', switch, 1, 1, .false.), &
       key_t(point_group, 'name', word, 1, 1, .true.), &
       key_t(point_group, 'note', prose, 1, 1, .false.), &
       key_t(point_group, 'at', number, 3, 3, .true.), &
@@ -108,6 +109,7 @@ module ek_group
       key_t(spring_group, 'rate', number, 1, 1, .false.), &
       key_t(spring_group, 'curve', word, 1, 1, .false.), &
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
+      key_t(spring_group, 'balance', switch, 1, 1, .false.), &
       key_t(spring_group, 'free_length', number, 1, 1, .false.), &
       key_t(curve_group, 'name', word, 1, 1, .true.), &
       key_t(curve_group, 'note', prose, 1, 1, .false.), &

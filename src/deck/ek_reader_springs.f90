@@ -3,7 +3,7 @@ module ek_reader_springs
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t, look_up_curve
-   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion
+   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion, spring_t
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_element
    use ek_group, only: spring_group, damper_group, stop_group, torsion_group, word_length
@@ -31,7 +31,9 @@ contains
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, bodies(2), at(2), curve
       real(wp) :: rate, preload, free_length
-      namelist /spring/ name, bodies, at, rate, curve, preload, free_length
+      logical :: balance
+      namelist /spring/ name, bodies, at, rate, curve, preload, free_length, balance
+      type(spring_t) :: element
       type(ends_t) :: ends
       real(wp), allocatable :: free
       type(curve_t), allocatable :: law      ! where there is none, or it was refused: an absent argument
@@ -46,6 +48,7 @@ contains
          rate = 0.0_wp
          preload = 0.0_wp
          free_length = 1.0_wp
+         balance = .true.
          read (draft%cards(k)%text, nml=spring, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
 
@@ -59,8 +62,10 @@ contains
 
          if (allocated(free)) deallocate (free)
          if (has_key(deck, k, 'free_length')) free = free_length*draft%units%length
-         call add_element(suspension, new_spring(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
-            ends%at(:, 1), ends%at(:, 2), rate*(draft%units%force/draft%units%length), preload*draft%units%force, free, law))
+         element = new_spring(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
+            ends%at(:, 1), ends%at(:, 2), rate*(draft%units%force/draft%units%length), preload*draft%units%force, free, law)
+         element%is_balanced = balance
+         call add_element(suspension, element)
       end do
    end subroutine read_springs
 
