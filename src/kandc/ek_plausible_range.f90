@@ -96,7 +96,7 @@ module ek_plausible_range
       range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'is a point of the steer axis another one''s?'), &
       range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'is a point of the steer axis another one''s?'), &
       range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'are its two points the ones that are meant?'), &
-      range_t('radius of gyration', derived, 1.0_wp, 100.0_wp, .true., 'of its rubber, √(kr/kt): kr and kt do not fit together')]
+      range_t('radius of gyration', derived, 1.0_wp, 300.0_wp, .true., 'of its rubber, √(kr/kt): kr and kt do not fit together')]
 
    !> What looks implausible, each thing once: the two sides of a mirrored deck stand in one line of it.
    type :: doubts_t
