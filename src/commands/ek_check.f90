@@ -75,7 +75,7 @@ contains
          if (.not. diagnosis%is_solvable()) call add_distinct(found, diagnosis%words())
       end if
       call tell(words, 'warnings', diagnosis%warnings%text())
-      call tell_remarks(base, cases, found%count() == 0, words, trouble)
+      call tell_remarks(base, cases, found%count() == 0, diagnosis%warnings%count() > 0, words, trouble)
       if (found%count() > 0) then
          call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found%text())
          return
@@ -84,10 +84,10 @@ contains
    end subroutine examine
 
    !> What looks implausible; balanced, where that can be done.
-   subroutine tell_remarks(base, cases, is_solvable, words, error)
+   subroutine tell_remarks(base, cases, is_solvable, has_warnings, words, error)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: cases(:)
-      logical, intent(in) :: is_solvable
+      logical, intent(in) :: is_solvable, has_warnings
       type(buffer_t), intent(inout) :: words
       type(error_t), allocatable, intent(out) :: error    !! of balance
       type(suspension_t) :: balanced
@@ -104,6 +104,7 @@ contains
       end if
       call doubt(balanced, cases, remarks)
       do k = 1, remarks%count()
+         if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! told there
          call tell(words, 'remark', remarks%line(k))
       end do
    end subroutine tell_remarks

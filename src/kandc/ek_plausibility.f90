@@ -24,6 +24,9 @@ contains
       type(case_t), intent(in) :: cases(:)               !! of the deck
       type(message_list_t), intent(out) :: remarks
       type(doubts_t) :: doubts
+      type(diagnosis_t) :: diagnosis
+      type(kkt_t) :: kkt
+      integer :: k
 
       if (.not. suspension%is_plausible_wanted) return
       doubts%units = suspension%units
@@ -34,6 +37,15 @@ contains
       call doubt_vehicle(suspension, doubts)
       call doubt_loads(suspension, doubts)
       call doubt_cases(suspension, cases, doubts)
+      kkt = new_kkt(suspension)
+      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      do k = 1, diagnosis%preload_held%count()
+         call doubts%add('', diagnosis%preload_held%line(k), diagnosis%preload_held%line(k))
+      end do
+      do k = 1, diagnosis%warnings%count()
+         if (index(diagnosis%warnings%line(k), 'very soft') == 1) &
+            call doubts%add('', diagnosis%warnings%line(k), diagnosis%warnings%line(k))
+      end do
       remarks = doubts%remarks
    end subroutine doubt
 

@@ -118,6 +118,7 @@ contains
    subroutine doubt_bushing(bushing, doubts)
       type(bushing_t), intent(in) :: bushing
       type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: rigid = 1.0e9_wp        ! N/m: stands for a joint, and has no rubber
       character(:), allocatable :: thing
       integer :: k
 
@@ -131,7 +132,7 @@ contains
          call judge(doubts, bushing%where, thing, 'bushing rate kr', maxval(bushing%kr))
          call judge(doubts, bushing%where, thing, 'bushing rate kr', minval(bushing%kr, mask=bushing%kr > 0.0_wp))
       end if
-      if (any(bushing%kt > 0.0_wp) .and. any(bushing%kr > 0.0_wp)) &
+      if (any(bushing%kt > 0.0_wp) .and. any(bushing%kr > 0.0_wp) .and. maxval(bushing%kt) < rigid) &
          call judge(doubts, bushing%where, thing, 'radius of gyration', sqrt(maxval(bushing%kr)/maxval(bushing%kt)))
       if (.not. bushing%has_curves) return
       do k = 1, 6
@@ -214,6 +215,12 @@ contains
       do k = 1, size(suspension%bodies)
          if (suspension%bodies(k)%mass > 0.0_wp) call judge(doubts, suspension%bodies(k)%where, &
             'body '//quoted(suspension%bodies(k)%name), 'mass', suspension%bodies(k)%mass)
+      end do
+      do k = 1, size(suspension%loads)
+         associate (load => suspension%loads(k))
+            if (max(norm2(load%force), norm2(load%moment)) <= 0.0_wp) call doubts%add(load%where, 'nothing', &
+               'load '//quoted(load%name)//': its force and moment are zero')
+         end associate
       end do
       do w = 1, size(suspension%wheels)
          do k = 1, size(suspension%loads)

@@ -61,7 +61,7 @@ module ek_plausible_range
       range_t('wheelbase', length, 1200.0_wp, 8000.0_wp, .false., 'is it the track?'), &
       range_t('height of gravity centre', length, 150.0_wp, 2500.0_wp, .false., 'above the ground'), &
       range_t('brake share', share, 0.3_wp, 0.95_wp, .false., 'the share of the FRONT axle is meant, also on a rear axle'), &
-      range_t('rack ratio', length, 15.0_wp, 250.0_wp, .false., 'rack travel per revolution is meant, not the steering ratio'), &
+      range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'rack travel per revolution is meant, not the steering ratio'), &
       range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'each way'), &
       range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'of one spring at itself'), &
       range_t('spring length', length, 30.0_wp, 1500.0_wp, .false., 'are its two points the ones that are meant?'), &

@@ -214,6 +214,7 @@ contains
       integer :: k, rack
 
       rack = rack_body(suspension)
+      if (rack > 0) call doubt_rack(suspension, rack, doubts)
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k), &
                m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
@@ -227,8 +228,8 @@ contains
             call judge(doubts, joint%where, thing, 'link length', norm2(apart))
             call doubt_ends(suspension, m, joint%where, thing, ends, doubts)
             if (rack == 0 .or. (m%body_i /= rack .and. m%body_j /= rack)) cycle
-            if (abs(apart(2)) < 0.8_wp*norm2(apart)) call doubts%add(joint%where, 'askew', thing// &
-               ': a tie rod more than 37 deg out of the lateral direction: has a coordinate of its ends another sign?')
+            if (abs(apart(2)) < 0.85_wp*norm2(apart)) call doubts%add(joint%where, 'askew', thing// &
+               ': a tie rod more than 32 deg out of the lateral direction: has a coordinate of its ends another sign?')
          end associate
       end do
       do k = 1, size(suspension%bushings)
@@ -242,6 +243,34 @@ contains
          call doubt_upright(suspension, k, doubts)
       end do
    end subroutine doubt_links
+
+   !> Something leads from the rack to the wheels.
+   subroutine doubt_rack(suspension, rack, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: rack
+      type(doubts_t), intent(inout) :: doubts
+      integer :: k
+
+      do k = 1, size(suspension%terms)
+         if (leads(suspension%terms(k)%measure%body_i, suspension%terms(k)%measure%body_j)) return
+      end do
+      do k = 1, size(suspension%bushings)
+         if (leads(suspension%bushings(k)%body_i, suspension%bushings(k)%body_j)) return
+      end do
+      do k = 1, size(suspension%springs)
+         if (leads(suspension%springs(k)%measure%body_i, suspension%springs(k)%measure%body_j)) return
+      end do
+      call doubts%add(suspension%steering%where, 'no tie rod', '&steering: nothing leads from its rack, body '// &
+         quoted(body_name(suspension, rack))//', to a wheel: is a tie rod missing?')
+
+   contains
+
+      pure logical function leads(i, j)
+         integer, intent(in) :: i, j
+         leads = (i == rack .or. j == rack) .and. min(i, j) > 0
+      end function leads
+
+   end subroutine doubt_rack
 
    !> A joint of the body of one wheel lies near that wheel, on its side of the car.
    subroutine doubt_own_points(suspension, m, where, thing, doubts)
