@@ -9,6 +9,7 @@ module ek_report_tests
    use ek_case, only: case_t
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep
+   use ek_curve_reach, only: curve_reach_words
    use ek_sweep_table, only: sweep_table, factor_unit
    use ek_table, only: new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
@@ -190,6 +191,7 @@ contains
          call test%remarks%add(settled%line(k))
       end do
       call rack_words(suspension, case, test%remarks)
+      call curve_reach_words(suspension, case, path, test%remarks)
       call sweep_table(suspension, case, path, kkt, test%table)
       gaping = open_words(case, test%table)
       if (len(gaping) > 0) then

@@ -16,6 +16,7 @@ module ek_run
    use ek_wheel_side, only: single_side
    use ek_sweep_table, only: sweep_table
    use ek_test_result, only: frame_line
+   use ek_curve_reach, only: curve_reach_words
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: write_csv, csv_text
@@ -141,6 +142,7 @@ contains
       call warn_of_instability(suspension, case, path)
       call warn_of_travel(suspension, case, path)
       call rack_words(suspension, case, doubts)
+      call curve_reach_words(suspension, case, path, doubts)
       do side = 1, doubts%count()
          call warn('case '//quoted(case%name)//': '//doubts%line(side))
       end do
