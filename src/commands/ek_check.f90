@@ -12,7 +12,7 @@ module ek_check
    use ek_examination, only: add_distinct
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance
+   use ek_balance, only: balance, balance_words
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_plausibility, only: doubt
    use ek_arguments, only: arguments_t
@@ -102,6 +102,10 @@ contains
          call balance(balanced, tolerance, error)
          if (allocated(error)) balanced = base
       end if
+      if (is_solvable .and. .not. allocated(error)) call balance_words(balanced, remarks)
+      do k = 1, remarks%count()
+         call words%line(remarks%line(k))
+      end do
       call doubt(balanced, cases, remarks)
       do k = 1, remarks%count()
          if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! told there

@@ -4,14 +4,29 @@ module ek_remark_words
    use ek_text, only: plural
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
+   use ek_balance, only: balance_words
    use ek_plausibility, only: doubt
    use ek_examination, only: examination_t
    use ek_words, only: warn
    implicit none(type, external)
    private
-   public :: warn_of_remarks, unsolvable_words
+   public :: warn_of_balance, warn_of_remarks, unsolvable_words
 
 contains
+
+   !> What balance has left out, or could not tell.
+   subroutine warn_of_balance(suspension, page)
+      type(suspension_t), intent(in) :: suspension
+      type(message_list_t), intent(inout), optional :: page
+      type(message_list_t) :: words
+      integer :: k
+
+      call balance_words(suspension, words)
+      do k = 1, words%count()
+         call warn(words%line(k))
+         if (present(page)) call page%add(words%line(k))
+      end do
+   end subroutine warn_of_balance
 
    !> One warning for all remarks of ek_plausibility: the first, and where the others are. The page has them all.
    subroutine warn_of_remarks(suspension, cases, page)

@@ -23,7 +23,7 @@ module ek_report
    use ek_report_page, only: report_page
    use ek_window_option, only: chosen_windows
    use ek_examination, only: examination_t, examine_cases
-   use ek_remark_words, only: warn_of_remarks, unsolvable_words
+   use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
    use ek_run_words, only: say_preloads, patch_words, spring_words
    use ek_words, only: say, warn, complain, tell_path
    implicit none(type, external)
@@ -76,6 +76,7 @@ contains
       do k = 1, warnings%count()
          call warn(warnings%line(k))
       end do
+      call warn_of_balance(suspension, warnings)
       call warn_of_remarks(suspension, cases, warnings)
       call remove_file(join_path(folder, 'report.html'))     ! of an earlier report: it must not be taken for this one
       call remove_file(join_path(folder, contents_file))

@@ -25,7 +25,7 @@ module ek_run
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
-   use ek_remark_words, only: warn_of_remarks, unsolvable_words
+   use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
       warn_of_instability, warn_of_travel, failure_words, open_words, add_line
    use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
@@ -76,6 +76,7 @@ contains
       do k = 1, doubts%count()
          call warn(doubts%line(k))
       end do
+      call warn_of_balance(suspension)
       call warn_of_remarks(suspension, cases)
 
       failed = 0

@@ -89,6 +89,7 @@ module ek_group
       key_t(joint_group, 'measures', word, 1, most_measures, .false.), &
       key_t(joint_group, 'ratios', number, 1, most_measures, .false.), &
       key_t(joint_group, 'stiffness', number, 1, 1, .false.), &
+      key_t(joint_group, 'balance', switch, 1, 1, .false.), &
       key_t(bushing_group, 'name', word, 1, 1, .true.), &
       key_t(bushing_group, 'note', prose, 1, 1, .false.), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true.), &

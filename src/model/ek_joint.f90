@@ -43,6 +43,8 @@ module ek_joint
       real(wp) :: arm_j(3) = 0.0_wp          !! where its force acts on body j, body axes [m]
       integer :: first_row = 0, rows = 0
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
+      logical :: says_balance = .false.      !! of a driver with a stiffness: the deck says whether it takes part in balance
+      logical :: is_balanced = .true.        !! what it says
       logical :: is_rig = .false.            !! of the test rig: what it exerts is a force of the ground on a wheel
    end type joint_t
 
