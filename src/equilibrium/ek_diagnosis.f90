@@ -69,11 +69,12 @@ contains
    !> Examines a model at a state (design, or where a solution failed).
    !>
    !> `driven` rows count as held. Costs a few dense decompositions: for a check, not for an increment.
-   subroutine diagnose(suspension, state, kkt, diagnosis)
+   subroutine diagnose(suspension, state, kkt, diagnosis, wants_preload_held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt              !! work space of this model
       type(diagnosis_t), intent(out) :: diagnosis
+      logical, intent(in), optional :: wants_preload_held    !! motions that preload alone holds are looked for, too
       real(wp) :: tangent(kkt%nq, kkt%nq), material(kkt%nq, kkt%nq), right(kkt%nq, kkt%nq)
       real(wp), allocatable :: jacobian(:, :), left(:, :), singular(:)
       integer, allocatable :: rows(:)      ! that hold for certain: those without compliance
@@ -82,8 +83,6 @@ contains
       rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
       allocate (jacobian(size(rows), kkt%nq), left(size(rows), size(rows)), singular(max(1, min(size(rows), kkt%nq))))
       call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
-      call assemble(suspension, state, demand_t(), material_only, kkt)
-      call scaled_stiffness(suspension, kkt, material)
       call assemble(suspension, state, demand_t(), whole_tangent, kkt)
       call scaled_stiffness(suspension, kkt, tangent)
       do j = 1, kkt%nq
@@ -105,7 +104,12 @@ contains
       diagnosis%rank = rank
       diagnosis%freedoms = kkt%nq - rank
       if (rank < size(rows)) call name_redundancies(suspension, left(:, rank + 1:), rows, diagnosis)
-      if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, material, right(:, rank + 1:), kkt, diagnosis)
+      if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, right(:, rank + 1:), kkt, diagnosis)
+      if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
+      if (.not. wants_preload_held) return
+      call assemble(suspension, state, demand_t(), material_only, kkt)
+      call scaled_stiffness(suspension, kkt, material)
+      call name_preload_held(suspension, state, tangent, material, right(:, rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
    !> Stiffness of the system that was assembled last, scaled and whole.
@@ -213,11 +217,11 @@ contains
       end associate
    end function remedy
 
-   !> Names the motions without stiffness, those held by preload alone, and warns of soft and unstable ones.
-   subroutine name_mechanisms(suspension, state, tangent, material, basis, kkt, diagnosis)
+   !> Names the motions without stiffness, and warns of soft and unstable ones.
+   subroutine name_mechanisms(suspension, state, tangent, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: tangent(:, :), material(:, :)        !! scaled; with and without geometric stiffness
+      real(wp), intent(in) :: tangent(:, :)        !! scaled
       real(wp), intent(in) :: basis(:, :)          !! null space of scaled Φq
       type(kkt_t), intent(in) :: kkt
       type(diagnosis_t), intent(inout) :: diagnosis
@@ -245,15 +249,13 @@ contains
             motion_words(suspension, state, kkt, motions(:, k))//others(count(eigenvalue > noise .and. &
             eigenvalue < soft_stiffness) - 1))
       end if
-      if (maxval(abs(tangent - material)) <= 0.0_wp) return
-      call name_preload_held(suspension, state, tangent, material, basis, kkt, diagnosis)
    end subroutine name_mechanisms
 
    !> Motions that meet no material stiffness, but some of preloads that keeps them where they are.
    subroutine name_preload_held(suspension, state, tangent, material, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      real(wp), intent(in) :: tangent(:, :), material(:, :), basis(:, :)
+      real(wp), intent(in) :: tangent(:, :), material(:, :), basis(:, :)   !! scaled; with and without geometric stiffness
       type(kkt_t), intent(in) :: kkt
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))

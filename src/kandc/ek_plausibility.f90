@@ -38,7 +38,7 @@ contains
       call doubt_loads(suspension, doubts)
       call doubt_cases(suspension, cases, doubts)
       kkt = new_kkt(suspension)
-      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      call diagnose(suspension, design_state(suspension), kkt, diagnosis, wants_preload_held=.true.)
       do k = 1, diagnosis%preload_held%count()
          call doubts%add('', diagnosis%preload_held%line(k), diagnosis%preload_held%line(k))
       end do

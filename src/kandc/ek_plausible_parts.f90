@@ -79,6 +79,7 @@ contains
       type(spring_t), intent(in) :: stop
       type(doubts_t), intent(inout) :: doubts
       character(:), allocatable :: thing
+      real(wp), parameter :: bears = 50.0_wp      ! N: more than the lip of a stop that just touches
       real(wp) :: clearance, tension, slope
 
       thing = 'stop '//quoted(stop%name)
@@ -95,7 +96,7 @@ contains
          ': its clearance '//speak(doubts, length, clearance)//' is longer than the '//speak(doubts, length, stop%design_length)// &
          ' between its points: contact cannot be reached')
       call spring_tension(stop, stop%design_length, tension, slope)
-      if (abs(tension) > felt) call doubts%add(stop%where, 'contact', thing//': in contact at design, '// &
+      if (abs(tension) > bears) call doubts%add(stop%where, 'contact', thing//': in contact at design, '// &
          speak(doubts, force, abs(tension))//'; clearance counts from design')
    end subroutine doubt_stop
 
