@@ -30,7 +30,7 @@ contains
             call doubt_spring(suspension%springs(k), doubts)
          case (damper)
             associate (s => suspension%springs(k))
-               call judge(doubts, s%where, 'damper '//quoted(s%name), 'spring length', s%design_length)
+               call judge(doubts, s%where, 'damper '//quoted(s%name), 'length at design', s%design_length)
                call judge(doubts, s%where, 'damper '//quoted(s%name), 'gas force', s%preload)
                call judge(doubts, s%where, 'damper '//quoted(s%name), 'gas rate', s%rate)
             end associate
@@ -60,7 +60,7 @@ contains
       real(wp) :: tension, slope
 
       thing = 'spring '//quoted(spring%name)
-      call judge(doubts, spring%where, thing, 'spring length', spring%design_length)
+      call judge(doubts, spring%where, thing, 'length at design', spring%design_length)
       if (spring%has_law) then
          call doubt_curve(spring%law, spring%where, thing, .false., doubts)
       else
@@ -84,7 +84,7 @@ contains
 
       thing = 'stop '//quoted(stop%name)
       clearance = stop%law%sign*(stop%law%reference - stop%design_length)
-      call judge(doubts, stop%where, thing, 'spring length', stop%design_length)
+      call judge(doubts, stop%where, thing, 'length at design', stop%design_length)
       call judge(doubts, stop%where, thing, 'clearance', clearance)
       call judge(doubts, stop%where, thing, 'rounding', stop%law%rounding)
       if (stop%law%has_curve) then

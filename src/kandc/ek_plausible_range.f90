@@ -64,7 +64,7 @@ module ek_plausible_range
       range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'rack travel per revolution is meant, not the steering ratio'), &
       range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'each way'), &
       range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'of one spring at itself'), &
-      range_t('spring length', length, 30.0_wp, 1500.0_wp, .false., 'are its two points the ones that are meant?'), &
+      range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'are its two points the ones that are meant?'), &
       range_t('static compression', length, 0.0_wp, 500.0_wp, .true., 'preload and rate do not fit together'), &
       range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'of a damper at design'), &
       range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'of a damper'), &
@@ -152,7 +152,7 @@ contains
       character(*), intent(in) :: quantity     !! of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       type(range_t) :: row
-      real(wp) :: meant, low, high
+      real(wp) :: meant, low, high, x
       character(:), allocatable :: text
       integer :: k
 
@@ -162,22 +162,24 @@ contains
          return
       end if
       row = ranges(k)
-      if (row%may_be_zero .and. abs(value) <= 0.0_wp) return
-      if (is_within(row, value)) return
+      x = value
+      if (row%low >= 0.0_wp) x = abs(value)        ! its sign says nothing
+      if (row%may_be_zero .and. abs(x) <= 0.0_wp) return
+      if (is_within(row, x)) return
       low = row%low*table_unit(row%dimension)
       high = row%high*table_unit(row%dimension)
       text = ''
       do k = 1, size(units_tried)
          if (units_tried(k)%dimension /= row%dimension) cycle
          if (units_tried(k)%name == deck_name(row%dimension, doubts%units)) cycle
-         meant = value/deck_unit(row%dimension, doubts%units)*units_tried(k)%size
+         meant = x/deck_unit(row%dimension, doubts%units)*units_tried(k)%size
          if (.not. is_within(row, meant)) cycle
-         text = 'looks like '//trim(units_tried(k)%name)//': '//str(value/deck_unit(row%dimension, doubts%units), 5)//' '// &
+         text = 'looks like '//trim(units_tried(k)%name)//': '//str(x/deck_unit(row%dimension, doubts%units), 5)//' '// &
             trim(units_tried(k)%name)//' would be '//speak(doubts, row%dimension, meant)
          exit
       end do
       if (len(text) == 0) text = trim(row%suspect)
-      call doubts%add(where, quantity, thing//': '//trim(quantity)//' '//speak(doubts, row%dimension, value)// &
+      call doubts%add(where, quantity, thing//': '//trim(quantity)//' '//speak(doubts, row%dimension, x)// &
          ' (usual: '//str(low/deck_unit(row%dimension, doubts%units), 3)//' to '//speak(doubts, row%dimension, high)//'); '//text)
    end subroutine judge
 
@@ -189,7 +191,6 @@ contains
       real(wp) :: x, widening
 
       x = value/table_unit(row%dimension)
-      if (row%low >= 0.0_wp) x = abs(x)
       widening = rim*max(abs(row%low), abs(row%high))
       is_within = x >= row%low - widening .and. x <= row%high + widening
    end function is_within
