@@ -9,7 +9,8 @@ module ek_plausibility
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_plausible_range, only: doubts_t
    use ek_plausible_parts, only: doubt_elements, doubt_loads, doubt_vehicle, doubt_cases
-   use ek_plausible_shape, only: doubt_wheels, doubt_points, doubt_links
+   use ek_plausible_shape, only: doubt_wheels, doubt_points
+   use ek_plausible_links, only: doubt_links
    implicit none(type, external)
    private
    public :: doubt
