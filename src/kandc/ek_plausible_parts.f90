@@ -6,7 +6,7 @@ module ek_plausible_parts
    use ek_law, only: law_t
    use ek_spring, only: axial_spring, damper, stop_spring, torsion_spring, spring_t, spring_tension
    use ek_elastic, only: bushing_t
-   use ek_measure, only: axis_axis, rotation
+   use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_plausible_range, only: doubts_t, judge, speak, length, force
@@ -60,7 +60,7 @@ contains
       real(wp) :: tension, slope
 
       thing = 'spring '//quoted(spring%name)
-      call judge(doubts, spring%where, thing, 'length at design', spring%design_length)
+      if (spring%measure%kind == distance) call judge(doubts, spring%where, thing, 'length at design', spring%design_length)
       if (spring%has_law) then
          call doubt_curve(spring%law, spring%where, thing, .false., doubts)
       else
@@ -134,7 +134,7 @@ contains
          call judge(doubts, bushing%where, thing, 'bushing rate kr', minval(bushing%kr, mask=bushing%kr > 0.0_wp))
       end if
       if (any(bushing%kt > 0.0_wp) .and. any(bushing%kr > 0.0_wp) .and. maxval(bushing%kt) < rigid) &
-         call judge(doubts, bushing%where, thing, 'radius of gyration', sqrt(maxval(bushing%kr)/maxval(bushing%kt)))
+         call judge(doubts, bushing%where, thing, 'size √(kr/kt)', sqrt(maxval(bushing%kr)/maxval(bushing%kt)))
       if (.not. bushing%has_curves) return
       do k = 1, 6
          if (.not. bushing%laws(k)%has_curve) cycle
@@ -255,7 +255,7 @@ contains
       associate (axle => suspension%axle, steering => suspension%steering)
          if (axle%has_axle) then
             call judge(doubts, axle%where, '&axle', 'wheelbase', axle%wheelbase)
-            call judge(doubts, axle%where, '&axle', 'height of gravity centre', axle%cg_height)
+            call judge(doubts, axle%where, '&axle', 'cg height', axle%cg_height)
             call judge(doubts, axle%where, '&axle', 'brake share', axle%brake_share)
             if (axle%cg_height > 0.6_wp*axle%wheelbase) call doubts%add(axle%where, 'tall', '&axle: cg_height '// &
                speak(doubts, length, axle%cg_height)//' is more than 0.6 of the wheelbase: are the two swapped?')

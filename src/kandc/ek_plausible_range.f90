@@ -59,44 +59,44 @@ module ek_plausible_range
       range_t('static camber', angle, -8.0_wp, 5.0_wp, .true., 'no road car has that; camber is in degrees, < 0: top inward'), &
       range_t('tyre rate', rate, 50.0_wp, 2500.0_wp, .false., 'the vertical stiffness of one tyre is meant'), &
       range_t('wheelbase', length, 1200.0_wp, 8000.0_wp, .false., 'is it the track?'), &
-      range_t('height of gravity centre', length, 150.0_wp, 2500.0_wp, .false., 'above the ground'), &
+      range_t('cg height', length, 150.0_wp, 2500.0_wp, .false., 'the height of the car''s cg over the ground is meant'), &
       range_t('brake share', share, 0.3_wp, 0.95_wp, .false., 'the share of the FRONT axle is meant, also on a rear axle'), &
       range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'rack travel per revolution is meant, not the steering ratio'), &
-      range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'each way'), &
-      range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'of one spring at itself'), &
+      range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'the travel each way is meant'), &
+      range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'the rate of one spring, along the spring, is meant'), &
       range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'are its two points the ones that are meant?'), &
       range_t('static compression', length, 0.0_wp, 500.0_wp, .true., 'preload and rate do not fit together'), &
-      range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'of a damper at design'), &
-      range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'of a damper'), &
-      range_t('clearance', length, 0.5_wp, 250.0_wp, .true., 'from design until contact'), &
+      range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'the force of the gas at design is meant'), &
+      range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'the rise of the gas force with compression is meant'), &
+      range_t('clearance', length, 0.5_wp, 250.0_wp, .true., 'the way from design to contact is meant'), &
       range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'so long a transition is part of the curve'), &
-      range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'of the penetration'), &
+      range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'force over penetration is meant'), &
       range_t('bushing rate kt', rate, 5.0_wp, 1.0e6_wp, .true., 'no rubber; where it stands for a rigid link, use a joint'), &
       range_t('bushing rate kr', turn_rate, 2.0_wp, 5.0e7_wp, .true., 'no rubber; where it stands for a rigid link, use a joint'), &
       range_t('bushing gap', length, 0.0_wp, 20.0_wp, .true., 'its two points are apart: is one of them another one''s?'), &
-      range_t('torsion bar rate', turn_rate, 1500.0_wp, 1.0e6_wp, .false., 'between the halves of an anti-roll bar'), &
-      range_t('torsion spring rate', turn_rate, 500.0_wp, 5.0e7_wp, .false., 'of a torsion spring'), &
-      range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'of a rack or a column, at the rack'), &
+      range_t('torsion bar rate', turn_rate, 1500.0_wp, 1.0e6_wp, .false., 'the rate between the halves of a bar is meant'), &
+      range_t('torsion spring rate', turn_rate, 500.0_wp, 5.0e7_wp, .false., 'moment over angle is meant'), &
+      range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'the stiffness at the rack is meant'), &
       range_t('span of the curve', length, 0.5_wp, 600.0_wp, .false., 'its x is a deflection in the deck''s unit'), &
       range_t('angular span of the curve', angle, 0.2_wp, 400.0_wp, .false., 'its x is an angle in the deck''s unit'), &
       range_t('largest force of the curve', force, 30.0_wp, 1.0e6_wp, .false., 'its y is a force in the deck''s unit'), &
       range_t('slope of the curve', rate, 0.1_wp, 1.0e6_wp, .true., 'its x and y are in the deck''s units'), &
-      range_t('static wheel load', force, 450.0_wp, 70000.0_wp, .false., 'of one wheel'), &
-      range_t('mass', mass, 0.1_wp, 1500.0_wp, .false., 'of one body of a suspension'), &
-      range_t('gravity', acceleration, 9.0_wp, 10.5_wp, .true., 'in m/s², in every unit of the deck'), &
-      range_t('wheel travel', length, 2.0_wp, 400.0_wp, .false., 'no wheel goes so far'), &
-      range_t('roll angle', angle, 0.1_wp, 12.0_wp, .false., 'of an axle on its wheels'), &
-      range_t('rack displacement', length, 1.0_wp, 300.0_wp, .false., 'of the rack'), &
-      range_t('test force', force, 30.0_wp, 150000.0_wp, .false., 'on one wheel'), &
-      range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'always in N m'), &
-      range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'a pneumatic trail'), &
+      range_t('static wheel load', force, 450.0_wp, 70000.0_wp, .false., 'the load on one wheel is meant'), &
+      range_t('mass', mass, 0.1_wp, 1500.0_wp, .false., 'the mass of one body of a suspension is meant'), &
+      range_t('gravity', acceleration, 9.0_wp, 10.5_wp, .true., 'gravity is in m/s², whatever the units of the deck'), &
+      range_t('wheel travel', length, 2.0_wp, 400.0_wp, .false., 'the travel of a wheel from design is meant'), &
+      range_t('roll angle', angle, 0.1_wp, 12.0_wp, .false., 'the roll angle of the axle is meant'), &
+      range_t('rack displacement', length, 1.0_wp, 300.0_wp, .false., 'the displacement of the rack from design is meant'), &
+      range_t('test force', force, 30.0_wp, 150000.0_wp, .false., 'the force on one wheel is meant'), &
+      range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, whatever the units of the deck'), &
+      range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'a pneumatic trail is meant'), &
       range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'mirrored axes, or a sign of x: the top is rearward'), &
       range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'the steer axis: is a point another one''s?'), &
       range_t('kingpin inclination', angle, -6.0_wp, 30.0_wp, .true., 'is the upper point outboard of the lower one?'), &
       range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'is a point of the steer axis another one''s?'), &
       range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'is a point of the steer axis another one''s?'), &
       range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'are its two points the ones that are meant?'), &
-      range_t('radius of gyration', derived, 1.0_wp, 300.0_wp, .true., 'of its rubber, √(kr/kt): kr and kt do not fit together')]
+      range_t('size √(kr/kt)', derived, 1.0_wp, 300.0_wp, .true., 'kr and kt do not fit together')]
 
    !> What looks implausible, each thing once: the two sides of a mirrored deck stand in one line of it.
    type :: doubts_t
