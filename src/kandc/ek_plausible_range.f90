@@ -174,13 +174,13 @@ contains
          if (units_tried(k)%name == deck_name(row%dimension, doubts%units)) cycle
          meant = x/deck_unit(row%dimension, doubts%units)*units_tried(k)%size
          if (.not. is_within(row, meant)) cycle
-         text = 'looks like '//trim(units_tried(k)%name)//': '//str(x/deck_unit(row%dimension, doubts%units), 5)//' '// &
+         text = 'looks like '//trim(units_tried(k)%name)//': '//short(x/deck_unit(row%dimension, doubts%units))//' '// &
             trim(units_tried(k)%name)//' would be '//speak(doubts, row%dimension, meant)
          exit
       end do
       if (len(text) == 0) text = trim(row%suspect)
       call doubts%add(where, quantity, thing//': '//trim(quantity)//' '//speak(doubts, row%dimension, x)// &
-         ' (usual: '//str(low/deck_unit(row%dimension, doubts%units), 3)//' to '//speak(doubts, row%dimension, high)//'); '//text)
+         ' (usual: '//short(low/deck_unit(row%dimension, doubts%units))//' to '//speak(doubts, row%dimension, high)//'); '//text)
    end subroutine judge
 
    !> Whether a number (SI) is one that road vehicles have.
@@ -202,9 +202,16 @@ contains
       real(wp), intent(in) :: value            !! SI
       character(:), allocatable :: text
 
-      text = str(value/deck_unit(dimension, doubts%units), 5)
+      text = short(value/deck_unit(dimension, doubts%units))
       if (dimension /= share) text = text//' '//deck_name(dimension, doubts%units)
    end function speak
+
+   !> Five digits, or all of a large number: people count thousands.
+   pure function short(x) result(text)
+      real(wp), intent(in) :: x
+      character(:), allocatable :: text
+      text = str(x, merge(9, 5, abs(x) >= 1.0e5_wp .and. abs(x) < 1.0e9_wp))
+   end function short
 
    !> SI value of the units of the table above.
    pure real(wp) function table_unit(dimension)
