@@ -6,7 +6,7 @@
 module ek_bench
    use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_convergence
+   use ek_error, only: error_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
@@ -18,6 +18,8 @@ module ek_bench
    use ek_balance, only: balance
    use ek_path, only: path_t, new_path, walk, sweep
    use ek_rig, only: mount
+   use ek_examination, only: examination_t, examine_cases
+   use ek_remark_words, only: unsolvable_words
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t
    use ek_csv, only: csv_text
@@ -40,6 +42,7 @@ contains
       type(case_t), allocatable :: cases(:), chosen(:)
       type(case_t) :: case
       type(kkt_t) :: kkt
+      type(examination_t) :: found
       type(path_t) :: path, exact
       real(wp), allocatable :: matrices(:, :, :)
       real(wp) :: unit, together, copying, best(3), start
@@ -51,6 +54,11 @@ contains
       call chosen_cases(arguments, cases, chosen, error)
       if (allocated(error)) return
       case = chosen(1)
+      call examine_cases(suspension, [case], found)
+      if (found%none_solvable()) then
+         call fail(error, exit_model, unsolvable_words(arguments%file, found))
+         return
+      end if
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
       call mount(suspension, case, error)

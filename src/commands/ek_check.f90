@@ -1,18 +1,20 @@
 !> elastokin check: what a deck holds, and whether its model can be solved.
 module ek_check
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model
+   use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_file, only: write_standard_output
    use ek_spring, only: axial_spring, measure_spring, stop_spring, torsion_spring
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
-   use ek_case, only: case_t
+   use ek_case, only: case_t, default_tolerance
+   use ek_examination, only: add_distinct
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance
+   use ek_balance, only: balance, balance_words
    use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_plausibility, only: doubt
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    implicit none(type, external)
@@ -43,7 +45,8 @@ contains
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
-      character(:), allocatable :: checksum, found
+      character(:), allocatable :: checksum
+      type(message_list_t) :: found
       integer :: k
 
       call load_deck(arguments, base, cases, checksum, error)
@@ -57,7 +60,6 @@ contains
       kkt = new_kkt(base)
       call diagnose(base, design_state(base), kkt, diagnosis)
       call tell_model(base, diagnosis, checksum, words)
-      found = ''
       do k = 1, size(chosen)
          suspension = base
          call mount(suspension, chosen(k), error)
@@ -67,34 +69,49 @@ contains
          call tell_case(chosen(k), diagnosis, words)
          if (diagnosis%is_solvable()) cycle
          ! the same defect seen under two drives differs in a last digit
-         if (index(without_numbers(found), without_numbers(diagnosis%words())) == 0) &
-            found = found//diagnosis%words()//new_line('a')
+         call add_distinct(found, diagnosis%words())
       end do
       if (size(chosen) == 0) then
-         if (.not. diagnosis%is_solvable()) found = diagnosis%words()//new_line('a')
+         if (.not. diagnosis%is_solvable()) call add_distinct(found, diagnosis%words())
       end if
       call tell(words, 'warnings', diagnosis%warnings%text())
-      if (len(found) > 0) then
-         call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found(:len(found) - 1))
+      call tell_remarks(base, cases, found%count() == 0, diagnosis%warnings%count() > 0, words, trouble)
+      if (found%count() > 0) then
+         call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found%text())
          return
       end if
-      if (base%balance /= 'none' .and. size(chosen) > 0) then
-         call balance(base, chosen(1)%tolerance, trouble)
-         if (allocated(trouble)) call move_alloc(trouble, error)
-      end if
+      if (size(chosen) > 0) call move_alloc(trouble, error)
    end subroutine examine
 
-   !> A text less its digits, signs and points.
-   pure function without_numbers(text) result(rest)
-      character(*), intent(in) :: text
-      character(:), allocatable :: rest
+   !> What looks implausible; balanced, where that can be done.
+   subroutine tell_remarks(base, cases, is_solvable, has_warnings, words, error)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: cases(:)
+      logical, intent(in) :: is_solvable, has_warnings
+      type(buffer_t), intent(inout) :: words
+      type(error_t), allocatable, intent(out) :: error    !! of balance
+      type(suspension_t) :: balanced
+      type(message_list_t) :: remarks
+      real(wp) :: tolerance
       integer :: k
 
-      rest = ''
-      do k = 1, len(text)
-         if (index('0123456789.+-E', text(k:k)) == 0) rest = rest//text(k:k)
+      balanced = base
+      if (is_solvable) then
+         tolerance = default_tolerance
+         if (size(cases) > 0) tolerance = cases(1)%tolerance
+         call balance(balanced, tolerance, error)
+         if (allocated(error)) balanced = base
+      end if
+      if (is_solvable .and. .not. allocated(error)) call balance_words(balanced, remarks)
+      do k = 1, remarks%count()
+         call words%line(remarks%line(k))
       end do
-   end function without_numbers
+      call doubt(balanced, cases, remarks)
+      do k = 1, remarks%count()
+         if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! told there
+         call tell(words, 'remark', remarks%line(k))
+      end do
+   end subroutine tell_remarks
 
    !> Bodies, unknowns, constraints, freedoms, condition, unused points.
    subroutine tell_model(suspension, diagnosis, checksum, words)

@@ -31,7 +31,8 @@ contains
       case ('check')
          text = 'elastokin check DECK [--case NAME] [--set path=value]…'//nl//nl// &
             'Reads a deck, reports every mistake with file and line, and examines the model: bodies, unknowns,'//nl// &
-            'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points.'//nl// &
+            'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points. A remark names'//nl// &
+            'what no road vehicle has, and what it looks like (off with plausible = .false. in &model).'//nl// &
             'Exit status 3 where the model cannot be solved.'
       case ('report')
          text = 'elastokin report DECK [options]'//nl//nl// &

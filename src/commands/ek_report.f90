@@ -1,6 +1,6 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
-   use ek_error, only: error_t, message_list_t, fail, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_units, only: millimetre
    use ek_text, only: str, plural
    use ek_version, only: version
@@ -22,6 +22,8 @@ module ek_report
    use ek_report_pictures, only: film_t, draw_pictures
    use ek_report_page, only: report_page
    use ek_window_option, only: chosen_windows
+   use ek_examination, only: examination_t, examine_cases
+   use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
    use ek_run_words, only: say_preloads, patch_words, spring_words
    use ek_words, only: say, warn, complain, tell_path
    implicit none(type, external)
@@ -44,6 +46,7 @@ contains
       type(chart_set_t), allocatable :: sets(:)
       type(windows_t) :: windows
       type(message_list_t) :: warnings
+      type(examination_t) :: found
       type(error_t), allocatable :: trouble, undrawn, unheard
       character(:), allocatable :: checksum, folder, message
       integer :: k, failed, code
@@ -57,6 +60,11 @@ contains
       if (allocated(error)) return
       folder = arguments%out
       if (len(folder) == 0) folder = 'out'
+      call examine_cases(suspension, chosen, found)
+      if (found%none_solvable()) then
+         call fail(error, exit_model, unsolvable_words(arguments%file, found))
+         return
+      end if
       call make_folder(join_path(folder, 'figures'), error)
       if (allocated(error)) return
       call balance(suspension, default_tolerance, error)
@@ -68,6 +76,8 @@ contains
       do k = 1, warnings%count()
          call warn(warnings%line(k))
       end do
+      call warn_of_balance(suspension, warnings)
+      call warn_of_remarks(suspension, cases, warnings)
       call remove_file(join_path(folder, 'report.html'))     ! of an earlier report: it must not be taken for this one
       call remove_file(join_path(folder, contents_file))
 
@@ -75,7 +85,7 @@ contains
       failed = 0
       code = exit_convergence
       do k = 1, size(planned)
-         call run_planned(suspension, planned(k), checksum, tests(k), films(k)%path, trouble)
+         call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble)
          if (allocated(trouble)) then
             call complain(trouble%message)
             failed = failed + 1

@@ -7,10 +7,9 @@ module ek_report_tests
    use ek_rig, only: mount
    use ek_standard_tests, only: standard_tests, test_title
    use ek_case, only: case_t
-   use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t, sweep
+   use ek_curve_reach, only: curve_reach_words
    use ek_sweep_table, only: sweep_table, factor_unit
    use ek_table, only: new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
@@ -139,9 +138,10 @@ contains
 
    !> Runs one test. What does not converge is told in its remarks; `error` then has exit_convergence (or
    !> exit_model, where there is nothing to solve), and the states before it are in the table.
-   subroutine run_planned(base, planned, checksum, test, path, error)
+   subroutine run_planned(base, planned, fault, checksum, test, path, error)
       type(suspension_t), intent(in) :: base
       type(planned_test_t), intent(in) :: planned
+      character(*), intent(in) :: fault            !! of the model in this test, '' for none: then there is nothing to run
       character(*), intent(in) :: checksum
       type(test_result_t), intent(out) :: test
       type(path_t), intent(out) :: path            !! states, for pictures
@@ -150,7 +150,6 @@ contains
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
-      type(diagnosis_t) :: diagnosis
       type(message_list_t) :: settled
       character(:), allocatable :: words, gaping
       integer :: side, k
@@ -167,19 +166,17 @@ contains
       allocate (test%prefixes(0), test%sides(0))
       suspension = base
       case = planned%case
+      if (len(fault) > 0) then
+         call fail(error, exit_model, fault)
+         call test%remarks%add(fault)
+         return
+      end if
       call mount(suspension, case, error)
       if (allocated(error)) then
          call test%remarks%add(error%message)
          return
       end if
       kkt = new_kkt(suspension)
-      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-      if (.not. diagnosis%is_solvable()) then
-         call fail(error, exit_model, 'case '//quoted(planned%name)//': the model cannot be solved'//new_line('a')// &
-            diagnosis%words())
-         call test%remarks%add(error%message)
-         return
-      end if
       call sweep(suspension, case, path, kkt)
       test%is_run = .true.
       words = ''
@@ -194,6 +191,7 @@ contains
          call test%remarks%add(settled%line(k))
       end do
       call rack_words(suspension, case, test%remarks)
+      call curve_reach_words(suspension, case, path, test%remarks)
       call sweep_table(suspension, case, path, kkt, test%table)
       gaping = open_words(case, test%table)
       if (len(gaping) > 0) then

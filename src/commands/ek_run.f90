@@ -8,15 +8,15 @@ module ek_run
    use ek_file, only: make_folder, write_standard_output, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
-   use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
-   use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_examination, only: examination_t, examine_cases
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_wheel_side, only: single_side
    use ek_sweep_table, only: sweep_table
    use ek_test_result, only: frame_line
+   use ek_curve_reach, only: curve_reach_words
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: write_csv, csv_text
@@ -25,6 +25,7 @@ module ek_run
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
+   use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
       warn_of_instability, warn_of_travel, failure_words, open_words, add_line
    use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
@@ -43,6 +44,7 @@ contains
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unheard
       type(message_list_t) :: doubts
+      type(examination_t) :: found
       character(:), allocatable :: checksum, folder, words
       integer :: k, failed, code
 
@@ -57,6 +59,11 @@ contains
             ' cases; name one with --case')
          return
       end if
+      call examine_cases(suspension, chosen, found)
+      if (found%none_solvable()) then
+         call fail(error, exit_model, unsolvable_words(arguments%file, found))
+         return
+      end if
       if (folder /= '-') then
          call make_folder(folder, error)
          if (allocated(error)) return
@@ -69,11 +76,17 @@ contains
       do k = 1, doubts%count()
          call warn(doubts%line(k))
       end do
+      call warn_of_balance(suspension)
+      call warn_of_remarks(suspension, cases)
 
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
-         call run_case(arguments, suspension, chosen(k), folder, checksum, unheard, trouble)
+         if (found%is_solvable(k)) then
+            call run_case(arguments, suspension, chosen(k), folder, checksum, unheard, trouble)
+         else
+            call fail(trouble, exit_model, found%faults%line(k))
+         end if
          if (.not. allocated(trouble)) cycle
          if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
             call move_alloc(trouble, error)
@@ -107,7 +120,6 @@ contains
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
-      type(diagnosis_t) :: diagnosis
       type(path_t) :: path
       type(table_t) :: table
       type(message_list_t) :: doubts
@@ -119,12 +131,6 @@ contains
       call mount(suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
-      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-      if (.not. diagnosis%is_solvable()) then
-         call fail(error, exit_model, 'case '//quoted(case%name)//': the model cannot be solved'//new_line('a')//diagnosis%words())
-         return
-      end if
-
       call sweep(suspension, case, path, kkt, show_progress)
       if (path%states > 1000) call clear_progress()
       words = ''
@@ -137,6 +143,7 @@ contains
       call warn_of_instability(suspension, case, path)
       call warn_of_travel(suspension, case, path)
       call rack_words(suspension, case, doubts)
+      call curve_reach_words(suspension, case, path, doubts)
       do side = 1, doubts%count()
          call warn('case '//quoted(case%name)//': '//doubts%line(side))
       end do

@@ -60,6 +60,7 @@ module ek_group
       key_t(model_group, 'axes', word, 1, 1, .false.), &
       key_t(model_group, 'balance', word, 1, 1, .false.), &
       key_t(model_group, 'gravity', number, 1, 1, .false.), &
+      key_t(model_group, 'plausible', switch, 1, 1, .false.), &
       key_t(point_group, 'name', word, 1, 1, .true.), &
       key_t(point_group, 'note', prose, 1, 1, .false.), &
       key_t(point_group, 'at', number, 3, 3, .true.), &
@@ -95,6 +96,7 @@ module ek_group
       key_t(joint_group, 'measures', word, 1, most_measures, .false.), &
       key_t(joint_group, 'ratios', number, 1, most_measures, .false.), &
       key_t(joint_group, 'stiffness', number, 1, 1, .false.), &
+      key_t(joint_group, 'balance', switch, 1, 1, .false.), &
       key_t(bushing_group, 'name', word, 1, 1, .true.), &
       key_t(bushing_group, 'note', prose, 1, 1, .false.), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true.), &
@@ -116,6 +118,7 @@ module ek_group
       key_t(spring_group, 'rate', number, 1, 1, .false.), &
       key_t(spring_group, 'curve', word, 1, 1, .false.), &
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
+      key_t(spring_group, 'balance', switch, 1, 1, .false.), &
       key_t(spring_group, 'free_length', number, 1, 1, .false.), &
       key_t(curve_group, 'name', word, 1, 1, .true.), &
       key_t(curve_group, 'note', prose, 1, 1, .false.), &

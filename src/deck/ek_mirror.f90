@@ -127,7 +127,7 @@ contains
       end do
    end subroutine survey
 
-   !> The names in `shared`; each must be that of something.
+   !> The names in `shared`; each must be that of something. 'none' alone, where nothing has that name, is no name.
    subroutine find_shared(mirror, half, complaints)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
@@ -150,6 +150,7 @@ contains
                   is_found = .true.
                   half%is_shared(k) = is_candidate(k)
                end do
+               if (mirror%entries(e)%used == 1 .and. lower(value%text) == 'none') is_found = .true.
                if (.not. is_found) call complain(complaints, mirror, 'shared', 'shared: there is no body, point or element '// &
                   quoted(value%text)//did_you_mean(value%text, pack(half%names, is_candidate)))
             end associate

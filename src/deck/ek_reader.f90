@@ -217,7 +217,8 @@ contains
       character(word_length) :: name, length, force, angle, axes, balance
       character(note_length) :: title
       real(wp) :: gravity
-      namelist /model/ name, title, length, force, angle, axes, balance, gravity
+      logical :: plausible
+      namelist /model/ name, title, length, force, angle, axes, balance, gravity, plausible
       character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
          angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
          balances(3) = [character(6) :: 'none', 'spring', 'all']
@@ -242,6 +243,7 @@ contains
          axes = 'x-rear'
          balance = 'none'
          gravity = 0.0_wp
+         plausible = .true.
          read (draft%cards(k)%text, nml=model, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call choice(draft, deck, k, 'length', trim(length), lengths, c)
@@ -258,6 +260,9 @@ contains
          suspension%title = trim(title)
          suspension%balance = lower(trim(balance))
          suspension%is_iso = draft%is_iso
+         suspension%units = draft%units
+         suspension%is_plausible_wanted = plausible
+         suspension%where = where_of(deck, k)
       end do
       if (first == 0 .and. all(draft%cards%group > 0)) &
          call complain_of_all(deck, draft, 'there is no &model (it gives name, units and axes)')

@@ -7,7 +7,7 @@ module ek_reader_axle
    use ek_record, only: element
    use ek_group, only: group_names, axle_group, steering_group, joint_group, measure_group, word_length
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, line_of, has_key, choice, look_up, find_card
+   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, look_up, find_card
    implicit none(type, external)
    private
    public :: read_axle, read_steering
@@ -53,6 +53,7 @@ contains
             call choice(draft, deck, k, 'drive_reaction', trim(drive_reaction), [character(12) :: 'wheel_centre', 'patch'], c)
             this%drives_at_patch = c == 2
             this%has_axle = .true.
+            this%where = where_of(deck, k)
             this%wheelbase = wheelbase*draft%units%length
             this%cg_height = cg_height*draft%units%length
             this%brake_share = brake_share
@@ -89,6 +90,7 @@ contains
          call look_up(draft, deck, k, 'driver', joint_group, trim(driver), found)
          if (found > 0) call check_driver()
          suspension%steering%has_steering = .true.
+         suspension%steering%where = where_of(deck, k)
          suspension%steering%driver = trim(driver)
          suspension%steering%ratio = ratio*draft%units%length
          suspension%steering%travel = travel*draft%units%length

@@ -55,7 +55,9 @@ contains
             if (x(j) - x(j - 1) < least_step) call complain(draft, deck, k, 'x', 'x must increase by '//str(least_step)// &
                ' or more, found '//str(x(j))//' after '//str(x(j - 1)))
          end do
-         if (draft%cards(k)%is_good) draft%curves(used) = new_curve(x(:n), y(:n), lower(trim(kind)))
+         if (.not. draft%cards(k)%is_good) cycle
+         draft%curves(used) = new_curve(x(:n), y(:n), lower(trim(kind)))
+         draft%curves(used)%name = trim(name)
       end do
    end subroutine read_curves
 

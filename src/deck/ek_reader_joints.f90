@@ -106,7 +106,8 @@ contains
       character(word_length) :: name, type, bodies(2), at(2), axis(2), axis_2(2), measure, measures(most_measures)
       real(wp) :: axis_vector(3), axis_2_vector(3), ratios(most_measures), stiffness
       namelist /joint/ name, type, bodies, at, axis, axis_vector, axis_2, axis_2_vector, measure, measures, ratios, &
-         stiffness
+         stiffness, balance
+      logical :: balance
       character(:), allocatable :: kind
       integer :: k, number, status
 
@@ -124,6 +125,7 @@ contains
          axis_2_vector = 0.0_wp
          ratios = 0.0_wp
          stiffness = 1.0_wp
+         balance = .true.
          read (draft%cards(k)%text, nml=joint, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call choice(draft, deck, k, 'type', trim(type), joint_kinds, number)
@@ -218,6 +220,8 @@ contains
          associate (readout => draft%cards(found)%index)
             if (.not. draft%cards(k)%is_good .or. readout == 0) return
             if (.not. has_key(deck, k, 'stiffness')) then
+               if (has_key(deck, k, 'balance')) call complain(draft, deck, k, 'balance', &
+                  'balance: a driver without a stiffness always takes part')
                call add_driver(suspension, trim(name), where_of(deck, k), readout)
                return
             end if
@@ -226,6 +230,8 @@ contains
                reaction_unit = reaction_unit*draft%units%length
             call add_driver(suspension, trim(name), where_of(deck, k), readout, &
                stiffness*reaction_unit/draft%cards(found)%factor)
+            suspension%joints(size(suspension%joints))%says_balance = has_key(deck, k, 'balance')
+            suspension%joints(size(suspension%joints))%is_balanced = balance
          end associate
       end subroutine make_driver
 
@@ -283,10 +289,10 @@ contains
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       character(*), intent(in) :: kind
-      character(*), parameter :: joint_keys(10) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
-         'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness']
+      character(*), parameter :: joint_keys(11) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
+         'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance']
       logical :: is_geometric
-      logical :: may(10), must(10)
+      logical :: may(11), must(11)
       integer :: j
 
       is_geometric = kind /= 'driver' .and. kind /= 'coupler'
@@ -295,11 +301,11 @@ contains
       may(5:6) = needs_second_axis(kind) .or. kind == 'parallel'
       may(7) = kind == 'driver'
       may(8:9) = kind == 'coupler'
-      may(10) = kind == 'driver'
+      may(10:11) = kind == 'driver'
       must = may
       must(2) = is_geometric .and. kind /= 'parallel' .and. kind /= 'perpendicular'
       must(3:6) = .false.
-      must(10) = .false.
+      must(10:11) = .false.
       do j = 1, size(joint_keys)
          if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint has no such key')
          if (must(j) .and. .not. has_key(deck, k, trim(joint_keys(j)))) &

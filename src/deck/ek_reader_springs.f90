@@ -4,7 +4,7 @@ module ek_reader_springs
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t, look_up_curve
    use ek_measure, only: distance
-   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle
+   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, spring_t
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_element
    use ek_group, only: measure_group, spring_group, damper_group, stop_group, torsion_group, word_length
@@ -32,7 +32,9 @@ contains
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, bodies(2), at(2), measure, curve
       real(wp) :: rate, preload, free_length
-      namelist /spring/ name, bodies, at, measure, rate, curve, preload, free_length
+      logical :: balance
+      namelist /spring/ name, bodies, at, measure, rate, curve, preload, free_length, balance
+      type(spring_t) :: element
       type(ends_t) :: ends
       real(wp), allocatable :: free
       type(curve_t), allocatable :: law      ! where there is none, or it was refused: an absent argument
@@ -49,6 +51,7 @@ contains
          rate = 0.0_wp
          preload = 0.0_wp
          free_length = 1.0_wp
+         balance = .true.
          read (draft%cards(k)%text, nml=spring, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
 
@@ -72,13 +75,15 @@ contains
          if (has_key(deck, k, 'free_length')) free = free_length*draft%units%length
          if (has_key(deck, k, 'measure')) then
             associate (readout => suspension%readouts(draft%cards(found)%index))
-               call add_element(suspension, new_measure_spring(trim(name), where_of(deck, k), readout%measure, &
-                  rate*(force_unit/value_unit), preload*force_unit, free, law))
+               element = new_measure_spring(trim(name), where_of(deck, k), readout%measure, &
+                  rate*(force_unit/value_unit), preload*force_unit, free, law)
             end associate
-            cycle
+         else
+            element = new_spring(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
+               ends%at(:, 1), ends%at(:, 2), rate*(force_unit/value_unit), preload*force_unit, free, law)
          end if
-         call add_element(suspension, new_spring(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
-            ends%at(:, 1), ends%at(:, 2), rate*(force_unit/value_unit), preload*force_unit, free, law))
+         element%is_balanced = balance
+         call add_element(suspension, element)
       end do
 
    contains

@@ -123,6 +123,12 @@ contains
             w = unit_vector(w)
          end if
          this%spin = w
+         this%toe = delta
+         this%camber = gamma
+         if (has_key(deck, k, 'spin_vector')) then
+            this%toe = atan2(-w(1), this%side*w(2))
+            this%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
+         end if
       end subroutine find_spin
 
    end subroutine read_wheels

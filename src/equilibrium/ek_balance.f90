@@ -3,14 +3,17 @@
 !> `spring`: the spring preloads with which the wheels settle at their design height.
 !> `all`: spring and bushing preloads with which every body stays exactly at design; among all that do,
 !> the bushing preloads of least complementary energy Σ f²/2k (k of a curve: its slope at design).
-!> Dampers, stops and torsion springs keep theirs.
+!> Dampers, stops and torsion springs keep theirs, and springs with `balance = .false.`.
+!>
+!> A driver with a stiffness that acts on the body of a wheel (a tyre as a spring under the patch) would carry the wheel in place
+!> of the coil: it keeps out of `all` unless its joint says `balance = .true.`. Others (a rack, a column) take part.
 module ek_balance
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model, exit_convergence
-   use ek_text, only: str
+   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
+   use ek_text, only: str, quoted, plural
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
-   use ek_spring, only: axial_spring
+   use ek_spring, only: axial_spring, spring_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
@@ -20,7 +23,7 @@ module ek_balance
    use ek_lapack, only: dgelsd
    implicit none(type, external)
    private
-   public :: balance
+   public :: balance, balance_words, takes_part
 
 contains
 
@@ -38,6 +41,70 @@ contains
       end select
    end subroutine balance
 
+   !> Whether balance may change the preload of an element.
+   elemental logical function is_free(spring)
+      type(spring_t), intent(in) :: spring
+      is_free = spring%kind == axial_spring .and. spring%is_balanced
+   end function is_free
+
+   !> Whether a row may bear a force at design: always, but for drivers with a stiffness that act on the body of a wheel
+   !> (their joint may say otherwise, either way).
+   pure logical function takes_part(suspension, row)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: row
+      integer :: t
+
+      takes_part = .true.
+      if (.not. suspension%rows(row)%compliance > 0.0_wp) return
+      associate (joint => suspension%joints(suspension%rows(row)%joint))
+         takes_part = joint%is_balanced
+         if (joint%says_balance) return
+      end associate
+      do t = suspension%rows(row)%first, suspension%rows(row)%first + suspension%rows(row)%terms - 1
+         associate (m => suspension%terms(t)%measure)
+            if (any(suspension%wheels%body == m%body_i) .or. any(suspension%wheels%body == m%body_j)) takes_part = .false.
+         end associate
+      end do
+   end function takes_part
+
+   !> What is to be said of a balance: drivers that keep out of it, a split that is not unique.
+   subroutine balance_words(suspension, words)
+      type(suspension_t), intent(in) :: suspension
+      type(message_list_t), intent(inout) :: words
+      integer :: k, springs
+
+      select case (suspension%balance)
+      case ('all')
+         do k = 1, size(suspension%rows)
+            if (takes_part(suspension, k)) cycle
+            associate (joint => suspension%joints(suspension%rows(k)%joint))
+               call words%add('balance: driver '//quoted(joint%name)//' keeps out and bears nothing at design'// &
+                  trim(merge('                                                                             ', &
+                  ' (it acts on the body of a wheel; balance = .true. in its &joint lets it in) ', joint%says_balance)))
+            end associate
+         end do
+      case ('spring')
+         springs = count(is_free(suspension%springs))
+         if (springs > size(suspension%wheels)) call words%add('balance: '//str(springs)//' springs are balanced for '// &
+            plural(size(suspension%wheels), 'wheel', 'wheels')//', so that their preloads are not unique; the least change of '// &
+            'them is taken. Springs in series bear one force: balance = .false. in the &spring that is to keep its preload')
+      end select
+   end subroutine balance_words
+
+   !> '; driver … keeps out of it', for an error.
+   function kept_out(suspension) result(text)
+      type(suspension_t), intent(in) :: suspension
+      character(:), allocatable :: text
+      integer :: k
+
+      text = ''
+      do k = 1, size(suspension%rows)
+         if (takes_part(suspension, k)) cycle
+         text = text//'; driver '//quoted(suspension%joints(suspension%rows(k)%joint)%name)// &
+            ' keeps out of it, unless its &joint says balance = .true.'
+      end do
+   end function kept_out
+
    !> Newton's method on the wheels' settled heights; the change of least norm where springs are many.
    !>
    !> The first change is that of the linear problem at design, where the answer lies. A wheel that settles without enough
@@ -52,7 +119,7 @@ contains
       real(wp) :: height(size(suspension%wheels))
       integer :: w, iteration
 
-      if (.not. any(suspension%springs%kind == axial_spring) .or. size(suspension%wheels) == 0) then
+      if (.not. any(is_free(suspension%springs)) .or. size(suspension%wheels) == 0) then
          call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
          return
       end if
@@ -103,7 +170,7 @@ contains
 
       slope = 0.0_wp
       do s = 1, size(change)
-         if (suspension%springs(s)%kind /= axial_spring) cycle
+         if (.not. is_free(suspension%springs(s))) cycle
          associate (m => suspension%springs(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             kkt%rhs = 0.0_wp     ! a unit of preload pushes the ends apart
@@ -119,7 +186,7 @@ contains
       end do
       call least_norm(slope, -height, change)
       do s = 1, size(change)
-         suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
+         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
       end do
    end subroutine lower_by
 
@@ -149,7 +216,7 @@ contains
       integer :: b, k, s, at, t, nx, ny
 
       do s = 1, size(suspension%springs)
-         if (suspension%springs(s)%kind == axial_spring) suspension%springs(s)%preload = 0.0_wp
+         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = 0.0_wp
       end do
       do b = 1, size(suspension%bushings)
          suspension%bushings(b)%preload_force = 0.0_wp
@@ -172,7 +239,7 @@ contains
          end do
       end do
       do s = 1, size(suspension%springs)
-         if (suspension%springs(s)%kind /= axial_spring) cycle
+         if (.not. is_free(suspension%springs(s))) cycle
          associate (m => suspension%springs(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)
@@ -182,6 +249,7 @@ contains
          end associate
       end do
       do k = 1, kkt%nc
+         if (.not. takes_part(suspension, k)) cycle
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
             associate (m => suspension%terms(t)%measure, c => size(suspension%springs) + k)
                at = 6*(m%body_i - 1)
@@ -203,11 +271,12 @@ contains
       call least_norm(free, remainder, y)
       remainder = remainder - matmul(free, y)
       if (norm2(remainder) > 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
-         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
+         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
+            kept_out(suspension))
          return
       end if
       do s = 1, size(suspension%springs)
-         if (suspension%springs(s)%kind == axial_spring) suspension%springs(s)%preload = y(s)
+         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = y(s)
       end do
       do k = 1, kkt%nc      ! what a driver with a stiffness is prescribed takes up its own deflection
          suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(size(suspension%springs) + k)

@@ -2,25 +2,34 @@
 !>
 !> A mechanism is a motion that keeps every joint and meets no stiffness: a null vector of Zᵀ T Z,
 !> Z a basis of the null space of Φq. A redundant constraint is a left null vector of Φq. Both are
-!> found by LAPACK's singular and eigenvalue decompositions of the scaled matrices, where every
-!> stiffness of a usual suspension is above 1e-5 of the characteristic one.
+!> found by LAPACK's singular and eigenvalue decompositions of the scaled matrices.
+!>
+!> No stiffness is what is below the rounding of the very sums that make it, vᵀ T v against |v|ᵀ |T| |v|, or below 1e-7 of
+!> the softest spring or bushing (hardpoints to a tenth of a millimetre leave such levers), less where many bodies take
+!> part. The characteristic stiffness does not count: a coil of 30 N/mm beside bushings of 1e10 N/mm, or the bending of a
+!> chain of 160 bodies, is soft beyond comparison, but no mechanism.
+!>
+!> T has the geometric stiffness of preloads in it. A motion for which the elastic elements alone (K, material) have none
+!> is held by preload only, and told apart.
 module ek_diagnosis
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
-   use ek_units, only: millimetre
-   use ek_text, only: str, quoted, vector_text, plural
-   use ek_rotation, only: cross
+   use ek_text, only: str, quoted, plural
+   use ek_spring, only: axial_spring, spring_tension
+   use ek_elastic, only: design_rates
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
-   use ek_kkt, only: kkt_t, assemble, condition, whole_tangent
+   use ek_kkt, only: kkt_t, assemble, condition, whole_tangent, material_only
+   use ek_motion_words, only: motion_words, place
    use ek_lapack, only: dgesvd, dsyev
    implicit none(type, external)
    private
    public :: diagnosis_t, diagnose
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
-   real(wp), parameter :: no_stiffness = 1.0e-7_wp        !! of the characteristic stiffness: a mechanism
-   real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! likewise: worth a warning
+   real(wp), parameter :: no_stiffness = 1.0e-7_wp        !! of the softest element: a mechanism of one body
+   real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! of a sum of n parts, for each of them: below it is nothing
+   real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! of the characteristic stiffness: worth a warning
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a null vector
 
    !> Findings about a model at a state.
@@ -33,6 +42,7 @@ module ek_diagnosis
       type(message_list_t) :: mechanisms         !! one line each
       type(message_list_t) :: redundancies       !! one line each
       type(message_list_t) :: warnings           !! soft or unstable motions
+      type(message_list_t) :: preload_held       !! motions that nothing but preloads hold
    contains
       procedure :: is_solvable
       procedure :: words
@@ -59,12 +69,13 @@ contains
    !> Examines a model at a state (design, or where a solution failed).
    !>
    !> `driven` rows count as held. Costs a few dense decompositions: for a check, not for an increment.
-   subroutine diagnose(suspension, state, kkt, diagnosis)
+   subroutine diagnose(suspension, state, kkt, diagnosis, wants_preload_held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt              !! work space of this model
       type(diagnosis_t), intent(out) :: diagnosis
-      real(wp) :: tangent(kkt%nq, kkt%nq), right(kkt%nq, kkt%nq), gradient(kkt%nq)
+      logical, intent(in), optional :: wants_preload_held    !! motions that preload alone holds are looked for, too
+      real(wp) :: tangent(kkt%nq, kkt%nq), material(kkt%nq, kkt%nq), right(kkt%nq, kkt%nq)
       real(wp), allocatable :: jacobian(:, :), left(:, :), singular(:)
       integer, allocatable :: rows(:)      ! that hold for certain: those without compliance
       integer :: i, j, rank
@@ -73,18 +84,9 @@ contains
       allocate (jacobian(size(rows), kkt%nq), left(size(rows), size(rows)), singular(max(1, min(size(rows), kkt%nq))))
       call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
       call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+      call scaled_stiffness(suspension, kkt, tangent)
       do j = 1, kkt%nq
-         do i = 1, kkt%nq
-            tangent(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
-         end do
          jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
-      end do
-      do i = 1, kkt%nc       ! a driver with a stiffness is a spring
-         if (.not. suspension%rows(i)%compliance > 0.0_wp) cycle
-         gradient = kkt%matrix(kkt%nq + i, :kkt%nq)*kkt%scale(:kkt%nq)
-         do j = 1, kkt%nq
-            tangent(:, j) = tangent(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
-         end do
       end do
 
       left = 0.0_wp
@@ -103,7 +105,34 @@ contains
       diagnosis%freedoms = kkt%nq - rank
       if (rank < size(rows)) call name_redundancies(suspension, left(:, rank + 1:), rows, diagnosis)
       if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, right(:, rank + 1:), kkt, diagnosis)
+      if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
+      if (.not. wants_preload_held) return
+      call assemble(suspension, state, demand_t(), material_only, kkt)
+      call scaled_stiffness(suspension, kkt, material)
+      call name_preload_held(suspension, state, tangent, material, right(:, rank + 1:), kkt, diagnosis)
    end subroutine diagnose
+
+   !> Stiffness of the system that was assembled last, scaled and whole.
+   subroutine scaled_stiffness(suspension, kkt, stiffness)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt
+      real(wp), intent(out) :: stiffness(:, :)
+      real(wp) :: gradient(kkt%nq)
+      integer :: i, j
+
+      do j = 1, kkt%nq
+         do i = 1, kkt%nq
+            stiffness(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
+         end do
+      end do
+      do i = 1, kkt%nc       ! a driver with a stiffness is a spring
+         if (.not. suspension%rows(i)%compliance > 0.0_wp) cycle
+         gradient = kkt%matrix(kkt%nq + i, :kkt%nq)*kkt%scale(:kkt%nq)
+         do j = 1, kkt%nq
+            stiffness(:, j) = stiffness(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
+         end do
+      end do
+   end subroutine scaled_stiffness
 
    !> Singular value decomposition: left vectors, singular values, right vectors by column.
    subroutine decompose(a, left, singular, right)
@@ -161,20 +190,32 @@ contains
                   ' that cannot happen anyway'
             else
                text = 'redundant: joints '//text//' hold the same '//plural(times(g), 'motion', 'motions')// &
-                  ' more than once; remove or weaken one of them'
+                  ' more than once; '//remedy(suspension, seen(:, g))
             end if diagnosis_line
             call diagnosis%redundancies%add(text)
          end block
       end do
    end subroutine name_redundancies
 
-   !> ' (file:line)' or nothing.
-   pure function place(where) result(text)
-      character(*), intent(in) :: where
+   !> What to do about joints that hold the same.
+   pure function remedy(suspension, is_part) result(text)
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: is_part(:)
       character(:), allocatable :: text
-      text = ''
-      if (len(where) > 0) text = ' ('//where//')'
-   end function place
+      integer :: first, last
+
+      text = 'replace one by a weaker type or by a bushing, or remove it'
+      first = findloc(is_part, .true., dim=1)
+      last = findloc(is_part, .true., dim=1, back=.true.)
+      if (count(is_part) /= 2) return
+      associate (one => suspension%joints(first), other => suspension%joints(last))
+         if (one%kind /= 'spherical' .or. other%kind /= 'spherical') return
+         if (one%body_i /= other%body_i .or. one%body_j /= other%body_j) return
+         if (norm2(one%arm_j - other%arm_j) <= 0.0_wp) return
+         text = 'an arm on two ball joints: make '//quoted(other%name)//' of type in_line, with its axis along the line of the '// &
+            'two, or a bushing'
+      end associate
+   end function remedy
 
    !> Names the motions without stiffness, and warns of soft and unstable ones.
    subroutine name_mechanisms(suspension, state, tangent, basis, kkt, diagnosis)
@@ -184,30 +225,152 @@ contains
       real(wp), intent(in) :: basis(:, :)          !! null space of scaled Φq
       type(kkt_t), intent(in) :: kkt
       type(diagnosis_t), intent(inout) :: diagnosis
-      real(wp) :: reduced(size(basis, 2), size(basis, 2)), eigenvalue(size(basis, 2)), work(40*size(basis, 2))
-      real(wp), allocatable :: motions(:, :)
+      real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
+      real(wp), allocatable :: free(:, :)
+      logical :: is_free(size(basis, 2))
+      integer :: k
+
+      call modes(tangent, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise)
+      diagnosis%softest = eigenvalue(1)
+      is_free = abs(eigenvalue) <= noise
+      allocate (free, source=pick(motions, is_free))
+      call make_sparse(free)
+      do k = 1, size(free, 2)
+         call diagnosis%mechanisms%add('mechanism: '//motion_words(suspension, state, kkt, free(:, k)))
+      end do
+      do k = 1, size(eigenvalue)
+         if (eigenvalue(k) < -noise(k)) call diagnosis%warnings%add('unstable at design (negative stiffness): '// &
+            motion_words(suspension, state, kkt, motions(:, k)))
+      end do
+      k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest that is held at all
+      if (k > 0) then
+         if (eigenvalue(k) < soft_stiffness) call diagnosis%warnings%add('very soft ('//str(eigenvalue(k), 2)// &
+            ' of the characteristic stiffness'//softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '// &
+            motion_words(suspension, state, kkt, motions(:, k))//others(count(eigenvalue > noise .and. &
+            eigenvalue < soft_stiffness) - 1))
+      end if
+   end subroutine name_mechanisms
+
+   !> Motions that meet no material stiffness, but some of preloads that keeps them where they are.
+   subroutine name_preload_held(suspension, state, tangent, material, basis, kkt, diagnosis)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: tangent(:, :), material(:, :), basis(:, :)   !! scaled; with and without geometric stiffness
+      type(kkt_t), intent(in) :: kkt
+      type(diagnosis_t), intent(inout) :: diagnosis
+      real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
+      real(wp), allocatable :: loose(:, :), held(:, :), motions_held(:, :), stiffness(:), least(:)
+      integer :: k
+
+      call modes(material, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise)
+      allocate (loose, source=pick(motions, eigenvalue <= noise))
+      if (size(loose, 2) == 0) return
+      allocate (held, mold=loose)
+      allocate (stiffness(size(loose, 2)), least(size(loose, 2)))
+      call modes(tangent, loose, softest_rate(suspension, kkt), held, stiffness, least)
+      allocate (motions_held, source=pick(held, stiffness > least))
+      call make_sparse(motions_held)
+      do k = 1, size(motions_held, 2)
+         call diagnosis%preload_held%add('held by preloads or loads alone, no spring, bushing or link stops it: '// &
+            motion_words(suspension, state, kkt, motions_held(:, k)))
+      end do
+   end subroutine name_preload_held
+
+   !> Eigenvectors of a stiffness within a space of motions, softest first, and below what each is none.
+   subroutine modes(stiffness, basis, least, motions, eigenvalue, noise)
+      real(wp), intent(in) :: stiffness(:, :), basis(:, :)
+      real(wp), intent(in) :: least              !! rate of the softest element, scaled
+      real(wp), intent(out) :: motions(:, :), eigenvalue(:), noise(:)
+      real(wp) :: reduced(size(basis, 2), size(basis, 2)), work(40*size(basis, 2))
       integer :: n, k, info
 
       n = size(basis, 2)
-      reduced = matmul(transpose(basis), matmul(tangent, basis))
+      reduced = matmul(transpose(basis), matmul(stiffness, basis))
       call dsyev('V', 'L', n, reduced, n, eigenvalue, work, size(work), info)
-      diagnosis%softest = eigenvalue(1)
-      motions = matmul(basis, reduced(:, :count(abs(eigenvalue) < no_stiffness)+count(eigenvalue <= -no_stiffness)))
-      motions = motions(:, count(eigenvalue <= -no_stiffness) + 1:)
-      call make_sparse(motions)
-      do k = 1, size(motions, 2)
-         call diagnosis%mechanisms%add('mechanism: '//motion_words(suspension, state, kkt, motions(:, k)))
-      end do
+      motions = matmul(basis, reduced)
       do k = 1, n
-         if (eigenvalue(k) <= -no_stiffness) then
-            call diagnosis%warnings%add('unstable at design (negative stiffness): '// &
-               motion_words(suspension, state, kkt, matmul(basis, reduced(:, k))))
-         else if (eigenvalue(k) >= no_stiffness .and. eigenvalue(k) < soft_stiffness) then
-            call diagnosis%warnings%add('very soft ('//str(eigenvalue(k), 2)//' of the characteristic stiffness): '// &
-               motion_words(suspension, state, kkt, matmul(basis, reduced(:, k))))
-         end if
+         eigenvalue(k) = dot_product(motions(:, k), matmul(stiffness, motions(:, k)))
+         noise(k) = rounding*size(basis, 1)*dot_product(abs(motions(:, k)), matmul(abs(stiffness), abs(motions(:, k))))
+         noise(k) = max(noise(k), no_stiffness*least/bodies_in(motions(:, k))**2, tiny(1.0_wp))
       end do
-   end subroutine name_mechanisms
+   end subroutine modes
+
+   !> How many bodies share a motion: (Σ p)²/Σ p² of their parts p, 1 for one alone.
+   pure real(wp) function bodies_in(motion) result(bodies)
+      real(wp), intent(in) :: motion(:)
+      real(wp) :: part(size(motion)/6)
+      integer :: k
+
+      do k = 1, size(part)
+         part(k) = norm2(motion(6*k - 5:6*k))
+      end do
+      bodies = sum(part)**2/max(sum(part**2), tiny(1.0_wp))
+   end function bodies_in
+
+   !> Least rate of the springs and bushings, of the characteristic stiffness; at most 1.
+   real(wp) function softest_rate(suspension, kkt) result(least)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt
+      real(wp) :: rates(6), tension, slope
+      integer :: k
+
+      least = kkt%stiffness
+      do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%kind /= axial_spring) cycle
+         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
+         if (slope > 0.0_wp) least = min(least, slope)
+      end do
+      do k = 1, size(suspension%bushings)
+         rates = design_rates(suspension%bushings(k))
+         least = min(least, minval(rates(1:3), mask=rates(1:3) > 0.0_wp))
+      end do
+      least = least/kkt%stiffness
+   end function softest_rate
+
+   !> The columns of a matrix where a mask is true.
+   pure function pick(matrix, mask) result(columns)
+      real(wp), intent(in) :: matrix(:, :)
+      logical, intent(in) :: mask(:)
+      real(wp), allocatable :: columns(:, :)
+      integer :: k, used
+
+      allocate (columns(size(matrix, 1), count(mask)))
+      used = 0
+      do k = 1, size(mask)
+         if (.not. mask(k)) cycle
+         used = used + 1
+         columns(:, used) = matrix(:, k)
+      end do
+   end function pick
+
+   !> ", 3E+10 times softer than bushing 'x'", or nothing where no bushing is that much stiffer.
+   function softer_than(suspension, stiffness) result(text)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: stiffness           !! N/m
+      character(:), allocatable :: text
+      real(wp), parameter :: much = 1.0e6_wp
+      integer :: k, stiffest
+
+      text = ''
+      stiffest = 0
+      do k = 1, size(suspension%bushings)
+         if (stiffest == 0) stiffest = k
+         if (maxval(suspension%bushings(k)%kt) > maxval(suspension%bushings(stiffest)%kt)) stiffest = k
+      end do
+      if (stiffest == 0) return
+      associate (b => suspension%bushings(stiffest))
+         if (maxval(b%kt) < much*stiffness) return
+         text = ', '//str(maxval(b%kt)/stiffness, 2)//' times softer than bushing '//quoted(b%name)//place(b%where)
+      end associate
+   end function softer_than
+
+   !> '; and 3 motions more'
+   pure function others(count) result(text)
+      integer, intent(in) :: count
+      character(:), allocatable :: text
+      text = ''
+      if (count > 0) text = '; and '//plural(count, 'motion', 'motions')//' more'
+   end function others
 
    !> Gauss–Jordan with column pivoting on the columns: the same space, each vector with few parts, so
    !> that two independent defects are told as two.
@@ -227,89 +390,5 @@ contains
          end do
       end do
    end subroutine make_sparse
-
-   !> Which body moves most, how, and which others go with it.
-   function motion_words(suspension, state, kkt, motion) result(text)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(kkt_t), intent(in) :: kkt
-      real(wp), intent(in) :: motion(:)            !! scaled unknowns
-      character(:), allocatable :: text
-      real(wp) :: part(size(suspension%bodies))
-      integer :: k, main
-
-      do k = 1, size(part)
-         part(k) = norm2(motion(6*k - 5:6*k))
-      end do
-      main = maxloc(part, dim=1)
-      text = 'body '//quoted(suspension%bodies(main)%name)//place(suspension%bodies(main)%where)//' '// &
-         one_body_words(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
-      do k = 1, size(part)
-         if (k == main .or. part(k) <= takes_part*part(main)) cycle
-         text = text//'; body '//quoted(suspension%bodies(k)%name)//' '// &
-            one_body_words(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
-      end do
-   end function motion_words
-
-   !> 'turns freely about the axis …' or 'slides freely along …'.
-   function one_body_words(suspension, r, kkt, motion, body) result(text)
-      type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: r(3), motion(6)
-      type(kkt_t), intent(in) :: kkt
-      integer, intent(in) :: body
-      character(:), allocatable :: text
-      real(wp) :: v(3), w(3), axis(3), through(3), lead
-
-      v = motion(1:3)*kkt%scale(6*body - 5)
-      w = motion(4:6)*kkt%scale(6*body - 2)
-      if (norm2(w)*kkt%length < takes_part*norm2(v)) then
-         axis = in_frame(suspension, v/norm2(v))
-         text = 'slides freely along '//vector_text(axis, 4)
-         return
-      end if
-      axis = w/norm2(w)
-      through = r + cross(axis, v)/norm2(w)
-      lead = dot_product(v, axis)/norm2(w)
-      text = 'turns freely about the axis '//vector_text(in_frame(suspension, tidy(axis)), 3)//' through '// &
-         vector_text(in_frame(suspension, through)/millimetre, 5)//' mm'//points_on(suspension, axis, through)
-      if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
-   end function one_body_words
-
-   !> The axis with rounding dust taken off and its largest part positive.
-   pure function tidy(axis) result(clean)
-      real(wp), intent(in) :: axis(3)
-      real(wp) :: clean(3)
-      clean = merge(axis, 0.0_wp, abs(axis) > 1.0e-6_wp)
-      if (clean(maxloc(abs(clean), dim=1)) < 0.0_wp) clean = -clean
-   end function tidy
-
-   !> A vector in the deck's frame.
-   pure function in_frame(suspension, vector) result(out)
-      type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: vector(3)
-      real(wp) :: out(3)
-      out = vector
-      if (suspension%is_iso) out(1:2) = -out(1:2)
-   end function in_frame
-
-   !> ' (points a, b)' for the hardpoints on an axis.
-   pure function points_on(suspension, axis, through) result(text)
-      type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: axis(3), through(3)
-      character(:), allocatable :: text
-      real(wp), parameter :: near = 0.5e-3_wp     ! m: an engineer calls that the same line
-      integer :: k, found
-
-      text = ''
-      found = 0
-      do k = 1, size(suspension%points)
-         if (norm2(cross(axis, suspension%points(k)%at - through)) > near) cycle
-         found = found + 1
-         if (found > 4) exit
-         if (found > 1) text = text//', '
-         text = text//quoted(suspension%points(k)%name)
-      end do
-      if (found > 0) text = ' (the line of '//text//')'
-   end function points_on
 
 end module ek_diagnosis

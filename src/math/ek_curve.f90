@@ -20,6 +20,7 @@ module ek_curve
 
    !> Units: those of its points.
    type :: curve_t
+      character(:), allocatable :: name            !! for messages; may be unallocated
       real(wp), allocatable :: breaks(:)           !! x of the n points, increasing
       real(wp), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
       real(wp), allocatable :: areas(:)            !! ∫ from the first point to each of the n

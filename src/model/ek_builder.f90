@@ -220,6 +220,7 @@ contains
       type(load_t) :: load
       integer :: k
 
+      self%gravity = gravity
       if (.not. gravity > 0.0_wp) return
       do k = 1, size(self%bodies)
          if (.not. self%bodies(k)%mass > 0.0_wp) cycle

@@ -157,6 +157,9 @@ contains
       if (.not. allocated(self%readouts)) allocate (self%readouts(0))
       if (.not. allocated(self%balance)) self%balance = 'none'
       if (.not. allocated(self%title)) self%title = ''
+      if (.not. allocated(self%where)) self%where = ''
+      if (.not. allocated(self%axle%where)) self%axle%where = ''
+      if (.not. allocated(self%steering%where)) self%steering%where = ''
       if (.not. allocated(self%steering%driver)) self%steering%driver = ''
    end subroutine ensure_allocated
 

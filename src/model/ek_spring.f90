@@ -36,6 +36,7 @@ module ek_spring
       real(wp) :: rate = 0.0_wp             !! N/m, N m/rad; without a law of its own
       real(wp) :: design_length = 0.0_wp    !! value at design: m, rad, -; 0 rad of a torsion spring
       real(wp) :: preload = 0.0_wp          !! compression at design [N], moment on body j about the axis [N m]
+      logical :: is_balanced = .true.       !! of a spring: balance may change its preload
       logical :: has_law = .false.          !! `law` takes the place of rate and design length
       type(law_t) :: law
    end type spring_t

@@ -5,6 +5,7 @@
 !> body are those of the frame. Body 0 is the chassis.
 module ek_suspension
    use ek_kinds, only: wp
+   use ek_units, only: units_t
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t
    use ek_joint, only: joint_t, row_t, term_t
@@ -51,6 +52,7 @@ module ek_suspension
       real(wp) :: centre(3) = 0.0_wp      !! arms from the carrier's reference point, body axes [m]
       real(wp) :: contact(3) = 0.0_wp
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! unit, outboard, body axes
+      real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles as the deck gives them, or of its spin axis [rad]
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
       real(wp) :: tyre_width = 0.0_wp     !! of the tread [m]; 0: not given
@@ -69,6 +71,7 @@ module ek_suspension
    !> What the axle is part of: for the figures that need the whole car.
    type :: axle_t
       logical :: has_axle = .false.       !! the deck has an &axle
+      character(:), allocatable :: where
       logical :: is_front = .true.
       real(wp) :: wheelbase = 0.0_wp      !! m
       real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
@@ -83,13 +86,17 @@ module ek_suspension
    !> From the steering wheel to the driver that moves the rack.
    type :: steering_t
       logical :: has_steering = .false.   !! the deck has a &steering
+      character(:), allocatable :: where
       character(:), allocatable :: driver !! name of the driver joint; its row: driver_row
       real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; its sign as the deck gives it
       real(wp) :: travel = 0.0_wp         !! largest rack travel each way [m]
    end type steering_t
 
    type :: suspension_t
-      character(:), allocatable :: name, title
+      character(:), allocatable :: name, title, where
+      type(units_t) :: units              !! of the deck: remarks on its numbers speak them
+      logical :: is_plausible_wanted = .true.   !! remarks on implausible numbers are wanted
+      real(wp) :: gravity = 0.0_wp        !! m/s²
       logical :: is_iso = .false.         !! the deck speaks ISO 8855: vectors leave in that frame
       character(:), allocatable :: balance   !! 'none', 'spring' or 'all'
       type(body_t), allocatable :: bodies(:)

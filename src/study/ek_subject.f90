@@ -8,10 +8,9 @@ module ek_subject
    use ek_rig, only: mount
    use ek_case, only: case_t
    use ek_case_inputs, only: check_inputs
-   use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
-   use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_examination, only: examine_case
    implicit none(type, external)
    private
    public :: make_subject
@@ -28,7 +27,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_known     !! its inputs have been checked, in another design of the deck; .false.
       type(case_t), allocatable :: cases(:)
-      type(diagnosis_t) :: diagnosis
+      character(:), allocatable :: words
       logical :: is_checked
       integer :: k
 
@@ -46,14 +45,16 @@ contains
       if (.not. is_checked) call check_inputs(suspension, cases(k:k), error)
       if (allocated(error)) return
       case = cases(k)
+      call examine_case(suspension, case, words)
+      if (len(words) > 0) then
+         call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//words)
+         return
+      end if
       call balance(suspension, case%tolerance, error)
       if (allocated(error)) return
       call mount(suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
-      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-      if (.not. diagnosis%is_solvable()) call fail(error, exit_model, deck%file//': the model cannot be solved'// &
-         new_line('a')//diagnosis%words())
    end subroutine make_subject
 
 end module ek_subject

@@ -1,0 +1,183 @@
+!> Curves that a case has used beyond their first or last point, where they go straight on: a result there rests on no
+!> number of the deck.
+module ek_curve_reach
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str, quoted
+   use ek_units, only: millimetre, degree
+   use ek_curve, only: curve_t
+   use ek_law, only: law_t, deflection
+   use ek_measure, only: measure_value, rotation
+   use ek_spring, only: axial_spring, stop_spring
+   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_state, only: state_t, design_state, unpack_state
+   use ek_path, only: path_t
+   implicit none(type, external)
+   private
+   public :: curve_reach_words
+
+   !> How far one curve was used, and in which states.
+   type :: reach_t
+      real(wp) :: least = 0.0_wp, most = 0.0_wp      !! m or rad
+      integer :: at_least = 0, at_most = 0           !! 0: no state has been looked at
+   end type reach_t
+
+contains
+
+   !> A line for each end of a curve that was passed by more than a thousandth of its span. Elements of one line of the
+   !> deck (the two sides of a mirrored one) and one curve are told once, with the one that went furthest.
+   subroutine curve_reach_words(suspension, case, path, words)
+      type(suspension_t), intent(in) :: suspension       !! on the rig
+      type(case_t), intent(in) :: case                   !! likewise
+      type(path_t), intent(in) :: path
+      type(message_list_t), intent(inout) :: words
+      type(reach_t) :: springs(size(suspension%springs)), bushings(6, size(suspension%bushings))
+      type(state_t) :: state
+      type(bushing_view_t) :: view
+      logical :: is_told(2)
+      integer :: s, k, c
+
+      if (.not. has_curves(suspension)) return
+      state = design_state(suspension)
+      do s = 1, path%states
+         if (.not. path%is_reached(s)) cycle
+         call unpack_state(path%packed(:, s), state)
+         do k = 1, size(springs)
+            associate (spring => suspension%springs(k), m => suspension%springs(k)%measure)
+               if (.not. (spring%has_law .and. spring%law%has_curve)) cycle
+               call extend(springs(k), spring%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)), s)
+            end associate
+         end do
+         do k = 1, size(suspension%bushings)
+            associate (b => suspension%bushings(k))
+               if (.not. b%has_curves) cycle
+               call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+               do c = 1, 3
+                  if (b%laws(c)%has_curve) &
+                     call extend(bushings(c, k), b%laws(c), dot_product(b%axes(:, c), view%gap), s)
+                  if (b%laws(c + 3)%has_curve) &
+                     call extend(bushings(c + 3, k), b%laws(c + 3), dot_product(b%axes(:, c), view%turn%theta), s)
+               end do
+            end associate
+         end do
+      end do
+      do k = 1, size(springs)
+         if (springs(k)%at_most == 0) cycle
+         is_told = .false.
+         do s = 1, size(springs)
+            if (s == k .or. suspension%springs(s)%where /= suspension%springs(k)%where .or. springs(s)%at_most == 0) cycle
+            is_told = is_told .or. further(springs(s), springs(k), s < k)
+         end do
+         associate (spring => suspension%springs(k))
+            call tell(case, path, spring%law%curve, springs(k), trim(kind_name(spring%kind))//' '//quoted(spring%name), &
+               spring%measure%kind == rotation, is_told, words)
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         do c = 1, 6
+            if (bushings(c, k)%at_most == 0) cycle
+            is_told = .false.
+            do s = 1, size(suspension%bushings)
+               if (s == k .or. suspension%bushings(s)%where /= suspension%bushings(k)%where) cycle
+               if (bushings(c, s)%at_most > 0) is_told = is_told .or. further(bushings(c, s), bushings(c, k), s < k)
+            end do
+            call tell(case, path, suspension%bushings(k)%laws(c)%curve, bushings(c, k), &
+               'bushing '//quoted(suspension%bushings(k)%name), c > 3, is_told, words)
+         end do
+      end do
+   end subroutine curve_reach_words
+
+   !> Whether any element has a curve.
+   pure logical function has_curves(suspension)
+      type(suspension_t), intent(in) :: suspension
+      has_curves = any(suspension%springs%has_law) .or. any(suspension%bushings%has_curves)
+   end function has_curves
+
+   !> What the &group of an element is called.
+   pure function kind_name(kind) result(name)
+      integer, intent(in) :: kind
+      character(7) :: name
+      name = 'torsion'
+      if (kind == axial_spring) name = 'spring'
+      if (kind == stop_spring) name = 'stop'
+   end function kind_name
+
+   !> Takes in the deflection of a state; that of a stop without contact is none.
+   subroutine extend(reach, law, value, state)
+      type(reach_t), intent(inout) :: reach
+      type(law_t), intent(in) :: law
+      real(wp), intent(in) :: value
+      integer, intent(in) :: state
+      real(wp) :: e
+
+      e = deflection(law, value)
+      if (law%is_one_sided) e = max(e, 0.0_wp)
+      if (reach%at_least == 0 .or. e < reach%least) then
+         reach%least = e
+         reach%at_least = state
+      end if
+      if (reach%at_most == 0 .or. e > reach%most) then
+         reach%most = e
+         reach%at_most = state
+      end if
+   end subroutine extend
+
+   !> Whether another curve of the same line has gone further, down and up; of two alike the first is told.
+   pure function further(other, own, is_before) result(is_further)
+      type(reach_t), intent(in) :: other, own
+      logical, intent(in) :: is_before
+      logical :: is_further(2)
+      real(wp) :: slack
+
+      slack = 1.0e-6_wp*max(abs(own%most), abs(own%least), abs(other%most), abs(other%least))
+      is_further(1) = other%least < own%least - slack .or. (is_before .and. other%least < own%least + slack)
+      is_further(2) = other%most > own%most + slack .or. (is_before .and. other%most > own%most - slack)
+   end function further
+
+   !> The words about one curve.
+   subroutine tell(case, path, curve, reach, thing, is_angle, is_told, words)
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(curve_t), intent(in) :: curve
+      type(reach_t), intent(in) :: reach
+      character(*), intent(in) :: thing
+      logical, intent(in) :: is_angle
+      logical, intent(in) :: is_told(2)           !! below its first point, beyond its last: by another element
+      type(message_list_t), intent(inout) :: words
+      character(:), allocatable :: head, unit_name
+      real(wp) :: unit, slack
+      integer :: n
+
+      n = size(curve%breaks)
+      slack = 1.0e-3_wp*(curve%breaks(n) - curve%breaks(1))
+      unit = millimetre
+      unit_name = ' mm'
+      if (is_angle) then
+         unit = degree
+         unit_name = ' deg'
+      end if
+      head = 'curve'
+      if (allocated(curve%name)) head = head//' '//quoted(curve%name)
+      head = head//' of '//thing
+      if (reach%least < curve%breaks(1) - slack .and. .not. is_told(1)) call words%add(head//' begins at '// &
+         str(curve%breaks(1)/unit, 4)//unit_name//' and was used to '//str(reach%least/unit, 4)//unit_name// &
+         at_place(reach%at_least)//'; before its first point it goes straight on')
+      if (reach%most > curve%breaks(n) + slack .and. .not. is_told(2)) call words%add(head//' ends at '// &
+         str(curve%breaks(n)/unit, 4)//unit_name//' and was used to '//str(reach%most/unit, 4)//unit_name// &
+         at_place(reach%at_most)//'; beyond its last point it goes straight on')
+
+   contains
+
+      !> ', at wheel travel = 120 mm'
+      function at_place(state) result(text)
+         integer, intent(in) :: state
+         character(:), allocatable :: text
+         text = ', at '//case%place_name//' = '//str(path%value(state)/case%unit, 4)
+         if (case%unit_name /= '-') text = text//' '//case%unit_name
+      end function at_place
+
+   end subroutine tell
+
+end module ek_curve_reach

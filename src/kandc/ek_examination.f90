@@ -1,0 +1,116 @@
+!> Whether the cases of a deck can be solved: the diagnosis that comes before any number, in every command.
+!>
+!> The model is examined as the deck has it, before balance: a preload that balance finds must not pass for a stiffness.
+module ek_examination
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: quoted
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_rig, only: mount
+   use ek_state, only: design_state
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_diagnosis, only: diagnosis_t, diagnose
+   implicit none(type, external)
+   private
+   public :: examination_t, examine_cases, examine_case, add_distinct
+
+   !> Findings about each case.
+   type :: examination_t
+      logical, allocatable :: is_solvable(:)     !! also where a case cannot be mounted: that is told when it is run
+      type(message_list_t) :: faults             !! one a case, '' where it can be solved
+      type(message_list_t) :: distinct           !! defects, each once for all cases
+   contains
+      procedure :: none_solvable
+   end type examination_t
+
+contains
+
+   !> Whether there is nothing to run.
+   pure logical function none_solvable(self)
+      class(examination_t), intent(in) :: self
+      none_solvable = size(self%is_solvable) > 0 .and. .not. any(self%is_solvable)
+   end function none_solvable
+
+   !> Examines all cases. A defect that several cases have is spelt out in the first of them only.
+   subroutine examine_cases(base, cases, found)
+      type(suspension_t), intent(in) :: base       !! not balanced
+      type(case_t), intent(in) :: cases(:)
+      type(examination_t), intent(out) :: found
+      character(:), allocatable :: words, head
+      logical :: is_new
+      integer :: k
+
+      allocate (found%is_solvable(size(cases)))
+      do k = 1, size(cases)
+         call examine_case(base, cases(k), words)
+         found%is_solvable(k) = len(words) == 0
+         if (found%is_solvable(k)) then
+            call found%faults%add('')
+            cycle
+         end if
+         head = 'case '//quoted(cases(k)%name)//': the model cannot be solved'
+         call add_distinct(found%distinct, words, is_new)
+         if (is_new) then
+            call found%faults%add(head//new_line('a')//words)
+         else
+            call found%faults%add(head//', for the reason given above')
+         end if
+      end do
+   end subroutine examine_cases
+
+   !> Adds those lines of words that are not there yet: one defect seen under two drives differs in a last digit.
+   subroutine add_distinct(distinct, words, is_new)
+      type(message_list_t), intent(inout) :: distinct
+      character(*), intent(in) :: words
+      logical, intent(out), optional :: is_new       !! whether there was any
+      integer :: first, last, j
+
+      if (present(is_new)) is_new = .false.
+      first = 1
+      do while (first <= len(words))
+         last = first + index(words(first:)//new_line('a'), new_line('a')) - 2
+         do j = 1, distinct%count()
+            if (without_numbers(distinct%line(j)) == without_numbers(words(first:last))) exit
+         end do
+         if (j > distinct%count()) then
+            call distinct%add(words(first:last))
+            if (present(is_new)) is_new = .true.
+         end if
+         first = last + 2
+      end do
+   end subroutine add_distinct
+
+   !> Defects of the model on the rig of a case; '' where there are none.
+   subroutine examine_case(base, case, words)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: case
+      character(:), allocatable, intent(out) :: words
+      type(suspension_t) :: suspension
+      type(case_t) :: mounted
+      type(diagnosis_t) :: diagnosis
+      type(error_t), allocatable :: error
+      type(kkt_t) :: kkt
+
+      words = ''
+      suspension = base
+      mounted = case
+      call mount(suspension, mounted, error)
+      if (allocated(error)) return
+      kkt = new_kkt(suspension)
+      call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      if (.not. diagnosis%is_solvable()) words = diagnosis%words()
+   end subroutine examine_case
+
+   !> A text less its digits, signs and points.
+   pure function without_numbers(text) result(rest)
+      character(*), intent(in) :: text
+      character(:), allocatable :: rest
+      integer :: k
+
+      rest = ''
+      do k = 1, len(text)
+         if (index('0123456789.+-E', text(k:k)) == 0) rest = rest//text(k:k)
+      end do
+   end function without_numbers
+
+end module ek_examination

@@ -1,0 +1,199 @@
+!> Links, struts and springs of a deck, held against what road vehicles look like: how long, which end on which body, which way.
+module ek_plausible_links
+   use ek_kinds, only: wp
+   use ek_text, only: str, quoted
+   use ek_units, only: degree
+   use ek_measure, only: measure_t, axis_axis, rotation, distance
+   use ek_spring, only: axial_spring, damper
+   use ek_suspension, only: suspension_t, body_name
+   use ek_plausible_range, only: doubts_t, judge, speak, length
+   use ek_plausible_shape, only: place
+   implicit none(type, external)
+   private
+   public :: doubt_links
+
+contains
+
+   !> Links and springs: how long, which end is on which body, which way.
+   subroutine doubt_links(suspension, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(doubts_t), intent(inout) :: doubts
+      character(:), allocatable :: thing
+      real(wp) :: ends(3, 2), apart(3)
+      integer :: k, rack
+
+      rack = rack_body(suspension)
+      if (rack > 0) call doubt_rack(suspension, rack, doubts)
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k), &
+               m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
+            thing = 'joint '//quoted(joint%name)
+            call doubt_own_points(suspension, m, joint%where, thing, doubts)
+            if (joint%kind == 'cylindrical') call doubt_slider(suspension, m, joint%where, thing, doubts)
+            if (joint%kind /= 'distance') cycle
+            ends(:, 1) = place(suspension, m%body_i, m%arm_i)
+            ends(:, 2) = place(suspension, m%body_j, m%arm_j)
+            apart = ends(:, 2) - ends(:, 1)
+            call judge(doubts, joint%where, thing, 'link length', norm2(apart))
+            call doubt_ends(suspension, m, joint%where, thing, ends, doubts)
+            if (rack == 0 .or. (m%body_i /= rack .and. m%body_j /= rack)) cycle
+            if (abs(apart(2)) < 0.85_wp*norm2(apart)) call doubts%add(joint%where, 'askew', thing// &
+               ': a tie rod more than 32 deg out of the lateral direction: has a coordinate of its ends another sign?')
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         associate (b => suspension%bushings(k))
+            call doubt_own_points(suspension, measure_t(body_i=b%body_i, body_j=b%body_j, arm_i=b%arm_i, arm_j=b%arm_j), &
+               b%where, 'bushing '//quoted(b%name), doubts)
+         end associate
+      end do
+      do k = 1, size(suspension%springs)
+         if (all(suspension%springs(k)%kind /= [axial_spring, damper])) cycle
+         call doubt_upright(suspension, k, doubts)
+      end do
+   end subroutine doubt_links
+
+   !> Something leads from the rack to the wheels.
+   subroutine doubt_rack(suspension, rack, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: rack
+      type(doubts_t), intent(inout) :: doubts
+      integer :: k
+
+      do k = 1, size(suspension%terms)
+         if (leads(suspension%terms(k)%measure%body_i, suspension%terms(k)%measure%body_j)) return
+      end do
+      do k = 1, size(suspension%bushings)
+         if (leads(suspension%bushings(k)%body_i, suspension%bushings(k)%body_j)) return
+      end do
+      do k = 1, size(suspension%springs)
+         if (leads(suspension%springs(k)%measure%body_i, suspension%springs(k)%measure%body_j)) return
+      end do
+      call doubts%add(suspension%steering%where, 'no tie rod', '&steering: nothing leads from its rack, body '// &
+         quoted(body_name(suspension, rack))//', to a wheel: is a tie rod missing?')
+
+   contains
+
+      pure logical function leads(i, j)
+         integer, intent(in) :: i, j
+         leads = (i == rack .or. j == rack) .and. min(i, j) > 0
+      end function leads
+
+   end subroutine doubt_rack
+
+   !> A joint of the body of one wheel lies near that wheel, on its side of the car.
+   subroutine doubt_own_points(suspension, m, where, thing, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(measure_t), intent(in) :: m
+      character(*), intent(in) :: where, thing
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: beyond = 0.05_wp     ! m: beyond the middle of the car
+      real(wp), parameter :: far = 0.9_wp         ! m: from the centre of a wheel that steers
+      real(wp) :: at(3)
+      integer :: w
+
+      if (m%kind == axis_axis .or. m%kind == rotation) return
+      do w = 1, size(suspension%wheels)
+         associate (wheel => suspension%wheels(w))
+            if (count(suspension%wheels%body == wheel%body) > 1) cycle
+            if (m%body_i == wheel%body) then
+               at = m%arm_i
+            else if (m%body_j == wheel%body) then
+               at = m%arm_j
+            else
+               cycle
+            end if
+            if (wheel%has_steer_axis .and. norm2(at - wheel%centre) > far) call doubts%add(where, 'far joint', thing// &
+               ': on the carrier, but '//speak(doubts, length, norm2(at - wheel%centre))//' from the wheel centre: are '// &
+               'coordinates swapped, or in another unit?')
+            at = place(suspension, wheel%body, at)
+            if (wheel%side*at(2) < -beyond) call doubts%add(where, 'other side', thing//': on the carrier of wheel '// &
+               quoted(wheel%name)//', but on the other side of the car: has y the right sign?')
+         end associate
+      end do
+   end subroutine doubt_own_points
+
+   !> The end of a link that is on a carrier lies outboard of the one that is not.
+   subroutine doubt_ends(suspension, m, where, thing, ends, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(measure_t), intent(in) :: m
+      character(*), intent(in) :: where, thing
+      real(wp), intent(in) :: ends(3, 2)           !! m, on body i and body j
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: clearly = 0.06_wp     ! m: links that lie along the car lean so much
+      integer :: w, own
+
+      do w = 1, size(suspension%wheels)
+         associate (wheel => suspension%wheels(w))
+            if (count(suspension%wheels%body == wheel%body) > 1) cycle
+            if (any(suspension%wheels%body == m%body_i) .and. any(suspension%wheels%body == m%body_j)) cycle
+            own = 0
+            if (m%body_i == wheel%body) own = 1
+            if (m%body_j == wheel%body) own = 2
+            if (own == 0) cycle
+            if (wheel%side*(ends(2, own) - ends(2, 3 - own)) < -clearly) call doubts%add(where, 'swapped', thing// &
+               ': its end on body '//quoted(body_name(suspension, wheel%body))//' lies inboard of its end on '// &
+               quoted(body_name(suspension, merge(m%body_j, m%body_i, own == 1)))//': are the two points swapped?')
+         end associate
+      end do
+   end subroutine doubt_ends
+
+   !> The axis of a strut is upright.
+   subroutine doubt_slider(suspension, m, where, thing, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(measure_t), intent(in) :: m
+      character(*), intent(in) :: where, thing
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: upright = 0.7_wp      ! cosine: 45°
+
+      if (.not. (any(suspension%wheels%body == m%body_i) .or. any(suspension%wheels%body == m%body_j))) return
+      if (m%kind /= axis_axis) return
+      if (abs(m%v(3)) < upright) call doubts%add(where, 'slider', thing//': a strut that lies '// &
+         str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical: has a coordinate another sign?')
+   end subroutine doubt_slider
+
+   !> The lower end of an upright spring is on the wheel's body, the upper one on the chassis.
+   subroutine doubt_upright(suspension, k, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: k
+      type(doubts_t), intent(inout) :: doubts
+      real(wp) :: up(3)
+      integer :: order
+
+      associate (spring => suspension%springs(k), m => suspension%springs(k)%measure)
+         order = rank_of(m%body_j) - rank_of(m%body_i)
+         if (order == 0 .or. m%kind /= distance) return
+         up = place(suspension, m%body_j, m%arm_j) - place(suspension, m%body_i, m%arm_i)
+         if (order*up(3) > -0.7_wp*norm2(up)) return
+         call doubts%add(spring%where, 'upside down', merge('spring ', 'damper ', spring%kind == axial_spring)// &
+            quoted(spring%name)//': its upper end is on '//quoted(body_name(suspension, merge(m%body_i, m%body_j, order > 0)))// &
+            ', its lower end on '//quoted(body_name(suspension, merge(m%body_j, m%body_i, order > 0)))// &
+            ': are the two points swapped?')
+      end associate
+
+   contains
+
+      !> What is above: the chassis; below: a wheel's body.
+      pure integer function rank_of(body)
+         integer, intent(in) :: body
+         rank_of = 0
+         if (body == 0) rank_of = 1
+         if (any(suspension%wheels%body == body)) rank_of = -1
+      end function rank_of
+
+   end subroutine doubt_upright
+
+   !> The body that the driver of &steering moves; 0 where there is none.
+   pure integer function rack_body(suspension)
+      type(suspension_t), intent(in) :: suspension
+      integer :: k
+
+      rack_body = 0
+      if (.not. suspension%steering%has_steering) return
+      do k = 1, size(suspension%joints)
+         if (suspension%joints(k)%kind == 'driver' .and. suspension%joints(k)%name == suspension%steering%driver) &
+            rack_body = max(suspension%joints(k)%body_i, suspension%joints(k)%body_j)
+      end do
+   end function rack_body
+
+end module ek_plausible_links

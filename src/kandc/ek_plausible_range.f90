@@ -1,0 +1,278 @@
+!> Which numbers road vehicles have: one table, from Formula Student to heavy trucks, and what a number outside of it
+!> looks like.
+!>
+!> A number outside its range is tried in the other units of its dimension: where one brings it back into the range, that
+!> unit is named. Where none does, the words of the row say what to suspect. Nothing here is an error.
+module ek_plausible_range
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str
+   use ek_units, only: units_t, degree
+   implicit none(type, external)
+   private
+   public :: doubts_t, judge, ranges, range_number, speak, length, rate, turn_rate, force, moment, angle, mass, share, acceleration
+
+   ! dimensions
+   integer, parameter :: length = 1, rate = 2, turn_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
+      acceleration = 9, derived = 10          ! a length that nobody wrote
+
+   !> A unit that somebody may have meant.
+   type :: unit_t
+      integer :: dimension
+      character(8) :: name
+      real(wp) :: size          !! SI
+   end type unit_t
+
+   real(wp), parameter :: pound = 4.4482216_wp      !! N
+
+   !> The likely ones first.
+   type(unit_t), parameter :: units_tried(*) = [ &
+      unit_t(length, 'm', 1.0_wp), unit_t(length, 'mm', 1.0e-3_wp), unit_t(length, 'inches', 0.0254_wp), &
+      unit_t(length, 'cm', 0.01_wp), &
+      unit_t(rate, 'N/m', 1.0_wp), unit_t(rate, 'kN/mm', 1.0e6_wp), unit_t(rate, 'N/mm', 1.0e3_wp), &
+      unit_t(rate, 'lbf/in', pound/0.0254_wp), &
+      unit_t(turn_rate, 'N m/rad', 1.0_wp), unit_t(turn_rate, 'N m/deg', 1.0_wp/degree), &
+      unit_t(turn_rate, 'N mm/rad', 1.0e-3_wp), unit_t(turn_rate, 'N mm/deg', 1.0e-3_wp/degree), &
+      unit_t(force, 'kN', 1.0e3_wp), unit_t(force, 'N', 1.0_wp), unit_t(force, 'kgf', 9.80665_wp), &
+      unit_t(moment, 'N mm', 1.0e-3_wp), unit_t(moment, 'kN m', 1.0e3_wp), unit_t(moment, 'N m', 1.0_wp), &
+      unit_t(angle, 'minutes', degree/60.0_wp), unit_t(angle, 'rad', 1.0_wp), unit_t(angle, 'deg', degree), &
+      unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(share, 'per cent', 0.01_wp), &
+      unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', 9.80665_wp)]
+
+   !> One quantity of road vehicles. Its magnitude counts unless `low` is negative.
+   type :: range_t
+      character(28) :: quantity
+      integer :: dimension
+      real(wp) :: low, high     !! mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s²
+      logical :: may_be_zero
+      character(100) :: suspect  !! what to suspect where no other unit fits
+   end type range_t
+
+   ! The limits are those of what is built, widened: Formula Student (10 inch wheels, 1.5 m wheelbase, springs of 15 N/mm),
+   ! race cars (springs of 1000 N/mm), heavy trucks (leaf springs of 3000 N/mm, 1 t axles, 8 m wheelbase).
+   type(range_t), parameter :: ranges(*) = [ &
+      range_t('half track', length, 400.0_wp, 1400.0_wp, .false., 'is y the lateral coordinate, and 0 the middle of the car?'), &
+      range_t('wheel radius', length, 180.0_wp, 750.0_wp, .false., 'is it the diameter?'), &
+      range_t('height of centre', length, 150.0_wp, 750.0_wp, .false., 'is z in one frame for all points?'), &
+      range_t('contact offset', length, 0.0_wp, 80.0_wp, .true., 'the contact point lies below the centre: x or y is wrong'), &
+      range_t('static toe', angle, -3.0_wp, 3.0_wp, .true., 'no road car has that; toe is in degrees'), &
+      range_t('static camber', angle, -8.0_wp, 5.0_wp, .true., 'no road car has that; camber is in degrees, < 0: top inward'), &
+      range_t('tyre rate', rate, 50.0_wp, 2500.0_wp, .false., 'the vertical stiffness of one tyre is meant'), &
+      range_t('wheelbase', length, 1200.0_wp, 8000.0_wp, .false., 'is it the track?'), &
+      range_t('cg height', length, 150.0_wp, 2500.0_wp, .false., 'the height of the car''s cg over the ground is meant'), &
+      range_t('brake share', share, 0.3_wp, 0.95_wp, .false., 'the share of the FRONT axle is meant, also on a rear axle'), &
+      range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'rack travel per revolution is meant, not the steering ratio'), &
+      range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'the travel each way is meant'), &
+      range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'the rate of one spring, along the spring, is meant'), &
+      range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'are its two points the ones that are meant?'), &
+      range_t('static compression', length, 0.0_wp, 500.0_wp, .true., 'preload and rate do not fit together'), &
+      range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'the force of the gas at design is meant'), &
+      range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'the rise of the gas force with compression is meant'), &
+      range_t('clearance', length, 0.5_wp, 250.0_wp, .true., 'the way from design to contact is meant'), &
+      range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'so long a transition is part of the curve'), &
+      range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'force over penetration is meant'), &
+      range_t('bushing rate kt', rate, 5.0_wp, 1.0e6_wp, .true., 'no rubber; where it stands for a rigid link, use a joint'), &
+      range_t('bushing rate kr', turn_rate, 2.0_wp, 5.0e7_wp, .true., 'no rubber; where it stands for a rigid link, use a joint'), &
+      range_t('bushing gap', length, 0.0_wp, 20.0_wp, .true., 'its two points are apart: is one of them another one''s?'), &
+      range_t('torsion bar rate', turn_rate, 1500.0_wp, 1.0e6_wp, .false., 'the rate between the halves of a bar is meant'), &
+      range_t('torsion spring rate', turn_rate, 500.0_wp, 5.0e7_wp, .false., 'moment over angle is meant'), &
+      range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'the stiffness at the rack is meant'), &
+      range_t('span of the curve', length, 0.5_wp, 600.0_wp, .false., 'its x is a deflection in the deck''s unit'), &
+      range_t('angular span of the curve', angle, 0.2_wp, 400.0_wp, .false., 'its x is an angle in the deck''s unit'), &
+      range_t('largest force of the curve', force, 30.0_wp, 1.0e6_wp, .false., 'its y is a force in the deck''s unit'), &
+      range_t('slope of the curve', rate, 0.1_wp, 1.0e6_wp, .true., 'its x and y are in the deck''s units'), &
+      range_t('static wheel load', force, 450.0_wp, 70000.0_wp, .false., 'the load on one wheel is meant'), &
+      range_t('mass', mass, 0.1_wp, 1500.0_wp, .false., 'the mass of one body of a suspension is meant'), &
+      range_t('gravity', acceleration, 9.0_wp, 10.5_wp, .true., 'gravity is in m/s², whatever the units of the deck'), &
+      range_t('wheel travel', length, 2.0_wp, 400.0_wp, .false., 'the travel of a wheel from design is meant'), &
+      range_t('roll angle', angle, 0.1_wp, 12.0_wp, .false., 'the roll angle of the axle is meant'), &
+      range_t('rack displacement', length, 1.0_wp, 300.0_wp, .false., 'the displacement of the rack from design is meant'), &
+      range_t('test force', force, 30.0_wp, 150000.0_wp, .false., 'the force on one wheel is meant'), &
+      range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, whatever the units of the deck'), &
+      range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'a pneumatic trail is meant'), &
+      range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'mirrored axes, or a sign of x: the top is rearward'), &
+      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'the steer axis: is a point another one''s?'), &
+      range_t('kingpin inclination', angle, -6.0_wp, 30.0_wp, .true., 'is the upper point outboard of the lower one?'), &
+      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'is a point of the steer axis another one''s?'), &
+      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'is a point of the steer axis another one''s?'), &
+      range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'are its two points the ones that are meant?'), &
+      range_t('size √(kr/kt)', derived, 1.0_wp, 300.0_wp, .true., 'kr and kt do not fit together')]
+
+   !> What looks implausible, each thing once: the two sides of a mirrored deck stand in one line of it.
+   type :: doubts_t
+      type(message_list_t) :: remarks
+      type(units_t) :: units                       !! of the deck
+      type(message_list_t), private :: seen
+   contains
+      procedure :: add
+      procedure :: add_at
+   end type doubts_t
+
+contains
+
+   !> A remark on what stands at a place, by a rule; nothing where that rule has spoken of that place.
+   pure subroutine add(self, where, rule, text)
+      class(doubts_t), intent(inout) :: self
+      character(*), intent(in) :: where        !! file:line
+      character(*), intent(in) :: rule, text
+
+      call self%add_at(where, where, rule, text)
+   end subroutine add
+
+   !> The same where one line may have several remarks by one rule.
+   pure subroutine add_at(self, where, thing, rule, text)
+      class(doubts_t), intent(inout) :: self
+      character(*), intent(in) :: where, thing, rule, text
+      integer :: k
+
+      do k = 1, self%seen%count()
+         if (self%seen%line(k) == rule//' '//thing) return
+      end do
+      call self%seen%add(rule//' '//thing)
+      if (len(where) > 0) then
+         call self%remarks%add(where//': '//text)
+      else
+         call self%remarks%add(text)
+      end if
+   end subroutine add_at
+
+   !> The row of a quantity; 0 for one that is not in the table.
+   pure integer function range_number(quantity) result(row)
+      character(*), intent(in) :: quantity
+      do row = size(ranges), 1, -1
+         if (ranges(row)%quantity == quantity) return
+      end do
+   end function range_number
+
+   !> Holds a number against the row of its quantity, and adds a remark where it lies outside.
+   pure subroutine judge(doubts, where, thing, quantity, value)
+      type(doubts_t), intent(inout) :: doubts
+      character(*), intent(in) :: where        !! file:line
+      character(*), intent(in) :: thing        !! "spring 'coil'"
+      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      real(wp), intent(in) :: value            !! SI
+      type(range_t) :: row
+      real(wp) :: meant, low, high, x
+      character(:), allocatable :: text
+      integer :: k
+
+      k = range_number(quantity)
+      if (k == 0) then      ! a slip of ours: seen by the tests, which expect no remark on a sound deck
+         call doubts%add(where, quantity, thing//': there is no range for '//quantity)
+         return
+      end if
+      row = ranges(k)
+      x = value
+      if (row%low >= 0.0_wp) x = abs(value)        ! its sign says nothing
+      if (row%may_be_zero .and. abs(x) <= 0.0_wp) return
+      if (is_within(row, x)) return
+      low = row%low*table_unit(row%dimension)
+      high = row%high*table_unit(row%dimension)
+      text = ''
+      do k = 1, size(units_tried)
+         if (units_tried(k)%dimension /= row%dimension) cycle
+         if (units_tried(k)%name == deck_name(row%dimension, doubts%units)) cycle
+         meant = x/deck_unit(row%dimension, doubts%units)*units_tried(k)%size
+         if (.not. is_within(row, meant)) cycle
+         text = 'looks like '//trim(units_tried(k)%name)//': '//short(x/deck_unit(row%dimension, doubts%units))//' '// &
+            trim(units_tried(k)%name)//' would be '//speak(doubts, row%dimension, meant)
+         exit
+      end do
+      if (len(text) == 0) text = trim(row%suspect)
+      call doubts%add(where, quantity, thing//': '//trim(quantity)//' '//speak(doubts, row%dimension, x)// &
+         ' (usual: '//short(low/deck_unit(row%dimension, doubts%units))//' to '//speak(doubts, row%dimension, high)//'); '//text)
+   end subroutine judge
+
+   !> Whether a number (SI) is one that road vehicles have.
+   pure logical function is_within(row, value)
+      type(range_t), intent(in) :: row
+      real(wp), intent(in) :: value
+      real(wp), parameter :: rim = 1.0e-9_wp
+      real(wp) :: x, widening
+
+      x = value/table_unit(row%dimension)
+      widening = rim*max(abs(row%low), abs(row%high))
+      is_within = x >= row%low - widening .and. x <= row%high + widening
+   end function is_within
+
+   !> A value with the deck's unit: '29.77 N/mm'.
+   pure function speak(doubts, dimension, value) result(text)
+      type(doubts_t), intent(in) :: doubts
+      integer, intent(in) :: dimension
+      real(wp), intent(in) :: value            !! SI
+      character(:), allocatable :: text
+
+      text = short(value/deck_unit(dimension, doubts%units))
+      if (dimension /= share) text = text//' '//deck_name(dimension, doubts%units)
+   end function speak
+
+   !> Five digits, or all of a large number: people count thousands.
+   pure function short(x) result(text)
+      real(wp), intent(in) :: x
+      character(:), allocatable :: text
+      text = str(x, merge(9, 5, abs(x) >= 1.0e5_wp .and. abs(x) < 1.0e9_wp))
+   end function short
+
+   !> SI value of the units of the table above.
+   pure real(wp) function table_unit(dimension)
+      integer, intent(in) :: dimension
+      type(units_t) :: usual
+      table_unit = deck_unit(dimension, usual)
+   end function table_unit
+
+   !> SI value of a deck's unit.
+   pure real(wp) function deck_unit(dimension, units) result(unit)
+      integer, intent(in) :: dimension
+      type(units_t), intent(in) :: units
+
+      select case (dimension)
+      case (length, derived)
+         unit = units%length
+      case (rate)
+         unit = units%force/units%length
+      case (turn_rate)
+         unit = units%force*units%length/units%angle
+      case (force)
+         unit = units%force
+      case (angle)
+         unit = units%angle
+      case default
+         unit = 1.0_wp
+      end select
+   end function deck_unit
+
+   !> Its name.
+   pure function deck_name(dimension, units) result(name)
+      integer, intent(in) :: dimension
+      type(units_t), intent(in) :: units
+      character(:), allocatable :: name, force_name, length_name, angle_name
+
+      force_name = 'N'
+      if (units%force > 1.0_wp) force_name = 'kN'
+      length_name = 'mm'
+      if (units%length > 0.5_wp) length_name = 'm'
+      angle_name = 'deg'
+      if (units%angle > 0.5_wp) angle_name = 'rad'
+      select case (dimension)
+      case (length, derived)
+         name = length_name
+      case (rate)
+         name = force_name//'/'//length_name
+      case (turn_rate)
+         name = force_name//' '//length_name//'/'//angle_name
+      case (force)
+         name = force_name
+      case (moment)
+         name = 'N m'
+      case (angle)
+         name = angle_name
+      case (mass)
+         name = 'kg'
+      case (acceleration)
+         name = 'm/s²'
+      case default
+         name = '1'
+      end select
+   end function deck_name
+
+end module ek_plausible_range

@@ -1,0 +1,216 @@
+!> The geometry of a deck, held against what road vehicles look like: wheels, steer axes, carriers, hardpoints.
+module ek_plausible_shape
+   use ek_kinds, only: wp
+   use ek_text, only: str, quoted
+   use ek_units, only: millimetre, degree
+   use ek_measure, only: axis_axis, rotation
+   use ek_suspension, only: suspension_t, wheel_t, body_name
+   use ek_plausible_range, only: doubts_t, judge, speak, length
+   implicit none(type, external)
+   private
+   public :: doubt_wheels, doubt_points, place
+
+contains
+
+   !> Wheels, one by one and against each other.
+   subroutine doubt_wheels(suspension, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: much = 0.05_wp           ! m: more than any staggered axle
+      real(wp) :: centre(3, size(suspension%wheels)), height
+      character(:), allocatable :: thing
+      integer :: w, v
+
+      do w = 1, size(suspension%wheels)
+         associate (wheel => suspension%wheels(w))
+            thing = 'wheel '//quoted(wheel%name)
+            centre(:, w) = place(suspension, wheel%body, wheel%centre)
+            height = wheel%centre(3) - wheel%contact(3)
+            call judge(doubts, wheel%where, thing, 'half track', centre(2, w))
+            call judge(doubts, wheel%where, thing, 'wheel radius', wheel%radius)
+            call judge(doubts, wheel%where, thing, 'height of centre', height)
+            if (abs(wheel%radius - height) > 0.15_wp*height) call doubts%add(wheel%where, 'radius', thing//': radius '// &
+               speak(doubts, length, wheel%radius)//', but its centre is '//speak(doubts, length, height)// &
+               ' above its contact point'//diameter(wheel%radius/height))
+            call judge(doubts, wheel%where, thing, 'contact offset', norm2(wheel%contact(1:2) - wheel%centre(1:2)))
+            call judge(doubts, wheel%where, thing, 'static toe', wheel%toe)
+            call judge(doubts, wheel%where, thing, 'static camber', wheel%camber)
+            if (wheel%tyre_rate > 0.0_wp) call judge(doubts, wheel%where, thing, 'tyre rate', wheel%tyre_rate)
+            if (wheel%has_steer_axis) call doubt_steer_axis(suspension, wheel, thing, doubts)
+            call doubt_carrier(suspension, w, doubts)
+            do v = 1, w - 1
+               associate (other => suspension%wheels(v))
+                  if (other%body == wheel%body .and. other%side == wheel%side) then
+                     call doubts%add(wheel%where, 'same side', thing//': body '//quoted(body_name(suspension, wheel%body))// &
+                        ' has a second wheel on the same side, '//quoted(other%name)//'; twin tyres are one wheel')
+                  else if (other%side /= wheel%side .and. max(abs(centre(2, w) + centre(2, v)), &
+                        maxval(abs(centre([1, 3], w) - centre([1, 3], v)))) > much) then
+                     call doubts%add(wheel%where, 'asymmetric', thing//': its centre is not opposite to that of wheel '// &
+                        quoted(other%name)//' (off by '//speak(doubts, length, max(abs(centre(2, w) + centre(2, v)), &
+                        maxval(abs(centre([1, 3], w) - centre([1, 3], v)))))//')')
+                  end if
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine doubt_wheels
+
+   !> What a wrong radius may be.
+   pure function diameter(ratio) result(text)
+      real(wp), intent(in) :: ratio
+      character(:), allocatable :: text
+      text = ''
+      if (ratio > 1.7_wp .and. ratio < 2.3_wp) text = '; looks like the diameter'
+      if (ratio > 0.43_wp .and. ratio < 0.58_wp) text = '; looks like half of it'
+   end function diameter
+
+   !> The geometric steer axis: caster, kingpin inclination, scrub radius, trail.
+   subroutine doubt_steer_axis(suspension, wheel, thing, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(wheel_t), intent(in) :: wheel
+      character(*), intent(in) :: thing
+      type(doubts_t), intent(inout) :: doubts
+      real(wp) :: up(3), ground(3), low(3)
+      real(wp), parameter :: level = 0.7_wp        ! cosine: more than 45° from the vertical
+      real(wp), parameter :: far = 0.9_wp          ! m: the top mount of a large strut is 0.7 m from the wheel centre
+      integer :: lower
+
+      lower = merge(1, 2, wheel%steer_axis(3, 1) <= wheel%steer_axis(3, 2))
+      low = wheel%steer_axis(:, lower)
+      up = wheel%steer_axis(:, 3 - lower) - low
+      if (maxval([norm2(low - wheel%centre), norm2(low + up - wheel%centre)]) > far) call doubts%add(wheel%where, &
+         'axis point', thing//': a point of its steer_axis is '//speak(doubts, length, max(norm2(low - wheel%centre), &
+         norm2(low + up - wheel%centre)))//' from the wheel centre: are its coordinates swapped, or in another unit?')
+      if (up(3) < level*norm2(up)) then
+         call doubts%add(wheel%where, 'level axis', thing//': its steer_axis is nearly level, '//str(nint(acos(min(1.0_wp, &
+            up(3)/norm2(up)))/degree))//' deg from the vertical; it leads from the lower ball joint to the upper one or '// &
+            'the top mount')
+         return
+      end if
+      if (suspension%steering%has_steering .or. (suspension%axle%has_axle .and. suspension%axle%is_front)) then
+         call judge(doubts, wheel%where, thing, 'caster of a front axle', atan2(up(1), up(3)))
+      else
+         call judge(doubts, wheel%where, thing, 'caster', atan2(up(1), up(3)))
+      end if
+      call judge(doubts, wheel%where, thing, 'kingpin inclination', atan2(-wheel%side*up(2), up(3)))
+      ground = low + up*((wheel%contact(3) - low(3))/up(3))
+      call judge(doubts, wheel%where, thing, 'scrub radius', wheel%side*(wheel%contact(2) - ground(2)))
+      call judge(doubts, wheel%where, thing, 'caster trail', wheel%contact(1) - ground(1))
+   end subroutine doubt_steer_axis
+
+   !> Whether a wheel is on its carrier: no other body has its joints that much nearer to the wheel's centre.
+   subroutine doubt_carrier(suspension, w, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: w
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: beside = 0.2_wp     ! m: joints of a carrier surround the wheel's centre nearer than that
+      integer, parameter :: most = 3             ! joints at least that a carrier has
+      real(wp) :: mean(3, 0:size(suspension%bodies)), off(size(suspension%bodies))
+      integer :: joints(0:size(suspension%bodies)), b
+
+      associate (wheel => suspension%wheels(w))
+         if (count(suspension%wheels%body == wheel%body) > 1) return      ! a beam from wheel to wheel
+         call middle_of_joints(suspension, mean, joints)
+         do b = 1, size(off)
+            off(b) = norm2(mean(:, b) - place(suspension, wheel%body, wheel%centre))
+         end do
+         do b = 1, size(off)
+            if (b == wheel%body .or. joints(b) < most .or. any(suspension%wheels%body == b)) cycle
+            if (2.0_wp*off(b) < off(wheel%body) .and. off(b) < beside) call doubts%add(wheel%where, 'carrier', 'wheel '// &
+               quoted(wheel%name)//': it is on body '//quoted(body_name(suspension, wheel%body))//', but the joints of body '// &
+               quoted(body_name(suspension, b))//' surround its centre: which of the two is the carrier?')
+         end do
+      end associate
+   end subroutine doubt_carrier
+
+   !> The middle of the points at which a body is held, and how many there are.
+   subroutine middle_of_joints(suspension, mean, joints)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(out) :: mean(:, 0:)
+      integer, intent(out) :: joints(0:)
+      integer :: k
+
+      mean = 0.0_wp
+      joints = 0
+      do k = 1, size(suspension%joints)
+         associate (m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
+            if (suspension%joints(k)%is_of_measures) cycle
+            if (m%kind == rotation .or. (m%kind == axis_axis .and. suspension%joints(k)%rows < 4)) cycle
+            call include(m%body_i, m%arm_i)
+            call include(m%body_j, m%arm_j)
+         end associate
+      end do
+      do k = 1, size(suspension%bushings)
+         call include(suspension%bushings(k)%body_i, suspension%bushings(k)%arm_i)
+         call include(suspension%bushings(k)%body_j, suspension%bushings(k)%arm_j)
+      end do
+      do k = 0, ubound(joints, 1)
+         mean(:, k) = mean(:, k)/max(joints(k), 1)
+      end do
+
+   contains
+
+      subroutine include(body, arm)
+         integer, intent(in) :: body
+         real(wp), intent(in) :: arm(3)
+         mean(:, body) = mean(:, body) + place(suspension, body, arm)
+         joints(body) = joints(body) + 1
+      end subroutine include
+
+   end subroutine middle_of_joints
+
+   !> Hardpoints that lie where no suspension is.
+   subroutine doubt_points(suspension, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: tiny_place = 2.0_wp*millimetre   ! but not the origin: metres in a deck of millimetres
+      real(wp), parameter :: far = 3.0_wp, tall = 1.7_wp      ! m: from the wheel, above the road
+      real(wp), parameter :: beside = 0.02_wp, under = 0.03_wp, outboard = 0.25_wp
+      real(wp) :: centre(3), road, half
+      character(:), allocatable :: thing
+      integer :: k, w
+
+      if (size(suspension%wheels) == 0) return
+      half = 0.0_wp
+      centre = 0.0_wp
+      road = huge(road)
+      do w = 1, size(suspension%wheels)
+         centre = place(suspension, suspension%wheels(w)%body, suspension%wheels(w)%contact)
+         road = min(road, centre(3))
+         centre = place(suspension, suspension%wheels(w)%body, suspension%wheels(w)%centre)
+         half = max(half, abs(centre(2)))
+      end do
+      do k = 1, size(suspension%points)
+         associate (p => suspension%points(k))
+            if (.not. p%is_used) cycle
+            thing = 'point '//quoted(p%name)//': '
+            if (half > 100.0_wp*tiny_place .and. maxval(abs(p%at)) > 0.0_wp .and. maxval(abs(p%at)) < tiny_place) then
+               call doubts%add(p%where, 'tiny', thing//'all its coordinates are below '//speak(doubts, length, tiny_place)// &
+                  '; looks like m')
+            else if (p%at(3) < road - under) then
+               call doubts%add(p%where, 'under', thing//speak(doubts, length, road - p%at(3))// &
+                  ' below the road: z has another sign or origin, or coordinates are swapped')
+            else if (abs(p%at(2)) > half + outboard) then
+               call doubts%add(p%where, 'outboard', thing//speak(doubts, length, abs(p%at(2)) - half)// &
+                  ' outboard of the wheel centre: are coordinates swapped, or in another unit?')
+            else if (norm2(p%at - [centre(1), sign(half, p%at(2)), centre(3)]) > far .or. p%at(3) > road + tall) then
+               call doubts%add(p%where, 'far', thing//speak(doubts, length, norm2(p%at - [centre(1), sign(half, p%at(2)), &
+                  centre(3)]))//' from the wheel: is it in another unit?')
+            else if (size(suspension%wheels) == 1 .and. suspension%wheels(1)%side*p%at(2) < -beside) then
+               call doubts%add(p%where, 'side', thing//'on the other side of the car than the wheel: has y the right sign?')
+            end if
+         end associate
+      end do
+   end subroutine doubt_points
+
+   !> A point of a body at design [m].
+   pure function place(suspension, body, arm) result(at)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: body
+      real(wp), intent(in) :: arm(3)
+      real(wp) :: at(3)
+      at = arm
+      if (body > 0) at = at + suspension%bodies(body)%origin
+   end function place
+
+end module ek_plausible_shape
