@@ -13,6 +13,7 @@ module ek_path
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
    use ek_branch, only: branch_t, new_branch, leave, most_crossings
+   use ek_confirm, only: confirm
    use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
    implicit none(type, external)
    private
@@ -58,7 +59,39 @@ contains
 
       call new_path(suspension, case, path)
       call walk(suspension, case, path, kkt, progress)
+      if (case%method /= 'equilibrium') call confirm_path(suspension, case, path, kkt)
    end subroutine sweep
+
+   !> States of a linear method that are not on the path from design are taken back.
+   subroutine confirm_path(suspension, case, path, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      real(wp) :: least
+
+      least = least_step*span(path)
+      if (path%is_table) return        ! its rows are not one path
+      if (path%start > 0) then
+         call one_way(path%start, path%states, 1, path%failure(1))
+         call one_way(path%start, 1, -1, path%failure(2))
+      else if (abs(path%value(1)) < abs(path%value(path%states))) then
+         call one_way(1, path%states, 1, path%failure(1))
+      else
+         call one_way(path%states, 1, -1, path%failure(1))
+      end if
+
+   contains
+
+      subroutine one_way(first, last, direction, failure)
+         integer, intent(in) :: first, last, direction
+         type(failure_t), intent(inout) :: failure
+
+         call confirm(suspension, new_schedule(suspension, case), path%value, path%packed, first, last, direction, least, &
+            kkt, path%is_reached, failure)
+      end subroutine one_way
+
+   end subroutine confirm_path
 
    !> Places of all states, and room for them.
    !>

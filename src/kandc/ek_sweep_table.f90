@@ -16,8 +16,9 @@ module ek_sweep_table
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: sweep_table, sweep_columns, factor_unit
+   public :: nearly_singular, sweep_table, sweep_columns, factor_unit
 
+   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! least over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is none
 
 contains
@@ -25,7 +26,7 @@ contains
    !> The table of a sweep: all states that were reached, and the first that was not on either side,
    !> marked by converged = 0 and values that are not numbers.
    !>
-   !> Where the case wants all, the quantities of K&C come before the last three columns, from the compliance matrix
+   !> Where the case wants all, the quantities of K&C come before the last five columns, from the compliance matrix
    !> of every state.
    subroutine sweep_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension
@@ -42,7 +43,7 @@ contains
       integer :: first, last, k, row, shown, told
 
       call list_columns(suspension, case, columns, kandc)
-      told = size(columns) - 3        ! the last one before the end
+      told = size(columns) - 5        ! the last one before the end
       shown = told - kandc%used       ! the last column that shows the state itself
 
       call reached_rows(path, first, last)
@@ -56,12 +57,15 @@ contains
          table%values(1, row) = k - 1
          table%values(2, row) = path%value(k)/unit
          table%values(told + 1, row) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
-         table%values(told + 2, row) = path%iterations(k)
+         table%values(told + 4, row) = path%iterations(k)
          if (.not. path%is_reached(k)) cycle
+         ! the matrix of the recursive method has no geometric stiffness to tell by
+         if (case%method /= 'recursive') table%values(told + 2, row) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
+         table%values(told + 3, row) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
          call unpack_state(path%packed(:, k), state)
          call assemble(suspension, state, demand, residual_only, kkt)
          call state_values(suspension, state, kkt, table%values(3:shown, row))
-         table%values(told + 3, row) = norm2(kkt%values)
+         table%values(told + 5, row) = norm2(kkt%values)
          if (norm2(kkt%values) > open_joints) table%values(told + 1, row) = 0.0_wp
          if (.not. case%has_all) cycle
          call tell_kandc(suspension, state, demand, kkt, kandc)
@@ -92,14 +96,16 @@ contains
       call state_columns(suspension, names)
       shown = 2 + size(names)
       told = shown + kandc%used
-      allocate (columns(told + 3))
+      allocate (columns(told + 5))
       columns(1) = 'state'
       columns(2) = 'factor'
       columns(3:shown) = names
       if (case%has_all) columns(shown + 1:told) = kandc%names(:kandc%used)
       columns(told + 1) = 'converged'
-      columns(told + 2) = 'iterations'
-      columns(told + 3) = 'constraint_error'
+      columns(told + 2) = 'stable'
+      columns(told + 3) = 'near_singular'
+      columns(told + 4) = 'iterations'
+      columns(told + 5) = 'constraint_error'
    end subroutine list_columns
 
    !> The states to be told: those reached, and one beyond on a side that failed; of a table every row.

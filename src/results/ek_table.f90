@@ -16,7 +16,7 @@ module ek_table
       type(message_list_t) :: header                      !! written above the table, each with '# '
    end type table_t
 
-   character(*), parameter :: whole_names(3) = [character(10) :: 'state', 'converged', 'iterations']
+   character(*), parameter :: whole_names(5) = [character(13) :: 'state', 'converged', 'stable', 'near_singular', 'iterations']
 
 contains
 

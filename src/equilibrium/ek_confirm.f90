@@ -1,0 +1,99 @@
+!> Whether the states of a linear method lie on the path from design.
+!>
+!> The recursive and the corrected increment take one step whatever comes of it, and may step over a lock onto
+!> another assembly. So the exact path is walked once more, in a few long steps that ek_reach makes sure of, and at
+!> each of them Newton's method is started from the state of the linear method: it has to end on the exact path.
+!> States behind the last place where it does are not reached.
+module ek_confirm
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_case, only: default_tolerance
+   use ek_state, only: state_t, demand_t, design_state, unpack_state, pack_state, motion_between
+   use ek_schedule, only: schedule_t, demand_at
+   use ek_kkt, only: kkt_t
+   use ek_newton, only: outcome_t, find_equilibrium
+   use ek_predictor, only: predictor_t, new_predictor, remember
+   use ek_branch, only: branch_t, new_branch, leave, largest_motion
+   use ek_reach, only: failure_t, reach, settle
+   implicit none(type, external)
+   private
+   public :: confirm
+
+   integer, parameter :: most_looks = 10          !! at the states of one direction
+   real(wp), parameter :: apart = 1.0e-6_wp       !! m: equilibria further from each other are two
+
+contains
+
+   !> Goes through states first, first + direction, …, last, and takes back what is not on the path.
+   subroutine confirm(suspension, schedule, place, packed, first, last, direction, least, kkt, is_reached, failure)
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: place(:)               !! of each state
+      real(wp), intent(in) :: packed(:, :)           !! (coordinate, state)
+      integer, intent(in) :: first, last, direction
+      real(wp), intent(in) :: least                  !! shortest step [place]
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(inout) :: is_reached(:)
+      type(failure_t), intent(inout) :: failure      !! state: the first that is taken back
+      type(state_t) :: exact, linear
+      type(predictor_t) :: predictor
+      type(branch_t) :: branch
+      type(demand_t) :: demand
+      type(outcome_t) :: outcome
+      type(failure_t) :: lost
+      real(wp) :: motion(kkt%nq)
+      real(wp), allocatable :: settled(:)
+      integer :: k, sure, stride, iterations, end
+
+      end = first - direction
+      do k = first, last, direction
+         if (.not. is_reached(k)) exit
+         end = k
+      end do
+      if ((end - first)*direction < 0) return
+      exact = design_state(suspension)
+      linear = exact
+      call settle(suspension, default_tolerance, exact, kkt, lost)
+      if (lost%state > 0) return
+      allocate (settled(size(packed, 1)))
+      call pack_state(exact, settled)
+      predictor = new_predictor(size(packed, 1))
+      call remember(predictor, 0.0_wp, settled)
+      branch = new_branch(suspension)
+      branch%least = least
+      branch%width = 1.0e3_wp*least
+      call leave(branch, kkt%negative)
+      stride = max(1, (abs(end - first) + most_looks)/most_looks)
+      sure = first - direction
+      k = first
+      do
+         call reach(suspension, schedule, place(k), default_tolerance, predictor, branch, exact, kkt, iterations, lost)
+         if (lost%state > 0) then
+            ! what is before the end of the path may stand
+            do while (sure /= k)
+               if (abs(place(sure + direction)) > abs(lost%reached)) exit
+               sure = sure + direction
+            end do
+            exit
+         end if
+         call unpack_state(packed(:, k), linear)
+         call demand_at(schedule, place(k), demand)
+         call find_equilibrium(suspension, demand, default_tolerance, linear, kkt, outcome)
+         if (.not. outcome%is_converged) exit
+         call motion_between(exact, linear, motion)
+         if (.not. largest_motion(motion, kkt%length) <= apart) exit
+         sure = k
+         if (k == end) return
+         k = k + sign(min(stride, abs(end - k)), direction)
+      end do
+      is_reached(sure + direction:end:direction) = .false.
+      if (lost%state == 0) then
+         lost%value = place(sure + direction)
+         lost%is_off_path = .true.
+         if (sure - (first - direction) /= 0) lost%reached = place(sure)
+      end if
+      failure = lost
+      failure%state = sure + direction
+   end subroutine confirm
+
+end module ek_confirm
