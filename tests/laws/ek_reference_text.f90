@@ -15,15 +15,37 @@ module ek_reference_text
 
 contains
 
-   !> Version, scratch folder and the last digits of numbers taken out.
+   !> Version, date, scratch folder and the last digits of numbers taken out.
    function normalised(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain
 
       plain = replaced(text, scratch(''), 'SCRATCH')
       plain = replaced(plain, 'elastokin '//version, 'elastokin VERSION')
-      plain = rounded(plain)
+      plain = rounded(undated(plain))
    end function normalised
+
+   !> Every '2026-01-31 23:59' as DATE.
+   function undated(text) result(plain)
+      character(*), intent(in) :: text
+      character(:), allocatable :: plain
+      character(*), parameter :: form = '0000-00-00 00:00'
+      integer :: at, k
+
+      plain = text
+      at = 1
+      do while (at + len(form) - 1 <= len(plain))
+         do k = 1, len(form)
+            if (form(k:k) == '0') then
+               if (index('0123456789', plain(at + k - 1:at + k - 1)) == 0) exit
+            else if (plain(at + k - 1:at + k - 1) /= form(k:k)) then
+               exit
+            end if
+         end do
+         if (k > len(form)) plain = plain(:at - 1)//'DATE'//plain(at + len(form):)
+         at = at + 1
+      end do
+   end function undated
 
    !> What gnuplot drew: of every <svg …>…</svg> the label alone stays, which is the program's own.
    function without_drawings(page) result(plain)
