@@ -34,7 +34,10 @@ contains
          call get_environment_variable('TMPDIR', value=template)
       end if
       template = template//'/elastokin_test_XXXXXX'//c_null_char
-      letters = [(template(k:k), k=1, len(template))]
+      allocate (letters(len(template)))
+      do k = 1, len(template)
+         letters(k) = template(k:k)
+      end do
       folder = ''
       if (.not. c_associated(c_mkdtemp(letters))) return
       do k = 1, size(letters) - 1
