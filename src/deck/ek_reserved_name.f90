@@ -16,7 +16,6 @@ module ek_reserved_name
 
    type(column_t), parameter :: reserved_columns(*) = [ &
       column_t('state', 'state'), column_t('factor', 'factor'), column_t('converged', 'converged'), &
-      column_t('stable', 'stable'), column_t('near_singular', 'near_singular'), &
       column_t('iterations', 'iterations'), column_t('constraint_error', 'constraint_error'), &
       column_t('toe', 'toe_deg'), column_t('camber', 'camber_deg'), column_t('steer', 'steer_deg'), &
       column_t('inclination', 'inclination_deg'), column_t('caster', 'caster_deg'), &
