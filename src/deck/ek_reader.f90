@@ -33,12 +33,14 @@ module ek_reader
 
    character(*), parameter :: reserved_names(3) = [character(12) :: 'chassis', 'ground', 'wheel_travel']
    ! heads of columns that are there anyway, of which an element could make the same by its own ending (_mm, _length_mm, …)
-   character(*), parameter :: reserved_results(36) = [character(28) :: 'state', 'factor', 'converged', 'iterations', &
+   character(*), parameter :: reserved_results(44) = [character(32) :: 'state', 'factor', 'converged', 'iterations', &
       'constraint_error', 'toe', 'camber', 'steer', 'inclination', 'caster', 'kingpin_inclination', 'scrub_radius', &
       'caster_trail', 'spindle', 'spindle_length', 'spindle_offset', 'track_change', 'wheelbase_change', 'wheel_centre_x', &
       'wheel_centre_y', 'wheel_centre_z', 'contact_patch_x', 'contact_patch_y', 'contact_patch_z', 'vertical', &
       'side_view_arm', 'side_view_arm_length', 'side_view_arm_angle', 'front_view_arm', 'front_view_arm_length', &
-      'front_view_arm_angle', 'axle_roll', 'roll_centre_y', 'roll_centre_z', 'ackermann_error', 'steering_wheel']
+      'front_view_arm_angle', 'side_view_arm_centre_x', 'side_view_arm_centre_z', 'front_view_arm_centre_y', &
+      'front_view_arm_centre_z', 'axle_roll', 'roll_centre_y', 'roll_centre_z', 'roll_centre_height', &
+      'roll_centre_with_tyres_y', 'roll_centre_with_tyres_height', 'force_roll_centre_height', 'ackermann_error', 'steering_wheel']
 
 contains
 

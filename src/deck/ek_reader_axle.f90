@@ -7,7 +7,7 @@ module ek_reader_axle
    use ek_record, only: element
    use ek_group, only: group_names, axle_group, steering_group, joint_group, measure_group, word_length
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, line_of, choice, look_up, find_card
+   use ek_draft, only: draft_t, complain, line_of, choice, look_up, find_card, has_key
    implicit none(type, external)
    private
    public :: read_axle, read_steering
@@ -20,8 +20,8 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, position, drive_reaction
-      real(wp) :: wheelbase, cg_height, brake_share, drive_share
-      namelist /axle/ name, position, wheelbase, cg_height, brake_share, drive_share, drive_reaction
+      real(wp) :: wheelbase, cg_height, mass, brake_share, drive_share
+      namelist /axle/ name, position, wheelbase, cg_height, mass, brake_share, drive_share, drive_reaction
       integer :: k, c, status
 
       do k = 1, deck%used
@@ -32,12 +32,15 @@ contains
          drive_reaction = 'wheel_centre'
          wheelbase = 1.0_wp
          cg_height = 1.0_wp
+         mass = 1.0_wp
          brake_share = 0.0_wp
          drive_share = 1.0_wp
          read (draft%cards(k)%text, nml=axle, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call check_positive(draft, deck, k, 'wheelbase', wheelbase)
          call check_positive(draft, deck, k, 'cg_height', cg_height)
+         call check_positive(draft, deck, k, 'mass', mass)
+         if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
          call check_share(draft, deck, k, 'brake_share', brake_share)
          call check_share(draft, deck, k, 'drive_share', drive_share)
          associate (this => suspension%axle)
@@ -48,6 +51,7 @@ contains
             this%has_axle = .true.
             this%wheelbase = wheelbase*draft%units%length
             this%cg_height = cg_height*draft%units%length
+            this%mass = mass
             this%brake_share = brake_share
             this%drive_share = drive_share
          end associate

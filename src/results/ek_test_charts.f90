@@ -22,7 +22,7 @@ contains
    pure subroutine test_charts(test, charts)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(out) :: charts(:)
-      character(36), allocatable :: columns(:)
+      character(48), allocatable :: columns(:)
       integer :: k
 
       allocate (charts(0))
