@@ -50,15 +50,18 @@ module ek_quantity
       quantity_t('anti_lift_brake_percent', 'Anti-lift, braking', '%', 0.1_wp), &
       quantity_t('anti_squat_percent', 'Anti-squat', '%', 0.1_wp), &
       quantity_t('bump_steer_deg_per_m', 'Bump steer, local slope', 'deg/m    (+ to the left in bump)', 0.1_wp), &
-      quantity_t('roll_steer_deg_per_deg', 'Roll steer, local slope', 'deg/deg', 0.001_wp), &
+      quantity_t('roll_steer_deg_per_deg', 'Roll steer with tyres, local slope', 'deg/deg', 0.001_wp), &
       quantity_t('ackermann_percent', 'Ackermann', '%    (100: wheels roll about one point)', 0.1_wp), &
       quantity_t('ackermann_error_deg', 'Ackermann error', 'deg', 0.01_wp), &
       quantity_t('turning_circle_m', 'Turning circle', 'm', 0.1_wp), &
       quantity_t('steering_ratio', 'Steering ratio', 'steering wheel over road wheel', 0.01_wp), &
       quantity_t('steering_wheel_deg', 'Steering wheel', 'deg    (+ left)', 0.1_wp), &
-      quantity_t('lateral_in_load_held_steer_deg_per_kn', 'Lateral compliance, steer', 'deg/kN    (in phase)', 1e-4_wp), &
-      quantity_t('lateral_in_load_held_camber_deg_per_kn', 'Lateral compliance, camber', 'deg/kN    (in phase)', 1e-4_wp), &
-      quantity_t('lateral_in_load_held_deflection_mm_per_kn', 'Lateral compliance, patch', 'mm/kN    (in phase)', 1e-3_wp)]
+      quantity_t('lateral_in_load_held_steer_deg_per_kn', 'Lateral compliance, steer', &
+      'deg/kN    (in phase, load held)', 1e-4_wp), &
+      quantity_t('lateral_in_load_held_camber_deg_per_kn', 'Lateral compliance, camber', &
+      'deg/kN    (in phase, load held)', 1e-4_wp), &
+      quantity_t('lateral_in_load_held_deflection_mm_per_kn', 'Lateral compliance, patch', &
+      'mm/kN    (in phase, load held)', 1e-3_wp)]
 
 contains
 
