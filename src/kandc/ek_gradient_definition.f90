@@ -9,7 +9,7 @@ module ek_gradient_definition
 
    !> Ends the name of every gradient: a least-squares slope over a window is not the slope at a state that a column of the
    !> compliance matrix tells, and not called so.
-   character(*), parameter :: fitted = ', fitted'
+   character(*), parameter :: fitted = ' (fitted)'
 
    !> How a gradient is made: the equation at the top of ek_gradient.
    type :: definition_t

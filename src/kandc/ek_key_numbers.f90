@@ -21,7 +21,7 @@ module ek_key_numbers
    type :: source_t
       character(20) :: group = ''
       character(52) :: quantity = ''
-      character(52) :: name = ''          !! column, or quantity of a gradient without its ', fitted'
+      character(52) :: name = ''          !! column, or quantity of a gradient without its ' (fitted)'
       character(8) :: how = ''            !! 'design': column at design; 'gradient'; 'largest', 'least': over a test
       character(16) :: kind = ''          !! of the test; '': any
       character(4) :: phase = ''          !! 'in', 'anti'; '': any
