@@ -151,6 +151,10 @@ module ek_key_numbers
       source_t(anti, 'anti-lift, drive', 'anti_lift_drive_percent', 'design', '', '', '%', 'drive, front'), &
       source_t(anti, 'anti-lift, braking', 'anti_lift_brake_percent', 'design', '', '', '%', 'braking, rear'), &
       source_t(anti, 'anti-squat', 'anti_squat_percent', 'design', '', '', '%', 'drive, rear'), &
+      source_t(anti, 'dive, braking', 'brake_dive_mm_per_g', 'design', '', '', 'mm/g', '+ body goes down'), &
+      source_t(anti, 'lift, drive', 'drive_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body goes up'), &
+      source_t(anti, 'lift, braking', 'brake_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body goes up'), &
+      source_t(anti, 'squat, drive', 'drive_squat_mm_per_g', 'design', '', '', 'mm/g', '+ body goes down'), &
       source_t(steer, 'steering ratio', 'steering_ratio', 'design', '', '', '–', 'steering wheel over road wheel'), &
       source_t(steer, 'steer per steering input', 'steer per steering input', 'gradient', 'steering', '', '', ''), &
       source_t(steer, 'steer per steering wheel', 'steer per steering wheel', 'gradient', 'steering', '', '', ''), &
