@@ -12,7 +12,7 @@ module ek_probe
    use ek_attitude, only: attitude_t, wheel_attitude
    implicit none(type, external)
    private
-   public :: rest_t, push_t, slope_t, hold_heights, slopes_under
+   public :: rest_t, push_t, slope_t, hold_heights, slopes_under, slopes_over
 
    !> A model at rest under its demand, which the probes leave alone.
    type :: rest_t
@@ -76,13 +76,9 @@ contains
       real(wp), intent(in) :: compliance          !! about what a unit moves, m or rad: settles the size of a step alone
       type(slope_t), intent(out) :: slope
       type(suspension_t) :: probed
-      type(state_t) :: near
-      type(kkt_t) :: kkt
-      type(outcome_t) :: outcome
       type(load_t) :: load
-      type(attitude_t) :: now
-      real(wp) :: amount, share, q(4)
-      integer :: p, w, body, first
+      real(wp) :: amount
+      integer :: p, w, first
 
       probed = rest%suspension
       first = size(probed%loads)
@@ -96,31 +92,70 @@ contains
          end associate
          call add_load(probed, load)
       end do
-      kkt = new_kkt(probed)
       amount = step/compliance
       do p = 1, 4
          do w = 1, rest%wheels
             probed%loads(first + w)%force = place(p)*amount*push%force(:, w)
             probed%loads(first + w)%moment = place(p)*amount*push%moment(:, w)
          end do
-         near = rest%state
-         call find_equilibrium(probed, rest%demand, found, near, kkt, outcome)
-         slope%is_found = slope%is_found .and. outcome%is_converged
-         share = weight(p)/amount
-         do w = 1, rest%wheels
-            now = wheel_attitude(probed, near, rest%order(w))
-            slope%toe(w) = slope%toe(w) + share*now%toe
-            slope%camber(w) = slope%camber(w) + share*now%camber
-            slope%caster(w) = slope%caster(w) + share*now%caster
-            slope%centre(:, w) = slope%centre(:, w) + share*now%centre
-            slope%patch(:, w) = slope%patch(:, w) + share*now%contact
-            body = probed%wheels(rest%order(w))%body + 1
-            q = quaternion_of_matrix(matmul(near%poses(body)%a, transpose(rest%state%poses(body)%a)))
-            q = q*sign(1.0_wp, q(1))
-            slope%rotation(:, w) = slope%rotation(:, w) + share*2.0_wp*q(2:4)      ! sin for the angle itself
-            if (rest%holder(w) > 0) slope%lift(w) = slope%lift(w) - share*near%reaction(rest%holder(w))
-         end do
+         call add_state(probed, rest, rest%demand, weight(p)/amount, slope)
       end do
    end subroutine slopes_under
+
+   !> Slopes of everything over what a driver of the deck prescribes [per m].
+   subroutine slopes_over(rest, row, slope)
+      type(rest_t), intent(in) :: rest
+      integer, intent(in) :: row                  !! of the driver
+      type(slope_t), intent(out) :: slope
+      type(demand_t) :: demand
+      integer :: p, k
+
+      do p = 1, 4
+         demand = rest%demand
+         do k = 1, demand%rows
+            if (demand%row(k) == row) exit
+         end do
+         if (k > demand%rows) then
+            demand%rows = k
+            demand%row(k) = row
+            demand%change(k) = 0.0_wp
+         end if
+         demand%change(k) = demand%change(k) + 10.0_wp*place(p)*step
+         call add_state(rest%suspension, rest, demand, weight(p)/(10.0_wp*step), slope)
+      end do
+   end subroutine slopes_over
+
+   !> Adds what one equilibrium has to slopes, times its share.
+   subroutine add_state(probed, rest, demand, share, slope)
+      type(suspension_t), intent(in) :: probed
+      type(rest_t), intent(in) :: rest
+      type(demand_t), intent(in) :: demand
+      real(wp), intent(in) :: share
+      type(slope_t), intent(inout) :: slope
+      type(state_t) :: near
+      type(kkt_t) :: kkt
+      type(outcome_t) :: outcome
+      type(attitude_t) :: now
+      real(wp) :: q(4)
+      integer :: w, body
+
+      kkt = new_kkt(probed)
+      near = rest%state
+      call find_equilibrium(probed, demand, found, near, kkt, outcome)
+      slope%is_found = slope%is_found .and. outcome%is_converged
+      do w = 1, rest%wheels
+         now = wheel_attitude(probed, near, rest%order(w))
+         slope%toe(w) = slope%toe(w) + share*now%toe
+         slope%camber(w) = slope%camber(w) + share*now%camber
+         slope%caster(w) = slope%caster(w) + share*now%caster
+         slope%centre(:, w) = slope%centre(:, w) + share*now%centre
+         slope%patch(:, w) = slope%patch(:, w) + share*now%contact
+         body = probed%wheels(rest%order(w))%body + 1
+         q = quaternion_of_matrix(matmul(near%poses(body)%a, transpose(rest%state%poses(body)%a)))
+         q = q*sign(1.0_wp, q(1))
+         slope%rotation(:, w) = slope%rotation(:, w) + share*2.0_wp*q(2:4)      ! sin for the angle itself
+         if (rest%holder(w) > 0) slope%lift(w) = slope%lift(w) - share*near%reaction(rest%holder(w))
+      end do
+   end subroutine add_state
 
 end module ek_probe
