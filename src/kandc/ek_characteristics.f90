@@ -238,19 +238,23 @@ contains
       if (all(stand%tyre_rate > 0.0_wp)) then
          tyre = 1.0_wp/stand%tyre_rate
          is%total_roll_rate = quotient(moment, height + sum(tyre), least_compliance)
-         is%tramp_rate = quotient(moment, in_parallel(cp(3, 3) - cp(3, 9), tyre(1)) + in_parallel(cp(9, 9) - cp(9, 3), tyre(2)), &
-            least_compliance)
+         is%tramp_rate = tramp_rate(moment, [cp(3, 3) - cp(3, 9), cp(9, 9) - cp(9, 3)], tyre)
          is%tyre_roll_centre = roll_centre(cp, patch, tyre)
       end if
       lift = jacking_forces(cp, [1.0_wp, 1.0_wp])
       is%force_roll_centre = -0.5_wp*dot_product(patch(2, :), lift)
    end function axle_characteristics
 
-   !> Compliance of two springs side by side.
-   pure real(wp) function in_parallel(a, b)
-      real(wp), intent(in) :: a, b       !! m/N
-      in_parallel = quotient(a*b, a + b, least_compliance)
-   end function in_parallel
+   !> The roll rate with each wheel's suspension and tyre side by side: what holds the unsprung masses in tramp.
+   pure real(wp) function tramp_rate(moment, wheel, tyre) result(rate)
+      real(wp), intent(in) :: moment               !! (t/cos φ)² [m²]
+      real(wp), intent(in) :: wheel(2), tyre(2)    !! compliances, of a wheel under opposite loads [m/N]
+      real(wp) :: both(2)
+
+      rate = ieee_value(1.0_wp, ieee_quiet_nan)
+      both = wheel + tyre
+      if (minval(abs(both)) > least_compliance) rate = quotient(moment, sum(wheel*tyre/both), least_compliance)
+   end function tramp_rate
 
    !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces to the right
    !> there: V = −CP_zz⁻¹ CP_zy F. Not a number where the wheels cannot move up and down each for itself.
