@@ -5,7 +5,7 @@ module ek_check
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_file, only: write_standard_output
-   use ek_spring, only: axial_spring, stop_spring, torsion_spring
+   use ek_spring, only: axial_spring, measure_spring, stop_spring, torsion_spring
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
    use ek_case, only: case_t
@@ -114,11 +114,16 @@ contains
          plural(count(suspension%springs%kind == axial_spring), 'spring', 'springs')
       k = count(suspension%springs%kind == torsion_spring)
       if (k > 0) held = held//', '//plural(k, 'torsion spring', 'torsion springs')
+      k = count(suspension%springs%kind == measure_spring)
+      if (k > 0) held = held//', '//plural(k, 'spring on a measure', 'springs on measures')
       k = count(suspension%springs%kind == stop_spring)
       if (k > 0) held = held//', '//plural(k, 'stop', 'stops')
       k = count(suspension%rows%compliance > 0.0_wp)
       if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
       call tell(words, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
+      do k = 1, size(suspension%joints)
+         if (suspension%joints(k)%chosen_axis > 0) call tell(words, 'chosen axis', axis_words(suspension, k))
+      end do
       unused = ''
       do k = 1, size(suspension%points)
          if (suspension%points(k)%is_used) cycle
@@ -127,6 +132,22 @@ contains
       end do
       if (len(unused) > 0) call tell(words, 'unused points', unused)
    end subroutine tell_model
+
+   !> "universal 'outer': axis_2_vector = 0, 1, 0", of the axis that the deck left to the program, in the frame of the deck.
+   function axis_words(suspension, k) result(text)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: k                     !! number of the joint
+      character(:), allocatable :: text
+      real(wp) :: axis(3)
+
+      associate (joint => suspension%joints(k))
+         axis = joint%axis(:, joint%chosen_axis)
+         if (suspension%is_iso) axis(1:2) = -axis(1:2)
+         axis = axis + 0.0_wp                      ! no negative zero
+         text = 'universal '//quoted(joint%name)//': '//trim(merge('axis_vector  ', 'axis_2_vector', joint%chosen_axis == 1))// &
+            ' = '//str(axis(1), 6)//', '//str(axis(2), 6)//', '//str(axis(3), 6)
+      end associate
+   end function axis_words
 
    !> One case: what drives it, and whether it can be solved.
    subroutine tell_case(case, diagnosis, words)

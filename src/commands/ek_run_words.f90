@@ -5,7 +5,7 @@ module ek_run_words
    use ek_error, only: message_list_t
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
-   use ek_spring, only: axial_spring, torsion_spring
+   use ek_spring, only: axial_spring, measure_spring, torsion_spring
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
@@ -107,7 +107,7 @@ contains
       has_spring = .false.
       do k = 1, size(suspension%springs)
          associate (spring => suspension%springs(k))
-            has_spring = has_spring .or. spring%kind == axial_spring .or. &
+            has_spring = has_spring .or. any(spring%kind == [axial_spring, measure_spring]) .or. &
                (spring%kind == torsion_spring .and. min(spring%measure%body_i, spring%measure%body_j) == 0)
          end associate
       end do

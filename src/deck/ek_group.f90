@@ -9,7 +9,7 @@ module ek_group
    public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
-   public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group
+   public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group, mass_group
    public :: most_values, most_loads, is_legal_name
    public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
    public :: word, prose, number, whole, switch
@@ -18,10 +18,11 @@ module ek_group
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
-      curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21
-   character(*), parameter :: group_names(21) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
+      curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
+      mass_group = 22
+   character(*), parameter :: group_names(22) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
-      'stop', 'torsion', 'axle', 'steering']
+      'stop', 'torsion', 'axle', 'steering', 'mass']
 
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others are a deck's
 
@@ -66,6 +67,11 @@ module ek_group
       key_t(body_group, 'origin', word, 1, 1, .false.), &
       key_t(body_group, 'mass', number, 1, 1, .false.), &
       key_t(body_group, 'centre', word, 1, 1, .false.), &
+      key_t(mass_group, 'name', word, 1, 1, .true.), &
+      key_t(mass_group, 'note', prose, 1, 1, .false.), &
+      key_t(mass_group, 'body', word, 1, 1, .true.), &
+      key_t(mass_group, 'kg', number, 1, 1, .true.), &
+      key_t(mass_group, 'at', word, 1, 1, .true.), &
       key_t(measure_group, 'name', word, 1, 1, .true.), &
       key_t(measure_group, 'note', prose, 1, 1, .false.), &
       key_t(measure_group, 'type', word, 1, 1, .true.), &
@@ -103,8 +109,9 @@ module ek_group
       key_t(bushing_group, 'preload_moment', number, 3, 3, .false.), &
       key_t(spring_group, 'name', word, 1, 1, .true.), &
       key_t(spring_group, 'note', prose, 1, 1, .false.), &
-      key_t(spring_group, 'bodies', word, 2, 2, .true.), &
-      key_t(spring_group, 'at', word, 2, 2, .true.), &
+      key_t(spring_group, 'bodies', word, 2, 2, .false.), &
+      key_t(spring_group, 'at', word, 2, 2, .false.), &
+      key_t(spring_group, 'measure', word, 1, 1, .false.), &
       key_t(spring_group, 'rate', number, 1, 1, .false.), &
       key_t(spring_group, 'curve', word, 1, 1, .false.), &
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
@@ -148,6 +155,8 @@ module ek_group
       key_t(wheel_group, 'camber', number, 1, 1, .false.), &
       key_t(wheel_group, 'radius', number, 1, 1, .false.), &
       key_t(wheel_group, 'tyre_rate', number, 1, 1, .false.), &
+      key_t(wheel_group, 'tyre_width', number, 1, 1, .false.), &
+      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false.), &
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false.), &
       key_t(axle_group, 'name', word, 1, 1, .false.), &
       key_t(axle_group, 'note', prose, 1, 1, .false.), &
@@ -158,6 +167,8 @@ module ek_group
       key_t(axle_group, 'brake_share', number, 1, 1, .true.), &
       key_t(axle_group, 'drive_share', number, 1, 1, .false.), &
       key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
+      key_t(axle_group, 'front_overhang', number, 1, 1, .false.), &
+      key_t(axle_group, 'front_width', number, 1, 1, .false.), &
       key_t(steering_group, 'name', word, 1, 1, .false.), &
       key_t(steering_group, 'note', prose, 1, 1, .false.), &
       key_t(steering_group, 'driver', word, 1, 1, .true.), &

@@ -28,6 +28,8 @@ module ek_mirror_role
       role_t('point', 'at', polar), &
       role_t('body', 'origin', points), &
       role_t('body', 'centre', points), &
+      role_t('mass', 'body', bodies), &
+      role_t('mass', 'at', points), &
       role_t('measure', 'bodies', bodies), &
       role_t('measure', 'at', points), &
       role_t('measure', 'axis', points), &
@@ -53,6 +55,7 @@ module ek_mirror_role
       role_t('bushing', 'curve', curves), &
       role_t('spring', 'bodies', bodies), &
       role_t('spring', 'at', points), &
+      role_t('spring', 'measure', measures), &
       role_t('damper', 'bodies', bodies), &
       role_t('damper', 'at', points), &
       role_t('stop', 'bodies', bodies), &
@@ -75,8 +78,8 @@ module ek_mirror_role
       role_t('case', 'wheel', wheels), &
       role_t('steering', 'driver', joints)]
 
-   character(*), parameter :: elements(9) = [character(8) :: 'measure', 'joint', 'bushing', 'spring', 'damper', 'stop', &
-      'torsion', 'wheel', 'load']
+   character(*), parameter :: elements(10) = [character(8) :: 'measure', 'joint', 'bushing', 'spring', 'damper', 'stop', &
+      'torsion', 'wheel', 'load', 'mass']
 
 contains
 

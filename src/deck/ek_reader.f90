@@ -17,7 +17,9 @@ module ek_reader
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
    use ek_reader_joints, only: read_measures, read_joints
+   use ek_reserved_name, only: reserved_because
    use ek_reader_curves, only: read_curves
+   use ek_reader_masses, only: read_masses
    use ek_reader_springs, only: read_springs, read_dampers, read_stops, read_torsions
    use ek_reader_elements, only: read_bushings, read_loads
    use ek_reader_wheels, only: read_wheels
@@ -30,17 +32,6 @@ module ek_reader
    implicit none(type, external)
    private
    public :: build_model
-
-   character(*), parameter :: reserved_names(3) = [character(12) :: 'chassis', 'ground', 'wheel_travel']
-   ! heads of columns that are there anyway, of which an element could make the same by its own ending (_mm, _length_mm, …)
-   character(*), parameter :: reserved_results(44) = [character(32) :: 'state', 'factor', 'converged', 'iterations', &
-      'constraint_error', 'toe', 'camber', 'steer', 'inclination', 'caster', 'kingpin_inclination', 'scrub_radius', &
-      'caster_trail', 'spindle', 'spindle_length', 'spindle_offset', 'track_change', 'wheelbase_change', 'wheel_centre_x', &
-      'wheel_centre_y', 'wheel_centre_z', 'contact_patch_x', 'contact_patch_y', 'contact_patch_z', 'vertical', &
-      'side_view_arm', 'side_view_arm_length', 'side_view_arm_angle', 'front_view_arm', 'front_view_arm_length', &
-      'front_view_arm_angle', 'side_view_arm_centre_x', 'side_view_arm_centre_z', 'front_view_arm_centre_y', &
-      'front_view_arm_centre_z', 'axle_roll', 'roll_centre_y', 'roll_centre_z', 'roll_centre_height', &
-      'roll_centre_with_tyres_y', 'roll_centre_with_tyres_height', 'force_roll_centre_height', 'ackermann_error', 'steering_wheel']
 
 contains
 
@@ -78,6 +69,7 @@ contains
       call read_points(deck, draft)
       call read_curves(deck, draft)
       call read_bodies(deck, draft, suspension)
+      call read_masses(deck, draft, suspension)
       call read_measures(deck, draft, suspension)
       call read_joints(deck, draft, suspension)
       call read_bushings(deck, draft, suspension)
@@ -131,27 +123,13 @@ contains
 
          if (.not. is_legal_name(name)) then
             call complain(draft, deck, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
-         else if (any(reserved_names == lower(name)) .or. index(lower(name), 'rig_') == 1) then
-            call complain(draft, deck, k, 'name', 'the name is reserved')
-         else if (has_results(card%group) .and. any(reserved_results == of_wheel(lower(name)))) then
-            call complain(draft, deck, k, 'name', 'the name is reserved for a column of the results')
+         else
+            name = reserved_because(name, has_results(card%group))
+            if (name /= '') call complain(draft, deck, k, 'name', name)
          end if
          if (card%group /= model_group) call check_new(deck, k, draft)
       end associate
    end subroutine check_names
-
-   !> The name without what columns of a wheel begin with: the side on an axle, instant_ for its instant steer axis.
-   pure function of_wheel(name) result(rest)
-      character(*), intent(in) :: name
-      character(:), allocatable :: rest
-      character(*), parameter :: heads(3) = [character(8) :: 'left_', 'right_', 'instant_']
-      integer :: k
-
-      rest = name
-      do k = 1, size(heads)
-         if (index(rest, trim(heads(k))) == 1) rest = rest(len_trim(heads(k)) + 1:)
-      end do
-   end function of_wheel
 
    !> That no record before k has its name.
    subroutine check_new(deck, k, draft)

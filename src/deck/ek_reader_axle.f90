@@ -7,7 +7,7 @@ module ek_reader_axle
    use ek_record, only: element
    use ek_group, only: group_names, axle_group, steering_group, joint_group, measure_group, word_length
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, line_of, choice, look_up, find_card, has_key
+   use ek_draft, only: draft_t, complain, line_of, has_key, choice, look_up, find_card
    implicit none(type, external)
    private
    public :: read_axle, read_steering
@@ -20,8 +20,9 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, position, drive_reaction
-      real(wp) :: wheelbase, cg_height, mass, brake_share, drive_share
-      namelist /axle/ name, position, wheelbase, cg_height, mass, brake_share, drive_share, drive_reaction
+      real(wp) :: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width
+      namelist /axle/ name, position, wheelbase, cg_height, mass, brake_share, drive_share, drive_reaction, &
+         front_overhang, front_width
       integer :: k, c, status
 
       do k = 1, deck%used
@@ -35,6 +36,8 @@ contains
          mass = 1.0_wp
          brake_share = 0.0_wp
          drive_share = 1.0_wp
+         front_overhang = 1.0_wp
+         front_width = 1.0_wp
          read (draft%cards(k)%text, nml=axle, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call check_positive(draft, deck, k, 'wheelbase', wheelbase)
@@ -43,6 +46,11 @@ contains
          if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
          call check_share(draft, deck, k, 'brake_share', brake_share)
          call check_share(draft, deck, k, 'drive_share', drive_share)
+         call check_positive(draft, deck, k, 'front_overhang', front_overhang)
+         call check_positive(draft, deck, k, 'front_width', front_width)
+         if (has_key(deck, k, 'front_overhang') .neqv. has_key(deck, k, 'front_width')) call complain(draft, deck, k, &
+            trim(merge('front_overhang', 'front_width   ', has_key(deck, k, 'front_overhang'))), &
+            'front_overhang and front_width go together (both make the circle from wall to wall)')
          associate (this => suspension%axle)
             call choice(draft, deck, k, 'position', trim(position), [character(5) :: 'front', 'rear'], c)
             this%is_front = c == 1
@@ -54,6 +62,10 @@ contains
             this%mass = mass
             this%brake_share = brake_share
             this%drive_share = drive_share
+            if (has_key(deck, k, 'front_overhang') .and. c > 0 .and. .not. this%is_front) call complain(draft, deck, k, &
+               'front_overhang', "front_overhang belongs to the front axle, found position = 'rear'")
+            if (has_key(deck, k, 'front_overhang')) this%front_overhang = front_overhang*draft%units%length
+            if (has_key(deck, k, 'front_width')) this%front_width = front_width*draft%units%length
          end associate
       end do
    end subroutine read_axle

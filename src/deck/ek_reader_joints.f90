@@ -170,7 +170,12 @@ contains
          end select
          call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, geometry%axis_i, has_u, is_u)
          call find_direction(draft, deck, k, 'axis_2', axis_2, 'axis_2_vector', axis_2_vector, geometry%axis_j, has_v, is_v)
-         if (.not. has_v) geometry%axis_j = geometry%axis_i
+         if (kind == 'universal') then
+            if (is_u .and. .not. has_v) geometry%axis_j = across(geometry%axis_i)
+            if (is_v .and. .not. has_u) geometry%axis_i = across(geometry%axis_j)
+         else if (.not. has_v) then
+            geometry%axis_j = geometry%axis_i
+         end if
          if (is_u .and. is_v) then
             angle = angle_between(geometry%axis_i, geometry%axis_j)
             select case (kind)
@@ -191,6 +196,13 @@ contains
          geometry%point_i = ends(:, 1)
          geometry%point_j = ends(:, 2)
          call add_joint(suspension, trim(name), where_of(deck, k), kind, geometry)
+         if (kind /= 'universal') return
+         associate (joint => suspension%joints(size(suspension%joints)))
+            joint%axis(:, 1) = geometry%axis_i
+            joint%axis(:, 2) = geometry%axis_j
+            if (.not. has_u) joint%chosen_axis = 1
+            if (.not. has_v) joint%chosen_axis = 2
+         end associate
       end subroutine make_joint
 
       !> Stiffness: force/length, or moment/angle where the measure is an angle.
@@ -253,6 +265,18 @@ contains
 
    end subroutine read_joints
 
+   !> The axis of a universal joint that the deck leaves open: level and square to the given one; where that one is vertical,
+   !> longitudinal. It is the same line on both sides of a mirrored axle.
+   pure function across(axis) result(chosen)
+      real(wp), intent(in) :: axis(3)                 !! unit
+      real(wp) :: chosen(3)
+      real(wp), parameter :: upright = 1.0e-3_wp      ! sine of the angle below which an axis has no level square of note
+
+      chosen = [-axis(2), axis(1), 0.0_wp]
+      if (norm2(chosen) < upright) chosen = [1.0_wp, 0.0_wp, 0.0_wp] - axis(1)*axis
+      chosen = chosen/norm2(chosen)
+   end function across
+
    !> Which keys a kind of joint must have, and which it cannot.
    subroutine check_keys(draft, deck, k, kind)
       type(draft_t), intent(inout) :: draft
@@ -281,6 +305,12 @@ contains
          if (must(j) .and. .not. has_key(deck, k, trim(joint_keys(j)))) &
             call complain(draft, deck, k, '', quoted(joint_keys(j))//' is missing')
       end do
+      if (kind == 'universal') then
+         if (.not. any([has_key(deck, k, 'axis'), has_key(deck, k, 'axis_vector'), has_key(deck, k, 'axis_2'), &
+            has_key(deck, k, 'axis_2_vector')])) call complain(draft, deck, k, '', &
+            "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen square to it)")
+         return
+      end if
       if (needs_axis(kind) .and. .not. (has_key(deck, k, 'axis') .or. has_key(deck, k, 'axis_vector'))) &
          call complain(draft, deck, k, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
       if (needs_second_axis(kind) .and. .not. (has_key(deck, k, 'axis_2') .or. has_key(deck, k, 'axis_2_vector'))) &

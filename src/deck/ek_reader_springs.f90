@@ -3,12 +3,13 @@ module ek_reader_springs
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t, look_up_curve
-   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion
+   use ek_measure, only: distance
+   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_element
-   use ek_group, only: spring_group, damper_group, stop_group, torsion_group, word_length
+   use ek_group, only: measure_group, spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, find_point, find_bodies, find_direction
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, look_up, find_point, find_bodies, find_direction
    use ek_reader_curves, only: find_law, find_curve, check_rate, check_either
    implicit none(type, external)
    private
@@ -29,19 +30,21 @@ contains
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, bodies(2), at(2), curve
+      character(word_length) :: name, bodies(2), at(2), measure, curve
       real(wp) :: rate, preload, free_length
-      namelist /spring/ name, bodies, at, rate, curve, preload, free_length
+      namelist /spring/ name, bodies, at, measure, rate, curve, preload, free_length
       type(ends_t) :: ends
       real(wp), allocatable :: free
       type(curve_t), allocatable :: law      ! where there is none, or it was refused: an absent argument
-      integer :: k, status
+      real(wp) :: force_unit, value_unit     ! SI per unit of the deck
+      integer :: k, found, status
 
       do k = 1, deck%used
          if (draft%cards(k)%group /= spring_group) cycle
          name = ''
          bodies = ''
          at = ''
+         measure = ''
          curve = ''
          rate = 0.0_wp
          preload = 0.0_wp
@@ -49,8 +52,16 @@ contains
          read (draft%cards(k)%text, nml=spring, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
 
-         call find_ends(draft, deck, k, bodies, at, ends)
-         call find_law(draft, deck, k, rate, trim(curve), draft%units%length, draft%units%force, law)
+         force_unit = draft%units%force
+         value_unit = draft%units%length
+         if (has_key(deck, k, 'measure')) then
+            call find_measure()
+         else
+            if (.not. has_key(deck, k, 'bodies')) call complain(draft, deck, k, '', "'bodies' is missing (or 'measure')")
+            if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing (or 'measure')")
+            call find_ends(draft, deck, k, bodies, at, ends)
+         end if
+         call find_law(draft, deck, k, rate, trim(curve), value_unit, force_unit, law)
          if (.not. free_length > 0.0_wp) &
             call complain(draft, deck, k, 'free_length', 'free_length must be above 0, found '//str(free_length))
          if (has_key(deck, k, 'preload') .and. has_key(deck, k, 'free_length')) &
@@ -59,9 +70,42 @@ contains
 
          if (allocated(free)) deallocate (free)
          if (has_key(deck, k, 'free_length')) free = free_length*draft%units%length
+         if (has_key(deck, k, 'measure')) then
+            associate (readout => suspension%readouts(draft%cards(found)%index))
+               call add_element(suspension, new_measure_spring(trim(name), where_of(deck, k), readout%measure, &
+                  rate*(force_unit/value_unit), preload*force_unit, free, law))
+            end associate
+            cycle
+         end if
          call add_element(suspension, new_spring(trim(name), where_of(deck, k), ends%body(1), ends%body(2), &
-            ends%at(:, 1), ends%at(:, 2), rate*(draft%units%force/draft%units%length), preload*draft%units%force, free, law))
+            ends%at(:, 1), ends%at(:, 2), rate*(force_unit/value_unit), preload*force_unit, free, law))
       end do
+
+   contains
+
+      !> The measure that the spring acts on, and the units of its value and its force.
+      subroutine find_measure()
+         character(*), parameter :: own(2) = [character(6) :: 'bodies', 'at']
+         integer :: j
+
+         do j = 1, size(own)
+            if (has_key(deck, k, trim(own(j)))) call complain(draft, deck, k, trim(own(j)), &
+               trim(own(j))//': the measure has its own; give either measure, or bodies and at')
+         end do
+         call look_up(draft, deck, k, 'measure', measure_group, trim(measure), found)
+         if (found == 0) return
+         if (draft%cards(found)%index == 0) then      ! refused itself
+            draft%cards(k)%is_good = .false.
+            return
+         end if
+         value_unit = draft%cards(found)%factor
+         associate (readout => suspension%readouts(draft%cards(found)%index))
+            if (is_of_angle(readout%measure%kind)) force_unit = force_unit*draft%units%length
+            if (has_key(deck, k, 'free_length') .and. readout%measure%kind /= distance) call complain(draft, deck, k, &
+               'free_length', 'free_length: only a spring on a distance has one; give its preload at design')
+         end associate
+      end subroutine find_measure
+
    end subroutine read_springs
 
    !> &damper: of a damper, statics know the force of its gas.

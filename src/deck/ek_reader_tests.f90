@@ -6,7 +6,8 @@ module ek_reader_tests
    use ek_record, only: element
    use ek_group, only: wheel_group, joint_group, word_length
    use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, has_key, choice
+   use ek_draft, only: draft_t, complain, line_of, has_key, choice
+   use ek_twin, only: right_twin
    use ek_case_words, only: words_t, find_driver, find_wheel
    implicit none(type, external)
    private
@@ -44,10 +45,12 @@ contains
       call refuse('target', this%test == 'table', 'a table has no path to search')
 
       call count_wheels()
-      call choice(draft, deck, k, 'vertical', trim(words%vertical), [character(6) :: 'centre', 'patch', 'force'], c)
+      call choice(draft, deck, k, 'vertical', trim(words%vertical), [character(6) :: 'centre', 'patch', 'force', 'road'], c)
       this%vertical = trim(words%vertical)
-      if (this%test == 'roll') call refuse('vertical', c == 3, 'the heights of a rolling axle are driven: ''centre'' or ''patch''')
-      if (this%test == 'vertical_force') call refuse('vertical', c == 1 .or. c == 2, 'this test sets the force')
+      if (this%test == 'roll') call refuse('vertical', c == 3, &
+         'the heights of a rolling axle are driven: ''centre'', ''patch'' or ''road''')
+      if (this%test == 'vertical_force') call refuse('vertical', c > 0 .and. c /= 3, 'this test sets the force')
+      if (c == 4) call check_tyres()
       call choice(draft, deck, k, 'phase', trim(words%phase), [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
       if (this%is_anti .or. this%test == 'opposite_travel' .or. this%test == 'roll') then
@@ -103,6 +106,18 @@ contains
          end do
          if (all(wheels == 0)) call complain(draft, deck, k, 'test', 'the rig needs a &wheel')
       end subroutine count_wheels
+
+      !> A wheel stands on the road by its tyre.
+      subroutine check_tyres()
+         integer :: j
+
+         do j = 1, deck%used
+            if (draft%cards(j)%group /= wheel_group) cycle
+            if (has_key(deck, j, 'tyre_rate') .or. deck%records(j)%twin == right_twin) cycle
+            call complain(draft, deck, k, 'vertical', "vertical = 'road' needs the tyre_rate of wheel "// &
+               quoted(draft%cards(j)%name)//' in '//line_of(deck, j, k))
+         end do
+      end subroutine check_tyres
 
       !> What is steered: the case's own word, else that of &steering, else the only driver.
       subroutine find_steering()

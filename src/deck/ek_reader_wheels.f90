@@ -21,8 +21,9 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, body, side, centre, contact, steer_axis(2)
-      real(wp) :: spin_vector(3), toe, camber, radius, tyre_rate, height
-      namelist /wheel/ name, body, side, centre, contact, spin_vector, toe, camber, radius, tyre_rate, steer_axis
+      real(wp) :: spin_vector(3), toe, camber, radius, tyre_rate, tyre_width, sprung_mass, height
+      namelist /wheel/ name, body, side, centre, contact, spin_vector, toe, camber, radius, tyre_rate, tyre_width, &
+         sprung_mass, steer_axis
       type(wheel_t) :: this
       logical :: has_body, has_centre, has_contact, is_there(2)
       integer :: k, j, c, wheels, status
@@ -41,6 +42,8 @@ contains
          camber = 0.0_wp
          radius = 1.0_wp
          tyre_rate = 1.0_wp
+         tyre_width = 1.0_wp
+         sprung_mass = 1.0_wp
          read (draft%cards(k)%text, nml=wheel, iostat=status)
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          wheels = wheels + 1
@@ -67,6 +70,14 @@ contains
             call complain(draft, deck, k, 'tyre_rate', 'tyre_rate must be above 0, found '//str(tyre_rate))
          this%tyre_rate = 0.0_wp
          if (has_key(deck, k, 'tyre_rate')) this%tyre_rate = tyre_rate*(draft%units%force/draft%units%length)
+         if (.not. tyre_width > 0.0_wp) &
+            call complain(draft, deck, k, 'tyre_width', 'tyre_width must be above 0, found '//str(tyre_width))
+         this%tyre_width = 0.0_wp
+         if (has_key(deck, k, 'tyre_width')) this%tyre_width = tyre_width*draft%units%length
+         if (.not. sprung_mass > 0.0_wp) &
+            call complain(draft, deck, k, 'sprung_mass', 'sprung_mass must be above 0 kg, found '//str(sprung_mass))
+         this%sprung_mass = 0.0_wp
+         if (has_key(deck, k, 'sprung_mass')) this%sprung_mass = sprung_mass
          call find_spin()
          this%has_steer_axis = has_key(deck, k, 'steer_axis')
          do j = 1, 2

@@ -11,10 +11,10 @@
 !> scaled symmetrically, D S D, before it is factorised; D is made in ek_scale.
 module ek_kkt
    use ek_kinds, only: wp
-   use ek_measure, only: view_t, look, add_measure_hessian, rotation
+   use ek_measure, only: view_t, look, add_measure_hessian, distance, rotation
    use ek_turn, only: pose_t
    use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated
-   use ek_spring, only: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
+   use ek_spring, only: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material, add_measure_material
    use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
    use ek_rotation, only: cross, skew
    use ek_suspension, only: suspension_t, load_t
@@ -157,6 +157,9 @@ contains
             if (spring%measure%kind == rotation) then
                if (mode == whole_tangent) call add_torsion_tangent(view, tension, slope, at_i, at_j, n, matrix)
                if (mode == material_only) call add_torsion_material(view, slope, at_i, at_j, n, matrix)
+            else if (spring%measure%kind /= distance) then
+               if (mode /= residual_only) call add_measure_material(view, slope, at_i, at_j, n, matrix)
+               if (mode == whole_tangent) call add_measure_hessian(spring%measure%kind, view, tension, at_i, at_j, n, matrix)
             else if (mode == whole_tangent) then
                call add_spring_tangent(view, tension, slope, at_i, at_j, n, matrix)
             else if (mode == material_only) then

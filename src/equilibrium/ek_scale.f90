@@ -7,7 +7,7 @@
 module ek_scale
    use ek_kinds, only: wp
    use ek_measure, only: axis_axis, rotation
-   use ek_spring, only: axial_spring, spring_tension
+   use ek_spring, only: axial_spring, measure_spring, is_of_angle, spring_tension
    use ek_elastic, only: design_rates
    use ek_suspension, only: suspension_t
    implicit none(type, external)
@@ -45,7 +45,8 @@ contains
       sum_log = 0.0_wp
       count = 0
       do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%kind /= axial_spring) cycle     ! gas and stops hold no wheel at design
+         if (suspension%springs(k)%kind /= axial_spring .and. suspension%springs(k)%kind /= measure_spring) cycle
+         if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and bars hold no wheel at design
          call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
          if (slope <= 0.0_wp) cycle
          sum_log = sum_log + log(slope)

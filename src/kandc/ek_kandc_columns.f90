@@ -24,6 +24,7 @@ module ek_kandc_columns
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
    use ek_steer_axis, only: instant_axis, locked_twist
+   use ek_geometry_columns, only: geometry_columns
    implicit none(type, external)
    private
    public :: kandc_t, start_kandc, tell_kandc, rig_rows
@@ -92,6 +93,10 @@ contains
       end do
       if (is_axle(suspension)) call list_axle(suspension, now, lift, stand, self)
       call list_steering(suspension, state, self)
+      call geometry_columns(suspension, self%vehicle, self%compliance, state, self%geometry)
+      do k = 1, self%geometry%used
+         call put(self, trim(self%geometry%names(k)), self%geometry%values(k))
+      end do
       if (n == 0) return                                ! no wheel, no travel
       do k = 1, self%compliance%springs
          ratio = 0.0_wp

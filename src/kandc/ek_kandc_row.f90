@@ -4,6 +4,7 @@ module ek_kandc_row
    use ek_kinds, only: wp
    use ek_vehicle, only: vehicle_t
    use ek_compliance, only: compliance_t
+   use ek_geometry_columns, only: column_list_t
    use ek_table, only: name_length
    implicit none(type, external)
    private
@@ -17,6 +18,7 @@ module ek_kandc_row
       logical :: is_naming = .true.
       type(vehicle_t) :: vehicle
       type(compliance_t) :: compliance
+      type(column_list_t) :: geometry
    end type kandc_t
 
 contains

@@ -7,15 +7,11 @@ module ek_key_numbers
    use ek_test_result, only: test_result_t, design_row, converged_rows
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
+   use ek_key_number, only: key_number_t
+   use ek_place_numbers, only: place_numbers
    implicit none(type, external)
    private
    public :: key_number_t, key_numbers
-
-   type :: key_number_t
-      character(:), allocatable :: group, quantity, unit, sign
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number where there is none
-      logical :: is_of_axle = .false.                !! one number, in `left`
-   end type key_number_t
 
    !> Where a key number comes from.
    type :: source_t
@@ -53,6 +49,14 @@ module ek_key_numbers
       '+ inboard of the patch', 'y'), &
       source_t(attitude, 'caster trail, instant axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &
       '+ ahead of the patch', 'y'), &
+      source_t(attitude, 'steer-axis offset, wheel centre', 'centre_axis_distance_mm', 'design', '', '', 'mm', &
+      'shortest distance'), &
+      source_t(attitude, 'steer-axis offset, patch', 'patch_axis_distance_mm', 'design', '', '', 'mm', 'shortest distance'), &
+      source_t(attitude, 'spindle length, along', 'along_spindle_length_mm', 'design', '', '', 'mm', &
+      '+ wheel centre outboard, along the spin axis'), &
+      source_t(attitude, 'spindle offset, across', 'across_spindle_offset_mm', 'design', '', '', 'mm', &
+      '+ spin axis behind the steer axis'), &
+      source_t(attitude, 'total track', 'total_track_mm', 'design', '', '', 'mm', 'distance of the patches'), &
       source_t(attitude, 'wheel load', 'vertical_force_n', 'design', '', '', 'N', 'ground on wheel'), &
       source_t(attitude, 'roll centre height', 'roll_centre_height_mm', 'design', '', '', 'mm', '+ above the ground'), &
       source_t(attitude, 'roll centre, lateral', 'roll_centre_y_mm', 'design', '', '', 'mm', 'y of the deck'), &
@@ -63,6 +67,7 @@ module ek_key_numbers
       source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'both wheels in phase'), &
       source_t(rates, 'wheel rate', 'wheel rate', 'gradient', 'parallel_travel', '', 'N/mm', ''), &
       source_t(rates, 'ride rate', 'ride_rate_n_per_mm', 'design', '', '', 'N/mm', 'with the tyre'), &
+      source_t(rates, 'ride frequency', 'ride_frequency_hz', 'design', '', '', 'Hz', 'ride rate and sprung mass'), &
       source_t(rates, 'vertical deflection', 'vertical deflection', 'gradient', 'vertical_force', '', 'mm/kN', '+ up'), &
       source_t(rates, 'suspension roll rate', 'suspension_roll_rate_nm_per_deg', 'design', '', '', 'N m/deg', ''), &
       source_t(rates, 'total roll rate', 'total_roll_rate_nm_per_deg', 'design', '', '', 'N m/deg', 'with the tyres'), &
@@ -80,6 +85,7 @@ module ek_key_numbers
       source_t(ride, 'half-track change', 'half-track change', 'gradient', 'parallel_travel', '', '', ''), &
       source_t(ride, 'wheelbase change', 'wheelbase change', 'gradient', 'parallel_travel', '', '', ''), &
       source_t(ride, 'roll-centre height change', 'roll-centre height change', 'gradient', 'parallel_travel', '', '', ''), &
+      source_t(ride, 'recession gradient', 'recession_gradient_mm_per_m', 'design', '', '', 'mm/m', '+ rearward as it rises'), &
       source_t(ride, 'side-view swing arm length', 'side_view_arm_length_mm', 'design', '', '', 'mm', ''), &
       source_t(ride, 'side-view swing arm angle', 'side_view_arm_angle_deg', 'design', '', '', 'deg', ''), &
       source_t(ride, 'front-view swing arm length', 'front_view_arm_length_mm', 'design', '', '', 'mm', ''), &
@@ -162,6 +168,10 @@ module ek_key_numbers
       source_t(steer, 'largest steer to the right', 'steer_deg', 'least', 'steering', '', 'deg', 'over the test'), &
       source_t(steer, 'Ackermann at most', 'ackermann_percent', 'largest', 'steering', '', '%', 'over the test'), &
       source_t(steer, 'turning circle, least', 'turning_circle_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'turning circle, curb to curb', 'curb_to_curb_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'turning circle, wall to wall', 'wall_to_wall_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'camber per steer', 'steer_camber_deg_per_deg', 'design', '', '', 'deg/deg', &
+      '+ top outward, steer to the left'), &
       source_t(steer, 'steer camber', 'steer camber', 'gradient', 'steering', '', '', '')]
 
 contains
@@ -189,6 +199,7 @@ contains
       call take(held_list)
       call take(last_list)
       numbers = numbers(:used)
+      call place_numbers(tests, numbers)
 
    contains
 

@@ -5,7 +5,7 @@ module ek_part_shape
    use ek_kinds, only: wp
    use ek_units, only: pi
    use ek_block, only: rotated
-   use ek_measure, only: measure_t, rotation
+   use ek_measure, only: measure_t, distance
    use ek_spring, only: axial_spring, stop_spring
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, &
@@ -174,7 +174,7 @@ contains
       real(wp) :: a(3), b(3), length
 
       associate (spring => suspension%springs(k))
-         if (spring%measure%kind == rotation) return
+         if (spring%measure%kind /= distance) return      ! a measure has no shape of its own
          call ends_of(spring%measure, state, a, b)
          length = norm2(b - a)
          if (length < same_point) return

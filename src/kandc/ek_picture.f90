@@ -3,7 +3,7 @@
 !> A body has no shape in the model: its skeleton stands for it.
 module ek_picture
    use ek_kinds, only: wp
-   use ek_measure, only: rotation
+   use ek_measure, only: distance
    use ek_spring, only: stop_spring, damper
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides
@@ -156,7 +156,7 @@ contains
          call name_at(suspension%joints(k)%name)
       end do
       do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%measure%kind == rotation .or. suspension%springs(k)%kind == stop_spring) cycle
+         if (suspension%springs(k)%measure%kind /= distance .or. suspension%springs(k)%kind == stop_spring) cycle
          call ends_of(suspension%springs(k)%measure, state, a, b)
          at = 0.3_wp*a + 0.7_wp*b
          if (suspension%springs(k)%kind == damper) at = b         ! above the coil that stands around it

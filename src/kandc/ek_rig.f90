@@ -18,7 +18,8 @@
 !> | vertical_force  | force           | upward at the patch                    | vertical force   |
 !> | table           | row of the file | its columns                            | vertical force   |
 !>
-!> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); held by vertical
+!> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); on the road (vertical =
+!> 'road') that driver is the road's height, on which the patch stands by the rate of its tyre; held by vertical
 !> force it is free, and keeps the load it has. In anti phase the right wheel gets the opposite. The wheel
 !> is fixed to its carrier, which is a locked brake; a force at the wheel centre is what a free wheel
 !> passes on. Where the drive torque ends in a solid axle, traction acts at the patch.
@@ -67,11 +68,16 @@ contains
          call drive_heights(merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], row == 1), 'travel of the '// &
             trim(merge('left ', 'right', row == 1))//' wheel')
       case ('roll')
-         call add_height_driver(suspension, 'rig_roll', this%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
+         if (control('patch') == 'road') then
+            call add_height_driver(suspension, 'rig_roll', this%where, wheels, [1.0_wp, -1.0_wp], .true., &
+               suspension%wheels(wheels)%tyre_rate)
+         else
+            call add_height_driver(suspension, 'rig_roll', this%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
+         end if
          call append_course(this%courses, '', 'rig_roll', design_track(suspension), follows_tangent)
          this%unit = degree
          this%unit_name = 'deg'
-         this%place_name = 'axle roll, left wheel up'
+         this%place_name = trim(merge('roll of the road, left up', 'axle roll, left wheel up ', control('patch') == 'road'))
       case ('steering')
          call hold_heights('centre')
          call append_course(this%courses, '', this%drive, 1.0_wp, follows_place)
@@ -134,21 +140,28 @@ contains
          end if
          this%unit = millimetre
          this%unit_name = 'mm'
+         if (control('centre') == 'road') this%place_name = 'height of the road, in place of '//place_name
          call hold_heights('centre')
          do side = 1, 2
             if (wheels(side) > 0) call append_course(this%courses, '', height_name(side), shares(side), follows_place)
          end do
       end subroutine drive_heights
 
-      !> A driver on the height of each wheel's centre or patch, unless vertical force holds them.
+      !> A driver on the height of each wheel's centre or patch, or of the road under it, unless vertical force holds them.
       subroutine hold_heights(default)
          character(*), intent(in) :: default
          integer :: side
 
          if (control(default) == 'force') return
          do side = 1, 2
-            if (wheels(side) > 0) call add_height_driver(suspension, height_name(side), this%where, wheels(side:side), &
-               [1.0_wp], control(default) == 'patch')
+            if (wheels(side) == 0) cycle
+            if (control(default) == 'road') then
+               call add_height_driver(suspension, height_name(side), this%where, wheels(side:side), [1.0_wp], .true., &
+                  suspension%wheels(wheels(side:side))%tyre_rate)
+            else
+               call add_height_driver(suspension, height_name(side), this%where, wheels(side:side), [1.0_wp], &
+                  control(default) == 'patch')
+            end if
          end do
       end subroutine hold_heights
 

@@ -4,7 +4,7 @@
 !> (a wishbone is an A, not a bar along its own pivots).
 module ek_skeleton
    use ek_kinds, only: wp
-   use ek_measure, only: measure_t, rotation
+   use ek_measure, only: measure_t, distance
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
@@ -59,7 +59,7 @@ contains
       end do
       do k = 1, size(suspension%springs)
          measure = suspension%springs(k)%measure
-         if (measure%kind == rotation) cycle           ! it has no points
+         if (measure%kind /= distance) cycle           ! it holds a body at no point of its own
          if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
          if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)
       end do

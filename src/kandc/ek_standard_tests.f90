@@ -142,6 +142,7 @@ contains
       if (this%vertical == 'patch') title = title//', patch heights held'
       if (this%vertical == 'centre') title = title//', wheel centres held'
       if (this%vertical == 'force') title = title//', by vertical force'
+      if (this%vertical == 'road') title = title//', on the road'
    end function test_title
 
 end module ek_standard_tests

@@ -12,7 +12,7 @@ module ek_state_columns
    use ek_rotation, only: cross
    use ek_joint, only: joint_t
    use ek_law, only: deflection
-   use ek_spring, only: spring_tension, stop_spring, torsion_spring
+   use ek_spring, only: spring_tension, stop_spring, torsion_spring, measure_spring, is_of_angle
    use ek_elastic, only: bushing_view_t, look_bushing, bushing_load
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
@@ -60,6 +60,11 @@ contains
          case (torsion_spring)
             call add(suspension%springs(k)%name//'_angle_deg')
             call add(suspension%springs(k)%name//'_moment_nm')
+         case (measure_spring)
+            associate (kind => suspension%springs(k)%measure%kind)
+               call add(suspension%springs(k)%name//value_ending(kind))
+               call add(suspension%springs(k)%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(kind))))
+            end associate
          case default
             call add(suspension%springs(k)%name//'_length_mm')
             call add(suspension%springs(k)%name//'_force_n')
@@ -154,6 +159,8 @@ contains
                row(at + 1) = -deflection(spring%law, length)/millimetre
             case (torsion_spring)
                row(at + 1) = length/degree
+            case (measure_spring)
+               row(at + 1) = length/measure_unit(spring%measure%kind)
             case default
                row(at + 1) = length/millimetre
             end select
@@ -200,6 +207,21 @@ contains
          end associate
       end do
    end subroutine state_values
+
+   !> What the column of the value of a spring on a measure ends with.
+   pure function value_ending(kind) result(ending)
+      integer, intent(in) :: kind         !! of the measure
+      character(:), allocatable :: ending
+
+      select case (kind)
+      case (rotation)
+         ending = '_angle_deg'
+      case (axis_axis)
+         ending = '_cosine'
+      case default
+         ending = '_length_mm'
+      end select
+   end function value_ending
 
    !> What a measure's value is divided by to leave in mm or deg.
    pure real(wp) function measure_unit(kind) result(unit)

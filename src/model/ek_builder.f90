@@ -106,12 +106,15 @@ contains
 
    !> A driver of Σ sign × height against the body, of wheel centres or of contact patches; on a completed
    !> model. Its value is the change from design [m]. It belongs to the rig, not to the suspension.
-   pure subroutine add_height_driver(self, name, where, wheels, signs, is_at_patch)
+   !> Given the rates of the tyres, it is the road that is driven: the patches give way to their loads by the tyres, so
+   !> that Σ sign × height = value + λ Σ sign²/rate.
+   pure subroutine add_height_driver(self, name, where, wheels, signs, is_at_patch, tyre_rate)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
       integer, intent(in) :: wheels(:)
       real(wp), intent(in) :: signs(:)         !! one a wheel
       logical, intent(in) :: is_at_patch
+      real(wp), intent(in), optional :: tyre_rate(:)   !! of each of the wheels, above 0 [N/m]
       type(term_t) :: terms(size(wheels))
       real(wp) :: arm(3)
       integer :: k
@@ -126,6 +129,7 @@ contains
          end associate
       end do
       call append_joint(self, name, where, 'driver', terms, [size(terms)], .true.)
+      if (present(tyre_rate)) self%rows(size(self%rows))%compliance = sum(signs**2/tyre_rate)
       associate (joint => self%joints(size(self%joints)))
          joint%arm_j = terms(1)%measure%arm_j
          joint%is_of_measures = .true.
@@ -180,7 +184,7 @@ contains
       call add_element(self, new_spring(name, where, body_i, body_j, point_i, point_j, rate, preload, free_length))
    end subroutine add_spring
 
-   !> Any element of one measure: new_spring, new_damper, new_stop or new_torsion of ek_spring.
+   !> Any element of one measure: new_spring, new_damper, new_stop, new_torsion or new_measure_spring of ek_spring.
    pure subroutine add_element(self, element)
       type(suspension_t), intent(inout) :: self
       type(spring_t), intent(in) :: element

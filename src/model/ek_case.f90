@@ -35,7 +35,7 @@ module ek_case
       real(wp) :: tolerance = default_tolerance   !! last Newton correction of a state, at most [m]
       ! a test of the rig, see ek_rig
       character(:), allocatable :: test     !! its name; not allocated or empty: none
-      character(:), allocatable :: vertical !! what holds the wheels: 'centre', 'patch', 'force', or '' for the test's own
+      character(:), allocatable :: vertical !! what holds the wheels: 'centre', 'patch', 'road', 'force', or '' for the test's own
       logical :: is_anti = .false.          !! the right wheel is loaded the other way
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force behind the patch [m]
       character(:), allocatable :: file     !! of a table of loads

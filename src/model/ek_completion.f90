@@ -3,6 +3,7 @@ module ek_completion
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t, measure_value, axis_axis, rotation
+   use ek_spring, only: measure_spring, is_of_angle, set_measure_design
    use ek_elastic, only: set_bushing_axes
    use ek_suspension, only: suspension_t, design_poses
    implicit none(type, external)
@@ -27,7 +28,7 @@ contains
          call subtract_origins(self, self%readouts(k)%measure)
       end do
       do k = 1, size(self%springs)
-         if (self%springs(k)%measure%kind /= rotation) call subtract_origins(self, self%springs(k)%measure)
+         if (.not. is_of_angle(self%springs(k)%measure%kind)) call subtract_origins(self, self%springs(k)%measure)
       end do
       do k = 1, size(self%joints)
          self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
@@ -70,6 +71,12 @@ contains
             self%readouts(k)%design_value = measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1))
          end associate
       end do
+      do k = 1, size(self%springs)
+         if (self%springs(k)%kind /= measure_spring) cycle
+         associate (m => self%springs(k)%measure)
+            call set_measure_design(self%springs(k), measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1)))
+         end associate
+      end do
    end subroutine complete
 
    !> The reference point of each body that has none: the mean of the points it is held by.
@@ -90,7 +97,7 @@ contains
          call include_measure(self%terms(t)%measure)
       end do
       do k = 1, size(self%springs)
-         if (self%springs(k)%measure%kind /= rotation) call include_measure(self%springs(k)%measure)
+         if (.not. is_of_angle(self%springs(k)%measure%kind)) call include_measure(self%springs(k)%measure)
       end do
       do k = 1, size(self%bushings)
          call include_point(self%bushings(k)%body_i, self%bushings(k)%arm_i)

@@ -42,6 +42,8 @@ module ek_joint
       integer :: body_i = 0, body_j = 0
       real(wp) :: arm_j(3) = 0.0_wp          !! where its force acts on body j, body axes [m]
       integer :: first_row = 0, rows = 0
+      integer :: chosen_axis = 0             !! of a universal: 1 or 2 where the deck left this axis to the program; 0: none
+      real(wp) :: axis(3, 2) = 0.0_wp        !! of a universal: axis and axis_2, unit, global at design
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
       logical :: is_rig = .false.            !! of the test rig: what it exerts is a force of the ground on a wheel
    end type joint_t

@@ -1,4 +1,5 @@
-!> Elastic elements of one measure: springs, dampers, stops along a distance, torsion springs about an axis.
+!> Elastic elements of one measure: springs, dampers, stops along a distance, torsion springs about an axis, springs on
+!> any other measure.
 !>
 !> | kind    | tension T (dV/dvalue)                                                                 |
 !> |---------|---------------------------------------------------------------------------------------|
@@ -6,32 +7,34 @@
 !> | damper  | gas_rate (L − L_design) − gas_force: statics know nothing else of it                  |
 !> | stop    | −f(e), e = (L_design − clearance) − L (bump); f(e), e = L − (L_design + clearance) (rebound) |
 !> | torsion | rate φ − preload, or c(φ) − preload; φ = m·θ, the rotation about its axis             |
+!> | measure | as a spring, of a gap; as a torsion spring, of a rotation or a cosine, φ = value − design value |
 !>
 !> f is one-sided and rounded (ek_law). The force ON the bodies is −T × gradient of the measure.
 module ek_spring
    use ek_kinds, only: wp
-   use ek_measure, only: measure_t, view_t, distance, rotation, add_measure_hessian
+   use ek_measure, only: measure_t, view_t, axis_axis, distance, rotation, add_measure_hessian
    use ek_block, only: add_link_stiffness, add_diagonal_block, add_block, s_matrix, dyad
    use ek_curve, only: curve_t
    use ek_law, only: law_t, look_up_law
    implicit none(type, external)
    private
-   public :: spring_t, new_spring, new_damper, new_stop, new_torsion
-   public :: axial_spring, damper, stop_spring, torsion_spring
-   public :: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material
+   public :: spring_t, new_spring, new_damper, new_stop, new_torsion, new_measure_spring, set_measure_design
+   public :: axial_spring, damper, stop_spring, torsion_spring, measure_spring, is_of_angle
+   public :: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material, add_measure_material
 
    integer, parameter :: axial_spring = 1    !! its preload may be found by balance
    integer, parameter :: damper = 2
    integer, parameter :: stop_spring = 3
    integer, parameter :: torsion_spring = 4
+   integer, parameter :: measure_spring = 5  !! on a gap, a rotation or a cosine; keeps its preload
 
    !> An elastic element on one distance or rotation.
    type :: spring_t
       character(:), allocatable :: name, where
       integer :: kind = axial_spring
-      type(measure_t) :: measure            !! its length, or its angle
+      type(measure_t) :: measure            !! its length, its angle, or whatever it acts on
       real(wp) :: rate = 0.0_wp             !! N/m, N m/rad; without a law of its own
-      real(wp) :: design_length = 0.0_wp    !! value at design: m; 0 rad of a torsion spring
+      real(wp) :: design_length = 0.0_wp    !! value at design: m, rad, -; 0 rad of a torsion spring
       real(wp) :: preload = 0.0_wp          !! compression at design [N], moment on body j about the axis [N m]
       logical :: has_law = .false.          !! `law` takes the place of rate and design length
       type(law_t) :: law
@@ -131,6 +134,53 @@ contains
       spring%law%curve = curve
    end function new_torsion
 
+   !> A spring on a measure; its arms as design points, its design value set by `complete` of the builder.
+   !>
+   !> On a distance it is the spring between the two points, in every respect. On a gap compression is positive, as there:
+   !> the preload opens the gap. On a rotation or a cosine the law is that of a torsion spring: the preload raises the value.
+   pure function new_measure_spring(name, where, measure, rate, preload, free_length, curve) result(spring)
+      character(*), intent(in) :: name, where
+      type(measure_t), intent(in) :: measure              !! design points, unit directions
+      real(wp), intent(in) :: rate                        !! N/m, N m/rad, N m
+      real(wp), intent(in), optional :: preload           !! N, N m, at design
+      real(wp), intent(in), optional :: free_length       !! m; of a distance
+      type(curve_t), intent(in), optional :: curve        !! force over compression, moment over φ; instead of the rate
+      type(spring_t) :: spring
+
+      if (measure%kind == distance) then
+         spring = new_spring(name, where, measure%body_i, measure%body_j, measure%arm_i, measure%arm_j, rate, preload, &
+            free_length, curve)
+         return
+      end if
+      spring%name = name
+      spring%where = where
+      spring%kind = measure_spring
+      spring%measure = measure
+      spring%rate = rate
+      if (present(preload)) spring%preload = preload
+      if (.not. present(curve)) return
+      spring%rate = 0.0_wp
+      spring%has_law = .true.
+      if (.not. is_of_angle(measure%kind)) spring%law%sign = -1.0_wp
+      spring%law%has_curve = .true.
+      spring%law%curve = curve
+   end function new_measure_spring
+
+   !> Tells a spring on a measure the value at design, from which its deflection counts.
+   pure subroutine set_measure_design(spring, value)
+      type(spring_t), intent(inout) :: spring
+      real(wp), intent(in) :: value       !! m, rad, -
+
+      spring%design_length = value
+      if (spring%has_law) spring%law%reference = value
+   end subroutine set_measure_design
+
+   !> Whether the generalised force of a measure is a moment: of a rotation or a cosine.
+   pure logical function is_of_angle(kind)
+      integer, intent(in) :: kind         !! of the measure
+      is_of_angle = kind == rotation .or. kind == axis_axis
+   end function is_of_angle
+
    !> What all elements between two points share.
    pure function axial(name, where, body_i, body_j, point_i, point_j) result(spring)
       character(*), intent(in) :: name, where
@@ -205,5 +255,50 @@ contains
       call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
       if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_torsion_material
+
+   !> Adds slope g gᵀ of any measure: what its tangent is besides tension × Hessian.
+   pure subroutine add_measure_material(view, slope, at_i, at_j, ld, matrix)
+      type(view_t), intent(in) :: view        !! of the spring's measure
+      real(wp), intent(in) :: slope           !! N/m, N m/rad, N m
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+
+      call add_own(slope, view%gradient(1:6), at_i, ld, matrix)
+      call add_own(slope, view%gradient(7:12), at_j, ld, matrix)
+      if (at_i < 0 .or. at_j < 0) return
+      call add_dyad(slope, view%gradient(1:3), view%gradient(7:9), at_i, at_j, ld, matrix)
+      call add_dyad(slope, view%gradient(1:3), view%gradient(10:12), at_i, at_j + 3, ld, matrix)
+      call add_dyad(slope, view%gradient(4:6), view%gradient(7:9), at_i + 3, at_j, ld, matrix)
+      call add_dyad(slope, view%gradient(4:6), view%gradient(10:12), at_i + 3, at_j + 3, ld, matrix)
+   end subroutine add_measure_material
+
+   !> slope g gᵀ of one body.
+   pure subroutine add_own(slope, gradient, at, ld, matrix)
+      real(wp), intent(in) :: slope, gradient(6)
+      integer, intent(in) :: at, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: scaled(3), block(3, 3)
+
+      if (at < 0) return
+      scaled = slope*gradient(1:3)
+      block = dyad(scaled, gradient(1:3))
+      call add_diagonal_block(block, at, at, ld, matrix)
+      scaled = slope*gradient(4:6)
+      block = dyad(scaled, gradient(4:6))
+      call add_diagonal_block(block, at + 3, at, ld, matrix)
+      call add_dyad(slope, gradient(1:3), gradient(4:6), at, at + 3, ld, matrix)
+   end subroutine add_own
+
+   !> slope p qᵀ in the rows after `row` and the columns after `column`, off the diagonal.
+   pure subroutine add_dyad(slope, p, q, row, column, ld, matrix)
+      real(wp), intent(in) :: slope, p(3), q(3)
+      integer, intent(in) :: row, column, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: scaled(3), block(3, 3)
+
+      scaled = slope*p
+      block = dyad(scaled, q)
+      call add_block(block, row, column, ld, matrix)
+   end subroutine add_dyad
 
 end module ek_spring

@@ -53,6 +53,8 @@ module ek_suspension
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! unit, outboard, body axes
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
+      real(wp) :: tyre_width = 0.0_wp     !! of the tread [m]; 0: not given
+      real(wp) :: sprung_mass = 0.0_wp    !! that this wheel carries [kg]; 0: not given
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
    end type wheel_t
@@ -73,6 +75,8 @@ module ek_suspension
       real(wp) :: mass = 0.0_wp           !! of the car [kg]; 0: not given
       real(wp) :: brake_share = 0.0_wp    !! of the braking force of the car that acts on the FRONT axle, 0 to 1
       real(wp) :: drive_share = 1.0_wp    !! of the driving force of the car that acts on THIS axle, 0 to 1
+      real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
+      real(wp) :: front_width = 0.0_wp    !! of the car at its front corners [m]; goes with front_overhang
       logical :: drives_at_patch = .false.   !! drive torque is taken by the axle (solid axle): traction acts at the patch,
                                              !! else (independent) at the wheel centre
    end type axle_t

@@ -54,6 +54,15 @@ module ek_quantity
       quantity_t('ackermann_percent', 'Ackermann', '%    (100: wheels roll about one point)', 0.1_wp), &
       quantity_t('ackermann_error_deg', 'Ackermann error', 'deg', 0.01_wp), &
       quantity_t('turning_circle_m', 'Turning circle', 'm', 0.1_wp), &
+      quantity_t('curb_to_curb_m', 'Turning circle, curb to curb', 'm', 0.1_wp), &
+      quantity_t('wall_to_wall_m', 'Turning circle, wall to wall', 'm', 0.1_wp), &
+      quantity_t('outer_steer_error_deg', 'Deviation of the outer wheel', 'deg    (+ steers too much)', 0.01_wp), &
+      quantity_t('steer_camber_deg_per_deg', 'Camber per steer, local slope', 'deg/deg    (+ top outward)', 0.001_wp), &
+      quantity_t('steering_rack_force_n', 'Rack force', 'N    (reaction of the driver)', 1.0_wp), &
+      quantity_t('side_view_angle_deg', 'Side-view angle', 'deg    (+ top rearward)', 0.01_wp), &
+      quantity_t('recession_gradient_mm_per_m', 'Recession gradient, local slope', 'mm/m    (+ rearward in bump)', 0.1_wp), &
+      quantity_t('ride_frequency_hz', 'Ride frequency', 'Hz', 0.001_wp), &
+      quantity_t('total_track_mm', 'Total track', 'mm', 0.1_wp), &
       quantity_t('steering_ratio', 'Steering ratio', 'steering wheel over road wheel', 0.01_wp), &
       quantity_t('steering_wheel_deg', 'Steering wheel', 'deg    (+ left)', 0.1_wp), &
       quantity_t('lateral_in_load_held_steer_deg_per_kn', 'Lateral compliance, steer', &
@@ -79,7 +88,8 @@ contains
          columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
             'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
             'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
-            'track_change_mm', 'wheelbase_change_mm']
+            'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
+            'wall_to_wall_m', 'steering_rack_force_n']
       case ('lateral_force')
          columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
             'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
@@ -98,7 +108,8 @@ contains
             'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
             'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
             'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
-            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn']
+            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
+            'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
          if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(48) :: columns(:13), &
             'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
          if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]

@@ -1,0 +1,222 @@
+!> Key numbers that are read off a test at a place of their own: ratio and Ackermann where the inner wheel is at 20 deg, wheel
+!> travel until a stop is met, and the largest force on the rack over all tests.
+module ek_place_numbers
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_table, only: column_index
+   use ek_test_result, only: test_result_t, design_row, converged_rows
+   use ek_key_number, only: key_number_t
+   implicit none(type, external)
+   private
+   public :: place_numbers, value_where
+
+   real(wp), parameter :: inner_steer = 20.0_wp        !! deg: of a tight corner in town, where tools compare steering
+   character(*), parameter :: gap_ending = '_gap_mm'
+
+contains
+
+   !> Appends what the tests hold of them.
+   subroutine place_numbers(tests, numbers)
+      type(test_result_t), intent(in) :: tests(:)
+      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      integer :: t
+
+      do t = 1, size(tests)
+         if (tests(t)%kind /= 'parallel_travel') cycle
+         call add_stops(tests(t), numbers)
+         exit
+      end do
+      do t = 1, size(tests)
+         if (tests(t)%kind /= 'steering') cycle
+         call add_at_steer(tests(t), 'steering_ratio', 'steering ratio at 20 deg', '–', numbers)
+         call add_at_steer(tests(t), 'ackermann_percent', 'Ackermann at 20 deg', '%', numbers)
+         exit
+      end do
+      call add_rack_force(tests, numbers)
+   end subroutine place_numbers
+
+   !> A column where the inner wheel is at 20 deg: in `left` of a turn to the left, whose inner wheel is the left one.
+   subroutine add_at_steer(test, column, quantity, unit, numbers)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: column, quantity, unit
+      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(key_number_t) :: number
+      real(wp) :: value
+      integer :: k
+
+      call begin('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', number)
+      do k = 1, size(test%prefixes)
+         value = value_where(test, trim(test%prefixes(k))//'steer_deg', -test%sides(k)*inner_steer, column)
+         if (test%sides(k) > 0 .and. size(test%prefixes) > 1) then
+            number%right = value
+         else
+            number%left = value
+         end if
+      end do
+      call append(number, numbers)
+   end subroutine add_at_steer
+
+   !> How far a wheel goes from design until a stop on its side is met, both wheels in parallel.
+   subroutine add_stops(test, numbers)
+      type(test_result_t), intent(in) :: test
+      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(key_number_t) :: number
+      character(:), allocatable :: stop, prefix
+      real(wp) :: value
+      integer :: c, ends
+
+      do c = 1, size(test%table%columns)
+         ends = len_trim(test%table%columns(c)) - len(gap_ending)
+         if (ends < 1) cycle
+         if (test%table%columns(c) (ends + 1:) /= gap_ending) cycle
+         stop = test%table%columns(c) (:ends)
+         if (column_index(test%table, stop//'_force_n') == 0) cycle
+         prefix = side_of(stop)
+         if (prefix == 'right_' .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle   ! told with the left one
+         value = travel_to(test, stop, prefix)
+         call begin('Ride', 'wheel travel to '//spaced(stop(len(prefix) + 1:)), 'mm', 'from design to contact, parallel travel', &
+            number)
+         number%left = value
+         number%is_of_axle = len(prefix) == 0 .and. size(test%prefixes) > 1
+         if (prefix == 'right_') then
+            number%left = nothing()
+            number%right = value
+         else if (prefix == 'left_') then
+            if (column_index(test%table, 'right_'//stop(6:)//gap_ending) > 0) &
+               number%right = travel_to(test, 'right_'//stop(6:), 'right_')
+         end if
+         call append(number, numbers)
+      end do
+   end subroutine add_stops
+
+   !> Wheel travel between design and the contact of a stop [mm], never negative; not a number where it is not met.
+   real(wp) function travel_to(test, stop, prefix) result(travel)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: stop, prefix       !! prefix: side of the stop, '' for none
+      character(:), allocatable :: column
+      integer :: row
+
+      column = prefix//'wheel_travel_mm'
+      if (column_index(test%table, column) == 0) column = trim(test%prefixes(1))//'wheel_travel_mm'
+      row = design_row(test%table)
+      travel = nothing()
+      if (row == 0) return
+      travel = abs(value_where(test, stop//gap_ending, 0.0_wp, column) - test%table%values(column_index(test%table, column), row))
+   end function travel_to
+
+   !> The largest amount of the force on the rack in any state of any test.
+   subroutine add_rack_force(tests, numbers)
+      type(test_result_t), intent(in) :: tests(:)
+      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(key_number_t) :: number
+      integer :: t, place
+
+      call begin('Steering', 'largest rack force', 'N', 'amount, over all tests', number)
+      do t = 1, size(tests)
+         place = column_index(tests(t)%table, 'steering_rack_force_n')
+         if (place == 0) cycle
+         associate (force => tests(t)%table%values(place, :))
+            if (.not. any(is_good(tests(t), place))) cycle
+            if (.not. ieee_is_finite(number%left)) number%left = 0.0_wp
+            number%left = max(number%left, maxval(abs(force), mask=is_good(tests(t), place)))
+         end associate
+      end do
+      number%is_of_axle = .true.
+      call append(number, numbers)
+   end subroutine add_rack_force
+
+   !> A column where another one has a value, linearly between two neighbouring states; of several such places the one nearest
+   !> to design. Not a number where there is none.
+   real(wp) function value_where(test, over, wanted, column) result(value)
+      type(test_result_t), intent(in) :: test
+      character(*), intent(in) :: over, column
+      real(wp), intent(in) :: wanted
+      real(wp) :: share, nearest
+      logical, allocatable :: is_usable(:)
+      integer :: x, y, f, k
+
+      value = nothing()
+      x = column_index(test%table, over)
+      y = column_index(test%table, column)
+      f = column_index(test%table, 'factor')
+      if (min(x, y, f) == 0) return
+      is_usable = is_good(test, x) .and. is_good(test, y)
+      nearest = huge(nearest)
+      do k = 1, size(is_usable) - 1
+         if (.not. all(is_usable(k:k + 1))) cycle
+         associate (from => test%table%values(:, k), to => test%table%values(:, k + 1))
+            if ((from(x) - wanted)*(to(x) - wanted) > 0.0_wp .or. .not. abs(to(x) - from(x)) > 0.0_wp) cycle
+            share = (wanted - from(x))/(to(x) - from(x))
+            if (abs(from(f) + share*(to(f) - from(f))) >= nearest) cycle
+            nearest = abs(from(f) + share*(to(f) - from(f)))
+            value = from(y) + share*(to(y) - from(y))
+         end associate
+      end do
+   end function value_where
+
+   !> Which states were found and have a number in a column.
+   pure function is_good(test, place)
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: place
+      logical :: is_good(size(test%table%values, 2))
+      is_good = converged_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
+   end function is_good
+
+   !> 'left_' or 'right_' of a name of that side, else ''.
+   pure function side_of(name) result(prefix)
+      character(*), intent(in) :: name
+      character(:), allocatable :: prefix
+      prefix = ''
+      if (index(name, 'left_') == 1) prefix = 'left_'
+      if (index(name, 'right_') == 1) prefix = 'right_'
+   end function side_of
+
+   !> Blanks for low lines.
+   pure function spaced(name) result(words)
+      character(*), intent(in) :: name
+      character(len(name)) :: words
+      integer :: k
+
+      words = name
+      do k = 1, len(name)
+         if (name(k:k) == '_') words(k:k) = ' '
+      end do
+   end function spaced
+
+   subroutine begin(group, quantity, unit, sign, number)
+      character(*), intent(in) :: group, quantity, unit, sign
+      type(key_number_t), intent(out) :: number
+
+      number%group = group
+      number%quantity = quantity
+      number%unit = unit
+      number%sign = sign
+      number%left = nothing()
+      number%right = nothing()
+   end subroutine begin
+
+   !> Takes a number up behind the last of its group, if it has a value.
+   subroutine append(number, numbers)
+      type(key_number_t), intent(in) :: number
+      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(key_number_t), allocatable :: more(:)
+      integer :: k, at
+
+      if (.not. (ieee_is_finite(number%left) .or. ieee_is_finite(number%right))) return
+      at = size(numbers)
+      do k = 1, size(numbers)
+         if (numbers(k)%group == number%group) at = k
+      end do
+      allocate (more(size(numbers) + 1))
+      more(:at) = numbers(:at)
+      more(at + 1) = number
+      more(at + 2:) = numbers(at + 1:)
+      call move_alloc(more, numbers)
+   end subroutine append
+
+   !> What stands for a number that a test does not give.
+   pure real(wp) function nothing()
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function nothing
+
+end module ek_place_numbers

@@ -1,0 +1,108 @@
+!> A wheel against its steer axis, the circles that a car turns in, and the frequency that it rides with: pure functions.
+!>
+!> Frame x rearward, y right, z up; side = −1 left, +1 right. SI and radians.
+module ek_wheel_geometry
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_units, only: pi
+   use ek_rotation, only: cross
+   implicit none(type, external)
+   private
+   public :: axis_distances_t, axis_distances, side_view_angle, camber_rate
+   public :: ideal_outer_steer, outer_wheel, wall_to_wall, ride_frequency
+
+   real(wp), parameter :: parallel = 1.0e-9_wp        !! sine of the angle between spin axis and steer axis below which they are one line
+   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: as of the turning circle
+
+   !> A wheel centre, a patch and a spin axis against a line [m].
+   type :: axis_distances_t
+      real(wp) :: centre = 0.0_wp, patch = 0.0_wp   !! shortest distances of the two points from the line, never negative
+      real(wp) :: along = 0.0_wp                    !! along the spin axis, from the foot of the common perpendicular, + outboard
+      real(wp) :: across = 0.0_wp                   !! length of the common perpendicular, + spin axis behind the line
+   end type axis_distances_t
+
+contains
+
+   !> Distances of a wheel from a steer axis: line through `point` along `direction`.
+   !>
+   !> With d = centre − point, k the unit direction upward, w the spin axis outboard, n = side w×k/|w×k|:
+   !>
+   !>     centre = |d×k|     patch = |(patch − point)×k|     across = d·n     along = side (d×k)·n/|w×k|
+   !>
+   !> which solves d = along w + μ k + across n. `along` and `across` are not numbers where w and k are parallel.
+   pure type(axis_distances_t) function axis_distances(side, point, direction, centre, patch, spin) result(is)
+      integer, intent(in) :: side
+      real(wp), intent(in) :: point(3), direction(3)       !! of the line [m, any length, not 0]
+      real(wp), intent(in) :: centre(3), patch(3)          !! m
+      real(wp), intent(in) :: spin(3)                      !! unit, outboard
+      real(wp) :: k(3), n(3), d(3), turn
+
+      k = direction/norm2(direction)
+      if (k(3) < 0.0_wp) k = -k
+      d = centre - point
+      is%centre = norm2(cross(d, k))
+      is%patch = norm2(cross(patch - point, k))
+      n = cross(spin, k)
+      turn = norm2(n)
+      is%along = ieee_value(1.0_wp, ieee_quiet_nan)
+      is%across = is%along
+      if (turn <= parallel) return
+      n = side*n/turn
+      is%across = dot_product(d, n)
+      is%along = side*dot_product(cross(d, k), n)/turn
+   end function axis_distances
+
+   !> How far a carrier has turned in the side view: atan2(e_x, e_z), e what was vertical on it at design. Positive: top rearward.
+   pure real(wp) function side_view_angle(a) result(angle)
+      real(wp), intent(in) :: a(3, 3)      !! its axes, global
+      angle = atan2(a(1, 3), a(3, 3))
+   end function side_view_angle
+
+   !> Change of camber = asin(−w_z) with a rotation θ of the carrier: −(θ×w)_z/√(1 − w_z²).
+   pure real(wp) function camber_rate(spin, turn) result(rate)
+      real(wp), intent(in) :: spin(3), turn(3)
+      rate = -(turn(1)*spin(2) - turn(2)*spin(1))/sqrt(spin(1)**2 + spin(2)**2)
+   end function camber_rate
+
+   !> Steer of the outer wheel that lets both roll about one point of the rear axle's line, from that of the inner one:
+   !> atan(L/(L/tan δi + t)), written without a division.
+   pure real(wp) function ideal_outer_steer(inner, wheelbase, track) result(outer)
+      real(wp), intent(in) :: inner, wheelbase, track
+      outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))
+   end function ideal_outer_steer
+
+   !> Steer angles, positive into the turn, and which wheel is the outer one.
+   pure subroutine outer_wheel(left, right, inner, outer, side)
+      real(wp), intent(in) :: left, right      !! positive to the left
+      real(wp), intent(out) :: inner, outer
+      integer, intent(out) :: side             !! of the outer wheel: 1 left, 2 right
+
+      inner = left
+      outer = right
+      side = 2
+      if (left + right >= 0.0_wp) return
+      inner = -right
+      outer = -left
+      side = 1
+   end subroutine outer_wheel
+
+   !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 beside the middle.
+   !>
+   !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point of the rear axle's line
+   pure real(wp) function wall_to_wall(outer, wheelbase, track, overhang, width) result(diameter)
+      real(wp), intent(in) :: outer                             !! steer of the outer wheel into the turn, static toe and all
+      real(wp), intent(in) :: wheelbase, track, overhang, width
+      diameter = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (sin(outer)*widest_circle <= 2.0_wp*wheelbase) return
+      diameter = 2.0_wp*sqrt((wheelbase/tan(outer) - 0.5_wp*track + 0.5_wp*width)**2 + (wheelbase + overhang)**2)
+   end function wall_to_wall
+
+   !> √(k/m)/2π [Hz]
+   pure real(wp) function ride_frequency(rate, mass) result(frequency)
+      real(wp), intent(in) :: rate      !! ride rate [N/m]
+      real(wp), intent(in) :: mass      !! kg, above 0
+      frequency = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (rate > 0.0_wp) frequency = sqrt(rate/mass)/(2.0_wp*pi)
+   end function ride_frequency
+
+end module ek_wheel_geometry
