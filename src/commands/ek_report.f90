@@ -76,7 +76,7 @@ contains
 
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
       call remove_file(join_path(folder, compliance_file))
-      has_matrix = .false.
+      has_matrix = size(suspension%wheels) == 0
       failed = 0
       code = exit_convergence
       do k = 1, size(planned)
@@ -97,12 +97,9 @@ contains
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
          if (allocated(error)) return
          call tell_path(join_path(folder, tests(k)%file), unheard)
-         if (.not. has_matrix .and. size(suspension%wheels) > 0) then
-            call write_csv(compliance, join_path(folder, compliance_file), error)
-            if (allocated(error)) return
-            call tell_path(join_path(folder, compliance_file), unheard)
-            has_matrix = .true.
-         end if
+         if (.not. has_matrix) call write_matrix(compliance, folder, unheard, error)
+         if (allocated(error)) return
+         has_matrix = .true.
          call test_gradients(tests(k), windows, gradients)
          call test_charts(tests(k), sets(k)%charts)
       end do
@@ -135,6 +132,17 @@ contains
          call move_alloc(unheard, error)
       end if
    end subroutine report
+
+   !> compliance.csv: the compliance matrix of every state of a test.
+   subroutine write_matrix(table, folder, unheard, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: folder
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(out) :: error
+
+      call write_csv(table, join_path(folder, compliance_file), error)
+      if (.not. allocated(error)) call tell_path(join_path(folder, compliance_file), unheard)
+   end subroutine write_matrix
 
    !> report.html
    subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
