@@ -23,7 +23,7 @@ contains
    subroutine overlay(results, sets)
       type(results_t), intent(in) :: results(:)
       type(chart_set_t), allocatable, intent(out) :: sets(:)
-      character(36), allocatable :: columns(:)
+      character(48), allocatable :: columns(:)
       integer :: t, k
 
       allocate (sets(size(results(1)%tests)))

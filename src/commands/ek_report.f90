@@ -9,6 +9,7 @@ module ek_report
    use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_csv, only: write_csv
+   use ek_table, only: table_t
    use ek_test_result, only: test_result_t
    use ek_chart_set, only: chart_set_t
    use ek_test_charts, only: test_charts
@@ -18,7 +19,7 @@ module ek_report
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
-   use ek_report_files, only: write_contents, contents_file, gradients_file
+   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
    use ek_report_pictures, only: film_t, draw_pictures
    use ek_report_page, only: report_page
    use ek_window_option, only: chosen_windows
@@ -48,7 +49,9 @@ contains
       type(message_list_t) :: warnings
       type(examination_t) :: found
       type(error_t), allocatable :: trouble, undrawn, unheard
+      type(table_t) :: compliance
       character(:), allocatable :: checksum, folder, message
+      logical :: has_matrix                        ! of the first test that is run: travel, with design
       integer :: k, failed, code
 
       call chosen_windows(arguments, windows, error)
@@ -82,10 +85,17 @@ contains
       call remove_file(join_path(folder, contents_file))
 
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
+      call remove_file(join_path(folder, compliance_file))
+      has_matrix = size(suspension%wheels) == 0
       failed = 0
       code = exit_convergence
       do k = 1, size(planned)
-         call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble)
+         if (has_matrix) then
+            call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble)
+         else
+            call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble, &
+               compliance)
+         end if
          if (allocated(trouble)) then
             call complain(trouble%message)
             failed = failed + 1
@@ -98,6 +108,9 @@ contains
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
          if (allocated(error)) return
          call tell_path(join_path(folder, tests(k)%file), unheard)
+         if (.not. has_matrix) call write_matrix(compliance, folder, unheard, error)
+         if (allocated(error)) return
+         has_matrix = .true.
          call test_gradients(tests(k), windows, gradients)
          call test_charts(tests(k), sets(k)%charts)
       end do
@@ -130,6 +143,17 @@ contains
          call move_alloc(unheard, error)
       end if
    end subroutine report
+
+   !> compliance.csv: the compliance matrix of every state of a test.
+   subroutine write_matrix(table, folder, unheard, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: folder
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(out) :: error
+
+      call write_csv(table, join_path(folder, compliance_file), error)
+      if (.not. allocated(error)) call tell_path(join_path(folder, compliance_file), unheard)
+   end subroutine write_matrix
 
    !> report.html
    subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)

@@ -14,9 +14,11 @@ module ek_report_files
    use ek_gradient_file, only: read_gradients
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file
+   public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file, &
+      compliance_file
 
-   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv'
+   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
+      compliance_file = 'compliance.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = 'anti phase'
 
    !> What compare lays over another of its kind.
@@ -49,7 +51,7 @@ contains
       character(:), allocatable :: file
 
       file = name//'.csv'
-      if (any(lower(file) == [character(13) :: contents_file, gradients_file])) file = name//'-case.csv'
+      if (any(lower(file) == [character(14) :: contents_file, gradients_file, compliance_file])) file = name//'-case.csv'
    end function table_file
 
    !> tests.csv: the tests of a report and their files.

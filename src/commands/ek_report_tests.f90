@@ -11,7 +11,8 @@ module ek_report_tests
    use ek_path, only: path_t, sweep
    use ek_curve_reach, only: curve_reach_words
    use ek_sweep_table, only: sweep_table, factor_unit
-   use ek_table, only: new_table
+   use ek_compliance_table, only: compliance_table
+   use ek_table, only: table_t, new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
@@ -138,7 +139,7 @@ contains
 
    !> Runs one test. What does not converge is told in its remarks; `error` then has exit_convergence (or
    !> exit_model, where there is nothing to solve), and the states before it are in the table.
-   subroutine run_planned(base, planned, fault, checksum, test, path, error)
+   subroutine run_planned(base, planned, fault, checksum, test, path, error, compliance)
       type(suspension_t), intent(in) :: base
       type(planned_test_t), intent(in) :: planned
       character(*), intent(in) :: fault            !! of the model in this test, '' for none: then there is nothing to run
@@ -146,6 +147,7 @@ contains
       type(test_result_t), intent(out) :: test
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
+      type(table_t), intent(out), optional :: compliance    !! the compliance matrix of every state; untouched if it is not run
       real(wp), parameter :: seen_on_a_rig = 1.0e-5_wp     ! m: design is meant to be in equilibrium
       type(suspension_t) :: suspension
       type(case_t) :: case
@@ -200,6 +202,10 @@ contains
       end if
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
+      if (present(compliance)) then
+         call compliance_table(suspension, case, path, kkt, compliance)
+         call add_header(compliance, suspension, case, checksum)
+      end if
       call add_header(test%table, suspension, case, checksum)
       call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)

@@ -15,6 +15,7 @@ module ek_run
    use ek_rig, only: mount
    use ek_wheel_side, only: single_side
    use ek_sweep_table, only: sweep_table
+   use ek_compliance_table, only: compliance_table
    use ek_test_result, only: frame_line
    use ek_curve_reach, only: curve_reach_words
    use ek_target, only: target_t, find_target
@@ -32,6 +33,8 @@ module ek_run
    implicit none(type, external)
    private
    public :: run, add_header
+
+   character(*), parameter :: compliance_ending = '_compliance.csv'
 
 contains
 
@@ -58,6 +61,10 @@ contains
          call fail(error, exit_usage, '--out - writes one table, but '//arguments%file//' has '//str(size(chosen))// &
             ' cases; name one with --case')
          return
+      end if
+      if (arguments%compliance) then
+         call refuse_double_files(chosen, error)
+         if (allocated(error)) return
       end if
       call examine_cases(suspension, chosen, found)
       if (found%none_solvable()) then
@@ -107,6 +114,22 @@ contains
          call fail(error, code, words//' went wrong, as told above; the others are written')
       end if
    end subroutine run
+
+   !> A case whose table would have the name of the compliance matrix of another one.
+   subroutine refuse_double_files(cases, error)
+      type(case_t), intent(in) :: cases(:)
+      type(error_t), allocatable, intent(out) :: error
+      integer :: k, j
+
+      do k = 1, size(cases)
+         do j = 1, size(cases)
+            if (cases(j)%name//'.csv' /= cases(k)%name//compliance_ending) cycle
+            call fail(error, exit_usage, '--compliance: the compliance matrix of case '//quoted(cases(k)%name)// &
+               ' would overwrite the results of case '//quoted(cases(j)%name)//'; rename one, or choose with --case')
+            return
+         end do
+      end do
+   end subroutine refuse_double_files
 
    !> One case: examine, sweep, tell, write, draw.
    subroutine run_case(arguments, base, wanted, folder, checksum, unheard, error)
@@ -161,6 +184,7 @@ contains
          if (.not. allocated(trouble)) then
             call tell_path(name, unheard)
             if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, undrawn)
+            if (arguments%compliance) call write_compliance(suspension, case, path, checksum, folder, kkt, unheard, trouble)
          end if
       end if
       if (.not. allocated(trouble) .and. len(case%target) > 0) &
@@ -170,6 +194,25 @@ contains
       call add_line(words, trouble%message)
       call fail(error, trouble%code, words)
    end subroutine run_case
+
+   !> The compliance matrix of every state that was found, in a file of its own.
+   subroutine write_compliance(suspension, case, path, checksum, folder, kkt, unheard, error)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      character(*), intent(in) :: checksum, folder
+      type(kkt_t), intent(inout) :: kkt
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(out) :: error
+      type(table_t) :: table
+      character(:), allocatable :: name
+
+      call compliance_table(suspension, case, path, kkt, table)
+      call add_header(table, suspension, case, checksum)
+      name = join_path(folder, suspension%name//'_'//case%name//compliance_ending)
+      call write_csv(table, name, error)
+      if (.not. allocated(error)) call tell_path(name, unheard)
+   end subroutine write_compliance
 
    !> The place where the target of a case is met: told, and its state written to a file of its own (not when the
    !> results go to standard output). The linear methods, whose states are not equilibria, have none.

@@ -76,8 +76,8 @@ contains
       end do
    end subroutine settled_words
 
-   !> Wheels that do not touch the ground where a wheel of their radius would. The rig pushes at the contact point, the
-   !> columns of the compliance matrix mean the point below the centre: of such a wheel they are two things.
+   !> Wheels that do not touch the ground where a wheel of their radius would. Tests and compliance matrix both take the contact
+   !> point of the deck; that it is meant is what this asks.
    subroutine patch_words(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -93,8 +93,8 @@ contains
                norm2(w%contact - w%centre + w%radius*[0.0_wp, 0.0_wp, 1.0_wp]))
             if (off <= much*w%radius) cycle
             call words%add('wheel '//quoted(w%name)//': its contact point is '//str(off/millimetre, 3)// &
-               ' mm away from where a wheel of radius '//str(w%radius/millimetre, 4)//' mm stands on the ground; forces of '// &
-               'a test act at the contact point, quantities of the compliance matrix mean the point below the centre')
+               ' mm away from where a wheel of radius '//str(w%radius/millimetre, 4)//' mm stands on the ground; all forces '// &
+               'at the patch act at the contact point')
          end associate
       end do
    end subroutine patch_words

@@ -12,7 +12,8 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_plane_linkage.f90
   ${ek_laws_dir}/ek_scratch.f90
   ${ek_laws_dir}/ek_program.f90
-  ${ek_laws_dir}/ek_reference_text.f90)
+  ${ek_laws_dir}/ek_reference_text.f90
+  ${ek_laws_dir}/ek_probe.f90)
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws
   INTERPROCEDURAL_OPTIMIZATION OFF)
