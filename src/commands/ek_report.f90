@@ -4,6 +4,7 @@ module ek_report
    use ek_units, only: millimetre
    use ek_text, only: str, plural
    use ek_version, only: version
+   use ek_clock, only: date_words
    use ek_file, only: make_folder, write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
@@ -43,9 +44,10 @@ contains
       type(gradient_t), allocatable :: gradients(:)
       type(chart_set_t), allocatable :: sets(:)
       type(windows_t) :: windows
-      type(message_list_t) :: warnings
+      type(message_list_t) :: warnings, page_warnings
       type(error_t), allocatable :: trouble, undrawn, unheard
       character(:), allocatable :: checksum, folder, message
+      logical :: has_pictures, has_animation
       integer :: k, failed, code
 
       call chosen_windows(arguments, windows, error)
@@ -57,6 +59,8 @@ contains
       if (allocated(error)) return
       folder = arguments%out
       if (len(folder) == 0) folder = 'out'
+      call make_folder(folder, error)
+      if (allocated(error)) return
       call make_folder(join_path(folder, 'figures'), error)
       if (allocated(error)) return
       call balance(suspension, default_tolerance, error)
@@ -100,7 +104,12 @@ contains
       call write_contents(tests, join_path(folder, contents_file), error)
       if (allocated(error)) return
 
-      call draw_pictures(arguments, suspension, tests, films, sets, folder, message, undrawn)
+      ! the page first, without its pictures: a gnuplot that fails, or never ends, cannot keep it away
+      page_warnings = warnings
+      if (.not. arguments%no_plots) call page_warnings%add('The page has no pictures: gnuplot has not finished them')
+      call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
+      if (allocated(error)) return
+      call draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, undrawn)
       if (allocated(undrawn)) then
          call complain(undrawn%message)
          call warnings%add('The page lacks pictures: '//undrawn%message)
@@ -108,7 +117,9 @@ contains
          if (.not. arguments%no_plots) call say(arguments%quiet, message)
          call warnings%add('The page has no pictures: '//message)
       end if
-      call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
+      has_pictures = .not. allocated(undrawn) .and. len(message) == 0
+      call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
+         has_animation, error)
       if (allocated(error)) return
       call tell_path(join_path(folder, 'report.html'), unheard)
       if (failed > 0) then
@@ -122,7 +133,8 @@ contains
    end subroutine report
 
    !> report.html
-   subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
+   subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
+      has_animation, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: checksum
@@ -131,16 +143,14 @@ contains
       type(gradient_t), intent(in) :: gradients(:)
       type(message_list_t), intent(in) :: warnings
       character(*), intent(in) :: folder
+      logical, intent(in) :: has_pictures, has_animation     !! those in the folder are of this report
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: names, values
       character(:), allocatable :: title, settings
-      integer :: now(8), k
-      character(16) :: date
+      integer :: k
 
       title = suspension%title
       if (len(title) == 0) title = suspension%name
-      call date_and_time(values=now)
-      write (date, '(i4.4,a,i2.2,a,i2.2,a,i2.2,a,i2.2)') now(1), '-', now(2), '-', now(3), ' ', now(5), ':', now(6)
       call fact('Deck', arguments%file)
       call fact('Model', suspension%name)
       settings = ''
@@ -152,9 +162,9 @@ contains
          suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call fact('Deck checksum', checksum)
       call fact('Program', 'elastokin '//version)
-      call fact('Date', date)
+      call fact('Date', date_words())
       call write_whole(join_path(folder, 'report.html'), report_page(title, 'Kinematics and compliance report', names, values, &
-         warnings, tests, sets, gradients, folder), error)
+         warnings, tests, sets, gradients, folder, has_pictures, has_animation), error)
 
    contains
 

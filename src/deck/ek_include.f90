@@ -14,6 +14,8 @@ module ek_include
    public :: read_text
 
    integer, parameter :: most_nested = 8      !! files within files; more is a mistake
+   integer, parameter :: most_files = 500     !! in all: ten that include ten each, eight deep, would be 10^8
+   integer, parameter :: most_letters = 50000000   !! in all; the largest deck known has 1 % of it
 
    !> The files that are open, from the deck inwards.
    type :: file_t
@@ -30,21 +32,22 @@ contains
       integer, intent(out) :: used
       type(complaints_t), intent(inout) :: complaints
       type(file_t) :: open_files(0:most_nested)
-      integer :: sources
+      integer :: sources, letters
 
       allocate (records(32))
       used = 0
       sources = 0
+      letters = 0
       open_files(0)%path = file
-      call take_text(text, 0, open_files, sources, records, used, complaints)
+      call take_text(text, 0, open_files, sources, letters, records, used, complaints)
    end subroutine read_text
 
    !> The text of the innermost open file.
-   recursive subroutine take_text(text, depth, open_files, sources, records, used, complaints)
+   recursive subroutine take_text(text, depth, open_files, sources, letters, records, used, complaints)
       character(*), intent(in) :: text
       integer, intent(in) :: depth
       type(file_t), intent(inout) :: open_files(0:)
-      integer, intent(inout) :: sources                       !! files read so far
+      integer, intent(inout) :: sources, letters              !! files read so far, and their letters
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(complaints_t), intent(inout) :: complaints
@@ -59,7 +62,7 @@ contains
          name = ''
          if (own(k)%group == 'include') call find_name(own(k), name, place)
          call add_record(records, used, own(k))
-         if (name /= '') call take_file(name, place, depth, open_files, sources, records, used, complaints)
+         if (name /= '') call take_file(name, place, depth, open_files, sources, letters, records, used, complaints)
       end do
    end subroutine take_text
 
@@ -79,12 +82,12 @@ contains
    end subroutine find_name
 
    !> A file beside the innermost open one.
-   recursive subroutine take_file(name, place, depth, open_files, sources, records, used, complaints)
+   recursive subroutine take_file(name, place, depth, open_files, sources, letters, records, used, complaints)
       character(*), intent(in) :: name
       type(place_t), intent(in) :: place        !! of the &include
       integer, intent(in) :: depth
       type(file_t), intent(inout) :: open_files(0:)
-      integer, intent(inout) :: sources
+      integer, intent(inout) :: sources, letters
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(complaints_t), intent(inout) :: complaints
@@ -92,6 +95,7 @@ contains
       character(:), allocatable :: text, path
       integer :: k, records_before, complaints_before
 
+      if (sources > most_files + 1) return                     ! told already
       path = beside(open_files(depth)%path, name)
       do k = 0, depth
          if (plain_path(open_files(k)%path) /= plain_path(path)) cycle
@@ -107,10 +111,17 @@ contains
          call complaints%add(place, 'include: '//error%message)
          return
       end if
+      letters = letters + min(len(text), most_letters)
+      if (sources > most_files .or. letters > most_letters) then
+         call complaints%add(place, 'include: more than '//str(most_files)//' files or '// &
+            str(most_letters/1000000)//' MB are included in all')
+         sources = most_files + 2                              ! once; what follows is not read
+         return
+      end if
       records_before = used
       complaints_before = complaints%count()
       open_files(depth + 1)%path = path
-      call take_text(text, depth + 1, open_files, sources, records, used, complaints)
+      call take_text(text, depth + 1, open_files, sources, letters, records, used, complaints)
       if (used == records_before .and. complaints%count() == complaints_before) &
          call complaints%add(place, 'include: there is no group in '//quoted(path))
    end subroutine take_file
