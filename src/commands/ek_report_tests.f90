@@ -11,7 +11,8 @@ module ek_report_tests
    use ek_kkt, only: kkt_t, new_kkt
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t, sweep
-   use ek_sweep_table, only: sweep_table, factor_unit
+   use ek_sweep_table, only: sweep_table, sweep_bytes, factor_unit
+   use ek_memory, only: ask_memory
    use ek_table, only: new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
@@ -177,6 +178,12 @@ contains
       if (.not. diagnosis%is_solvable()) then
          call fail(error, exit_model, 'case '//quoted(planned%name)//': the model cannot be solved'//new_line('a')// &
             diagnosis%words())
+         call test%remarks%add(error%message)
+         return
+      end if
+      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(planned%name)//' with '// &
+         plural(case%increments, 'increment', 'increments'), error)
+      if (allocated(error)) then
          call test%remarks%add(error%message)
          return
       end if

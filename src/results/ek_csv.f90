@@ -6,13 +6,13 @@ module ek_csv
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
-   use ek_file, only: read_whole
+   use ek_file, only: read_whole, write_standard_output
    use ek_writer, only: writer_t, begin_file
    use ek_decimal, only: put_decimal, get_decimal, longest_decimal
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: csv_text, csv_head, csv_row, write_csv, read_csv
+   public :: csv_text, csv_head, csv_row, write_csv, tell_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)   !! what Excel puts before "CSV UTF-8"
@@ -109,6 +109,25 @@ contains
       end do
       call writer%finish(error)
    end subroutine write_csv
+
+   !> The table to standard output, row by row.
+   subroutine tell_csv(table, error)
+      type(table_t), intent(in) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file; without words where nobody reads on
+      integer, parameter :: enough = 60000               ! letters at a time
+      type(buffer_t) :: buffer
+      integer :: k
+
+      call buffer%add(csv_head(table))
+      do k = 1, size(table%values, 2)
+         call buffer%add(csv_row(table%values(:, k), table%is_whole))
+         if (buffer%length() < enough) cycle
+         call write_standard_output(buffer%text(), error)
+         if (allocated(error)) return
+         call buffer%clear()
+      end do
+      call write_standard_output(buffer%text(), error)
+   end subroutine tell_csv
 
    !> Read a table back. Lines with # go to the header wherever they stand; empty lines are skipped.
    subroutine read_csv(path, table, error, may_stream)

@@ -1,7 +1,8 @@
 !> A sweep of one or two factors of a deck: the family of curves, and the responses of each design.
 module ek_factor_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
+   use ek_memory, only: ask_memory
    use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, set_value
@@ -64,6 +65,9 @@ contains
                   trim(label)//': '//trouble%message)
                if (allocated(error)) return
                call start_tables(study, table, designs, curves, responses)
+               call ask_memory(16_i8*size(curves%columns)*designs*size(table%values, 2), &
+                  'a study of '//str(designs)//' designs', error)
+               if (allocated(error)) return
                deallocate (rows)
                allocate (rows(size(curves%columns), designs*size(table%values, 2)))
                if (present(curve_writer)) call curve_writer%add(csv_head(curves))
