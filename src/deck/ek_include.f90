@@ -6,7 +6,7 @@ module ek_include
    use ek_error, only: error_t
    use ek_file, only: read_whole, join_path, folder_name
    use ek_text, only: str, quoted
-   use ek_complaint, only: place_t, complaints_t
+   use ek_complaint, only: place_t, complaints_t, place_in
    use ek_record, only: record_t, add_record, entry_index, place_of
    use ek_scanner, only: scan_text
    implicit none(type, external)
@@ -92,6 +92,7 @@ contains
       integer, intent(inout) :: used
       type(complaints_t), intent(inout) :: complaints
       type(error_t), allocatable :: error
+      type(place_t) :: all_of_it
       character(:), allocatable :: text, path
       integer :: k, records_before, complaints_before
 
@@ -113,8 +114,9 @@ contains
       end if
       letters = letters + min(len(text), most_letters)
       if (sources > most_files .or. letters > most_letters) then
-         call complaints%add(place, 'include: more than '//str(most_files)//' files or '// &
-            str(most_letters/1000000)//' MB are included in all')
+         call place_in(open_files(0)%path, 0, 0, all_of_it)     ! before all other mistakes, which it makes a hundred times
+         call complaints%add(all_of_it, 'more than '//str(most_files)//' files or '//str(most_letters/1000000)// &
+            ' MB are included in all; the last one by '//place%words)
          sources = most_files + 2                              ! once; what follows is not read
          return
       end if
