@@ -105,10 +105,12 @@ contains
       if (allocated(error)) return
 
       ! the page first, without its pictures: a gnuplot that fails, or never ends, cannot keep it away
-      page_warnings = warnings
-      if (.not. arguments%no_plots) call page_warnings%add('The page has no pictures: gnuplot has not finished them')
-      call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
-      if (allocated(error)) return
+      if (.not. arguments%no_plots) then
+         page_warnings = warnings
+         call page_warnings%add('The page has no pictures: gnuplot has not finished them')
+         call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
+         if (allocated(error)) return
+      end if
       call draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, undrawn)
       if (allocated(undrawn)) then
          call complain(undrawn%message)

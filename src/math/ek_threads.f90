@@ -1,6 +1,5 @@
 !> One thread for the linear algebra: matrices of this size gain nothing from more, and OpenBLAS's second
-!> thread, once woken, spins on a processor that another job of a batch queue could use, and where no further thread is allowed
-!> (`ulimit -u`) it ends the process before its main program has begun.
+!> thread, once woken, spins on a processor that another job of a batch queue could use. See also src/one_thread.f90.
 module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use ek_kinds, only: i8
@@ -8,7 +7,7 @@ module ek_threads
    use ek_memory, only: ask_memory
    implicit none(type, external)
    private
-   public :: use_one_thread, openblas_num_threads_env
+   public :: use_one_thread
 
    !> Bytes of the work space that OpenBLAS asks for with its first call, 128 MB and a little. It asks for ever where it
    !> does not get them.
@@ -47,11 +46,5 @@ contains
       call c_f_procpointer(address, openblas_set_num_threads)
       call openblas_set_num_threads(1_c_int)
    end subroutine use_one_thread
-
-   !> What OpenBLAS takes for the value of OPENBLAS_NUM_THREADS while it is loaded: this function takes the place of its own
-   !> of the same name, as the program is linked so that libraries see it (ENABLE_EXPORTS). No thread is ever begun then.
-   integer(c_int) function openblas_num_threads_env() bind(c)
-      openblas_num_threads_env = 1_c_int
-   end function openblas_num_threads_env
 
 end module ek_threads

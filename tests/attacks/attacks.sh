@@ -3,6 +3,7 @@
 # scene; all of them, or the named ones. One line for each; the last is `N held, N failed`.
 #
 # Some need root or name spaces of Linux (unshare): where these are not to be had, the line says so.
+# shellcheck disable=SC2001,SC2015,SC2016  # `a && b || { say; return; }` is meant; words in single quotes are for another shell
 set -uo pipefail
 program=$(realpath "$1")
 shift
@@ -164,9 +165,9 @@ commands_in_a_title() {
   run 0 "$program" run evil.nml --plot --out out && gone pwned && gone out/pwned && [ -s out/tiny_sweep_toe.png ]
 }
 bomb_of_includes() { # ten files that include ten each, eight deep
-  local k j
+  local k
   for k in 1 2 3 4 5 6 7; do
-    for j in 0 1 2 3 4 5 6 7 8 9; do echo "&include file = 'level$((k + 1)).nml' /"; done >"level$k.nml"
+    for _ in 0 1 2 3 4 5 6 7 8 9; do echo "&include file = 'level$((k + 1)).nml' /"; done >"level$k.nml"
   done
   echo "&point name = 'p', at = 0, 0, 0 /" >level8.nml
   run 2 "$program" check level1.nml && says 'more than 500 files'
@@ -256,7 +257,7 @@ no_more_files() { # as a quota of files
   case $? in 0) says 'No space left' ;; 9) not_here 'no tmpfs without root' ;; *) cat said.txt; return 1 ;; esac
 }
 folder_that_cannot_be_written() {
-  as_nobody 'mkdir -p /tmp/x 2>/dev/null; "$1" run '"'$tiny'"' --out '"'$PWD/out'" >out.txt 2>said.txt
+  as_nobody '"$1" run '"'$tiny'"' --out '"'$PWD/out'" >out.txt 2>said.txt
   local status=$?
   [ $status -eq 9 ] && { not_here 'no other user to be had'; return; }
   [ "$(id -u)" -ne 0 ] || { [ $status -eq 5 ] && says 'Permission denied'; }
