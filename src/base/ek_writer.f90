@@ -15,8 +15,9 @@ module ek_writer
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t, c_associated
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file, message_list_t
+   use ek_buffer, only: buffer_t
    use ek_clock, only: seconds_since_1970
-   use ek_posix, only: c_fopen, c_fwrite, c_fflush, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir, &
+   use ek_posix, only: c_fopen, c_fwrite, c_write, c_fflush, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir, &
       c_access, c_opendir, c_dirfd, c_closedir
    use ek_system, only: facts_t, facts_of, no_file, regular_file, folder_file, device_file, unknown_file, folder_names, &
       try_lock, random_tag, machine_tag, system_reason, error_number, already_there, not_for_this_kind
@@ -39,6 +40,7 @@ module ek_writer
       character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written in place
       character(:), allocatable :: reason               !! of the first failure; '' while all is well
       logical :: is_part = .false., is_empty = .true.
+      type(buffer_t) :: rows                            !! of a part, since the last flush: they go out together
    contains
       procedure :: add => writer_add
       procedure :: flush => writer_flush
@@ -150,14 +152,34 @@ contains
       if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
       length = len(text, c_size_t)
       self%is_empty = .false.
-      if (c_fwrite(text, 1_c_size_t, length, self%stream) /= length) self%reason = system_reason()
+      if (self%is_part) then
+         call self%rows%add(text)
+      else if (c_fwrite(text, 1_c_size_t, length, self%stream) /= length) then
+         self%reason = system_reason()
+      end if
    end subroutine writer_add
 
-   !> Hands over to the system what was added: it stays, whatever becomes of this process.
+   !> Hands over to the system what was added: it stays, whatever becomes of this process. What was added to a part since the
+   !> last time goes in one call, so that a part that is left ends where a flush did.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
+      character(:), allocatable :: text
+      integer(c_size_t) :: done, now
 
       if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
+      if (self%is_part) then
+         text = self%rows%text()
+         call self%rows%clear()
+         done = 0
+         do while (done < len(text, c_size_t))
+            now = c_write(c_fileno(self%stream), text(done + 1:), len(text, c_size_t) - done)
+            if (now < 1) then                                ! a ssize_t: negative on failure
+               self%reason = system_reason()
+               return
+            end if
+            done = done + now
+         end do
+      end if
       if (c_fflush(self%stream) /= 0) self%reason = system_reason()
    end subroutine writer_flush
 
