@@ -3,7 +3,7 @@ module ek_clock
    use ek_kinds, only: wp, i8
    implicit none(type, external)
    private
-   public :: seconds, seconds_since_1970, date_words, has_set_date
+   public :: seconds, seconds_since_1970, date_words
 
 contains
 
@@ -31,15 +31,8 @@ contains
       passed = 60*(60*(24*passed + now(5)) + now(6) - now(4)) + now(7)
    end function seconds_since_1970
 
-   !> Whether the environment variable SOURCE_DATE_EPOCH sets the date of what is written, so that the same input gives the
-   !> same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
-   logical function has_set_date() result(is_set)
-      integer(i8) :: epoch
-
-      call read_set_date(epoch, is_set)
-   end function has_set_date
-
-   !> '2026-01-31 17:05': now, in the time zone of the machine; or SOURCE_DATE_EPOCH, in UTC.
+   !> '2026-01-31 17:05': now, in the time zone of the machine; or, in UTC, what the environment variable SOURCE_DATE_EPOCH
+   !> sets, so that the same input gives the same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
    function date_words() result(words)
       character(16) :: words
       integer(i8) :: epoch, days, left

@@ -45,7 +45,7 @@ contains
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
       home = whole_path(folder)
-      call begin_words(words, 'set loadpath '//gnuplot_text(home)//"; to = ''")
+      call begin_words(words, "set loadpath '..'; to = ''")
       do k = 1, scripts%count()
          call words%add(join_path(home, scripts%line(k)))
       end do

@@ -157,8 +157,9 @@ settings_of_a_user() {
   diff -r a b
 }
 words_for_a_shell_in_a_path() {
-  local name="it's \$(touch pwned) \`touch pwned\`; touch pwned"
-  run 0 "$program" run "$tiny" --plot --out "$name" && [ -s "$name/tiny_sweep_toe.png" ] && gone pwned && gone "$name/pwned"
+  local name="it's a:b \$(touch pwned) \`touch pwned\`; touch pwned"
+  run 0 "$program" run "$tiny" --plot --out "$name" && [ -s "$name/tiny_sweep_toe.png" ] && gone pwned && gone "$name/pwned" &&
+    run 0 "$program" study "$top/studies/step_size/study.nml" --out "$name" && [ -s "$name/convergence.png" ] && gone pwned
 }
 commands_in_a_title() {
   sed "s/name = 'tiny'/name = 'tiny', title = 'a\`touch pwned\`\"; system(\"touch pwned\") \\\\\\\\'/" "$tiny" >evil.nml
