@@ -71,17 +71,17 @@ contains
       integer, intent(in) :: limit                            !! s
       integer, intent(out) :: status
       character(:), allocatable, intent(inout) :: trouble
-      integer(c_int), parameter :: at_once = 1, wait = 0      ! WNOHANG
+      integer(c_int), parameter :: at_once = 1, until_then = 0      ! WNOHANG
       integer, parameter :: interrupted = 4                   ! EINTR
       integer(c_int) :: word, found
-      integer :: pause, ignored
+      integer :: nap, ignored
       character(12) :: number
-      real(wp) :: end
+      real(wp) :: deadline
 
       status = 0                                              ! where another has taken its status, pictures are judged as they are
       word = 0
-      pause = 1
-      end = seconds() + limit
+      nap = 1
+      deadline = seconds() + limit
       do
          found = c_waitpid(process, word, at_once)
          if (found == process) exit
@@ -89,10 +89,10 @@ contains
             if (error_number() == interrupted) cycle
             return
          end if
-         if (seconds() > end) then
+         if (seconds() > deadline) then
             ignored = c_kill(-process, int(sigkill, c_int))
             do
-               found = c_waitpid(process, word, wait)
+               found = c_waitpid(process, word, until_then)
                if (found >= 0) exit
                if (error_number() /= interrupted) exit
             end do
@@ -100,8 +100,8 @@ contains
             trouble = 'it did not end within '//trim(number)//' s and was stopped'
             exit
          end if
-         ignored = c_poll(c_null_ptr, 0_c_long, int(pause, c_int))
-         pause = min(2*pause, 20)                              ! ms
+         ignored = c_poll(c_null_ptr, 0_c_long, int(nap, c_int))
+         nap = min(2*nap, 20)                                  ! ms
       end do
       status = iand(ishft(int(word), -8), 255)
       if (iand(int(word), 127) /= 0) status = 128 + iand(int(word), 127)

@@ -301,7 +301,7 @@ leavings_of_dead_runs() {
   fake_gnuplot 'sleep 20'
   PATH=$PWD/bin:$PATH "$program" run "$tiny" --plot --out out >out.txt 2>said.txt &
   local k
-  for k in $(seq 50); do mine=$(find out -name '.elastokin-*.tmp'); [ -n "$mine" ] && break; sleep 0.1; done
+  for k in $(seq 50); do mine=$(find out -type d -name '.elastokin-*.tmp'); [ -n "$mine" ] && break; sleep 0.1; done
   [ -n "$mine" ] || { echo 'no temporary folder was seen'; return 1; }
   run 0 "$program" run "$tiny" --out out && [ -d "$mine" ] || { echo 'that of a living run was taken away'; return 1; }
   kill -KILL $!
