@@ -10,7 +10,8 @@ module ek_report_tests
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep
    use ek_curve_reach, only: curve_reach_words
-   use ek_sweep_table, only: sweep_table, factor_unit
+   use ek_sweep_table, only: sweep_table, sweep_bytes, factor_unit
+   use ek_memory, only: ask_memory
    use ek_compliance_table, only: compliance_table
    use ek_table, only: table_t, new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
@@ -179,6 +180,12 @@ contains
          return
       end if
       kkt = new_kkt(suspension)
+      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(planned%name)//' with '// &
+         plural(case%increments, 'increment', 'increments'), error)
+      if (allocated(error)) then
+         call test%remarks%add(error%message)
+         return
+      end if
       call sweep(suspension, case, path, kkt)
       test%is_run = .true.
       words = ''

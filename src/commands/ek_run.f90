@@ -5,7 +5,8 @@ module ek_run
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
-   use ek_file, only: make_folder, write_standard_output, join_path, base_name
+   use ek_file, only: make_folder, join_path, base_name
+   use ek_memory, only: ask_memory
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_kkt, only: kkt_t, new_kkt
@@ -14,13 +15,13 @@ module ek_run
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_wheel_side, only: single_side
-   use ek_sweep_table, only: sweep_table
+   use ek_sweep_table, only: sweep_table, sweep_bytes
    use ek_compliance_table, only: compliance_table
    use ek_test_result, only: frame_line
    use ek_curve_reach, only: curve_reach_words
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
-   use ek_csv, only: write_csv, csv_text
+   use ek_csv, only: write_csv, tell_csv
    use ek_figure, only: figure_t
    use ek_plot, only: run_figures
    use ek_gnuplot, only: write_figure, render_figures
@@ -154,6 +155,9 @@ contains
       call mount(suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
+      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(case%name)//' with '// &
+         plural(case%increments, 'increment', 'increments'), error)
+      if (allocated(error)) return
       call sweep(suspension, case, path, kkt, show_progress)
       if (path%states > 1000) call clear_progress()
       words = ''
@@ -177,7 +181,7 @@ contains
 
       call add_header(table, suspension, case, checksum)
       if (folder == '-') then
-         call write_standard_output(csv_text(table), trouble)
+         call tell_csv(table, trouble)
       else
          name = join_path(folder, suspension%name//'_'//case%name//'.csv')
          call write_csv(table, name, trouble)

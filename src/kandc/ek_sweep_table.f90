@@ -3,10 +3,10 @@
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
 module ek_sweep_table
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_suspension, only: suspension_t, driver_row
    use ek_case, only: case_t
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_state, only: state_t, demand_t, design_state, unpack_state, coordinates
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
@@ -16,7 +16,7 @@ module ek_sweep_table
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: nearly_singular, sweep_table, sweep_columns, factor_unit
+   public :: nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! least over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is none
@@ -117,6 +117,26 @@ contains
       type(case_t), intent(in) :: case
       ends_of = merge(5, 4, knows_stability(case))
    end function ends_of
+
+   !> Memory that the sweep of a case and its table take [bytes], and a margin.
+   integer(i8) function sweep_bytes(suspension, case) result(bytes)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, parameter :: of_a_path = 6             ! numbers of a state beside its coordinates
+      integer(i8), parameter :: margin = 20000000_i8  ! bytes: everything that does not grow with the states
+      character(name_length), allocatable :: names(:)
+      type(kandc_t) :: kandc
+      integer :: columns
+
+      call state_columns(suspension, names)
+      columns = size(names) + 7
+      if (case%has_all) then
+         call start_kandc(suspension, vehicle_of(suspension), kandc)
+         columns = columns + kandc%used
+      end if
+      ! the table twice: where it is made, and where it is kept
+      bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*columns)
+   end function sweep_bytes
 
    !> The states to be told: those reached, and one beyond on a side that failed; of a table every row.
    pure subroutine reached_rows(path, first, last)
