@@ -265,20 +265,20 @@ folder_that_cannot_be_written() {
 }
 two_containers_with_one_pid() {
   unshare -pf --mount-proc true 2>/dev/null || { not_here 'no name space of processes to be had'; return; }
-  local k
+  local k first second
   for k in 1 2 3 4 5; do
-    unshare -pf --mount-proc "$program" run "$mcpherson" --increments 600 --out out >out1.txt 2>said1.txt &
-    unshare -pf --mount-proc "$program" run "$mcpherson" --increments 600 --out out >out2.txt 2>said2.txt &
-    wait %1 || { cat said1.txt; return 1; }
-    wait %2 || { cat said2.txt; return 1; }
+    unshare -pf --mount-proc "$program" run "$mcpherson" --increments 600 --out out >out1.txt 2>said1.txt & first=$!
+    unshare -pf --mount-proc "$program" run "$mcpherson" --increments 600 --out out >out2.txt 2>said2.txt & second=$!
+    wait $first || { cat said1.txt; return 1; }
+    wait $second || { cat said2.txt; return 1; }
   done
   "$program" run "$mcpherson" --increments 600 --out wanted >out.txt 2>said.txt
   diff -r out wanted && clean out
 }
 two_runs_in_one_folder() {
-  local k
-  for k in 1 2 3 4; do SOURCE_DATE_EPOCH=1 "$program" report "$tiny" --out out >out$k.txt 2>said$k.txt & done
-  for k in 1 2 3 4; do wait %$k || { cat said$k.txt; return 1; }; done
+  local k runs=()
+  for k in 1 2 3 4; do SOURCE_DATE_EPOCH=1 "$program" report "$tiny" --out out >out$k.txt 2>said$k.txt & runs[k]=$!; done
+  for k in 1 2 3 4; do wait "${runs[k]}" || { cat said$k.txt; return 1; }; done
   SOURCE_DATE_EPOCH=1 "$program" report "$tiny" --out wanted >out.txt 2>said.txt
   diff -r out wanted && clean out
 }
