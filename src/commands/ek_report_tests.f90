@@ -17,7 +17,8 @@ module ek_report_tests
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
-   use ek_run_words, only: failure_words, settled_words, rack_words, open_words, add_line
+   use ek_failure_words, only: failure_words, stability_words
+   use ek_run_words, only: settled_words, rack_words, open_words, add_line
    implicit none(type, external)
    private
    public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
@@ -194,7 +195,7 @@ contains
          call add_line(words, failure_words(suspension, case, path, path%failure(side), kkt))
          call test%remarks%add(failure_words(suspension, case, path, path%failure(side), kkt))
       end do
-      call remark_instability(suspension, case, path, test)
+      call stability_words(suspension, case, path, test%remarks)
       call settled_words(suspension, case, path, seen_on_a_rig, settled)
       do k = 1, settled%count()
          call test%remarks%add(settled%line(k))
@@ -219,21 +220,5 @@ contains
       if (.not. allocated(test%prefixes)) call find_wheels(test)
       call choose_abscissa(test)
    end subroutine run_planned
-
-   !> States that a real suspension would leave at once.
-   subroutine remark_instability(suspension, case, path, test)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      type(test_result_t), intent(inout) :: test
-      integer :: unstable, first
-
-      if (case%method == 'recursive') return
-      unstable = count(path%is_reached .and. .not. path%is_stable)
-      if (unstable == 0) return
-      first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
-      call test%remarks%add(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or '// &
-         'buckled), the first at factor '//str(path%value(first)/factor_unit(suspension, case)))
-   end subroutine remark_instability
 
 end module ek_report_tests

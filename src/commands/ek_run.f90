@@ -28,8 +28,9 @@ module ek_run
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
+   use ek_failure_words, only: failure_words, stability_words
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
-      warn_of_instability, warn_of_travel, failure_words, open_words, add_line
+      warn_of_travel, open_words, add_line
    use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
    implicit none(type, external)
    private
@@ -167,8 +168,8 @@ contains
       end do
       call say_settled(arguments, suspension, case, path)
       call warn_of_drift(suspension, case, path, kkt, lost)
-      call warn_of_instability(suspension, case, path)
       call warn_of_travel(suspension, case, path)
+      call stability_words(suspension, case, path, doubts)
       call rack_words(suspension, case, doubts)
       call curve_reach_words(suspension, case, path, doubts)
       do side = 1, doubts%count()
