@@ -99,7 +99,7 @@ contains
       if (.not. is_true(may_stream)) then
          facts = facts_of(path, follow=.true.)
          if (facts%kind == device_file .or. facts%kind == other_file) then
-            call fail(error, exit_file, "cannot read '"//path//"': it is no plain file, but a pipe or a device")
+            call fail(error, exit_file, "cannot read '"//path//"': it is a pipe or a device, not a regular file")
             return
          end if
       end if
@@ -119,7 +119,7 @@ contains
             call read_stream(unit, text)
             if (len(text) == most_streamed) then
                status = 1
-               reason = 'it does not end within 1 GB'
+               reason = 'it is longer than 1 GB'
             end if
          end if
          close (unit, iostat=ignored)
@@ -168,7 +168,7 @@ contains
       character(:), allocatable :: reason
       integer :: k, ignored
 
-      reason = 'no name given'
+      reason = 'no name is given'
       do k = 1, len(path)
          if (k < len(path)) then
             if (path(k + 1:k + 1) /= '/' .or. path(k:k) == '/') cycle
@@ -179,7 +179,7 @@ contains
          if (.not. folder_exists(path(:k))) exit
       end do
       if (.not. folder_exists(path)) then
-         call fail(error, exit_file, "cannot make the folder '"//path//"': "//reason)
+         call fail(error, exit_file, "cannot create the folder '"//path//"': "//reason)
          return
       end if
       call remove_stale(path)

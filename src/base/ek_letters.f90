@@ -6,7 +6,7 @@ module ek_letters
 
    !> What to do with a file for which is_wide is true.
    character(*), parameter :: save_as_utf8 = &
-      "this is not UTF-8 text (it is UTF-16, or no text at all); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
+      "this is not UTF-8 text (it is UTF-16 or not a text file); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
 
    character(*), parameter :: hexadecimal = '0123456789ABCDEF'
 

@@ -97,7 +97,7 @@ contains
                if (error_number() /= interrupted) exit
             end do
             write (number, '(i0)') limit
-            trouble = 'it did not end within '//trim(number)//' s and was stopped'
+            trouble = 'it did not finish within '//trim(number)//' s and was stopped'
             exit
          end if
          ignored = c_poll(c_null_ptr, 0_c_long, int(nap, c_int))

@@ -210,7 +210,7 @@ contains
          return
       end if
       words = "cannot write '"//self%path//"': "//self%reason
-      if (self%is_part) words = words//'; what came before is in '//self%temporary
+      if (self%is_part) words = words//'; the rows written so far are in '//self%temporary
       call self%abandon()
       call fail(error, exit_file, words)
    end subroutine writer_finish
@@ -286,7 +286,7 @@ contains
          ignored = c_closedir(scratch%lock)
          scratch%lock = c_null_ptr
       end do
-      call fail(error, exit_file, "cannot make a folder in '"//folder//"': "//system_reason())
+      call fail(error, exit_file, "cannot create a folder in '"//folder//"': "//system_reason())
    end subroutine begin_scratch
 
    !> Takes a scratch folder away, with what is left in it.

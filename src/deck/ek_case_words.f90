@@ -101,7 +101,7 @@ contains
 
       call look_up(draft, deck, k, 'wheel', wheel_group, trim(words%wheel), found)
       if (found > 0) this%wheel = draft%cards(found)%index
-      if (.not. may_have_one) call complain(draft, deck, k, 'wheel', 'wheel: only a case '//which//' has one')
+      if (.not. may_have_one) call complain(draft, deck, k, 'wheel', 'wheel: only a case '//which//' takes this key')
    end subroutine find_wheel
 
 end module ek_case_words

@@ -254,7 +254,7 @@ contains
          if (status /= 0 .and. status /= iostat_eor) exit
          if (filled + got + 1 > len(text)) then
             if (len(text) > 1000000000) then      ! twice that is beyond a default integer
-               call fail(error, exit_file, 'cannot read standard input: it does not end within 1 GB')
+               call fail(error, exit_file, 'cannot read standard input: it is longer than 1 GB')
                return
             end if
             allocate (character(2*len(text)) :: grown)

@@ -252,7 +252,7 @@ contains
       if (has_vector) then
          direction = to_internal(draft, vector)
          if (.not. norm2(direction) > 0.0_wp) then
-            if (draft%cards(k)%is_good) call complain(draft, deck, k, vector_key, vector_key//' has no length')
+            if (draft%cards(k)%is_good) call complain(draft, deck, k, vector_key, vector_key//' has zero length')
             return
          end if
       end if

@@ -238,7 +238,8 @@ module ek_group
 
 contains
 
-   !> Whether a name begins with a letter and has letters, digits and _ only: it stands in messages, paths and heads of columns.
+   !> Whether a name begins with a letter and contains only letters, digits and _. Names appear in messages, paths and
+   !> column headings.
    pure logical function is_legal_name(name)
       character(*), intent(in) :: name
       is_legal_name = verify(lower(name), letters//'0123456789_') == 0 .and. scan(lower(name), letters) == 1
@@ -249,12 +250,12 @@ contains
       character(*), intent(in) :: name     !! as it was written
       character(:), allocatable :: words
 
-      words = 'a name begins with a letter and has letters, digits and _ only'
+      words = 'a name must begin with a letter and contain only letters, digits and _'
       if (len(name) == 0) return
       if (name(len(name):) == ' ') then
-         words = words//", found '"//visible(trim(name))//"<U+0020>'; remove the blank at its end"
+         words = words//", found '"//visible(trim(name))//"<U+0020>'; remove the trailing blank"
       else if (name(:1) == ' ') then
-         words = words//", found '<U+0020>"//visible(trim(adjustl(name)))//"'; remove the blank at its beginning"
+         words = words//", found '<U+0020>"//visible(trim(adjustl(name)))//"'; remove the leading blank"
       end if
    end function illegal_name
 

@@ -100,7 +100,7 @@ contains
       path = beside(open_files(depth)%path, name)
       do k = 0, depth
          if (plain_path(open_files(k)%path) /= plain_path(path)) cycle
-         call complaints%add(place, 'include: '//quoted(path)//' would include itself')
+         call complaints%add(place, 'include: '//quoted(path)//' includes itself')
          return
       end do
       if (depth == most_nested) then
@@ -116,7 +116,7 @@ contains
       if (sources > most_files .or. letters > most_letters) then
          call place_in(open_files(0)%path, 0, 0, all_of_it)     ! before all other mistakes, which it makes a hundred times
          call complaints%add(all_of_it, 'more than '//str(most_files)//' files or '//str(most_letters/1000000)// &
-            ' MB are included in all; the last one by '//place%words)
+            ' MB are included in total; the last one by '//place%words)
          sources = most_files + 2                              ! once; what follows is not read
          return
       end if
@@ -125,7 +125,7 @@ contains
       open_files(depth + 1)%path = path
       call take_text(text, depth + 1, open_files, sources, letters, records, used, complaints)
       if (used == records_before .and. complaints%count() == complaints_before) &
-         call complaints%add(place, 'include: there is no group in '//quoted(path))
+         call complaints%add(place, 'include: no group found in '//quoted(path))
    end subroutine take_file
 
    !> The path of a file named in another one; of a deck without a folder, in the working folder.

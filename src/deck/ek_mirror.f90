@@ -102,7 +102,7 @@ contains
          case ('wheel')
             half%is_right(k) = lower(element(records(k), 'side', 1)) == 'right'
             if (half%is_right(k)) call complain(complaints, records(k), 'side', &
-               "the deck of a mirrored axle describes the left half, found side = 'right'")
+               "a deck with &mirror must describe the left half, found side = 'right'")
          end select
       end do
       if (mirror == 0) return
@@ -122,7 +122,7 @@ contains
       end do
       do k = 1, size(records)
          if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(twin_prefix)) cycle
-         call complain(complaints, records(k), 'name', 'a name that &mirror doubles has at most '// &
+         call complain(complaints, records(k), 'name', 'a name that &mirror duplicates must have at most '// &
             str(word_length - len(twin_prefix))//' characters, found '//str(len_trim(half%names(k))))
       end do
    end subroutine survey
@@ -179,8 +179,8 @@ contains
       ! a deck of the right half has been told so at its wheel
       if (.not. (is_known .and. is_doubled) .or. any(half%is_right)) return
       if (y*half%outboard < 0.0_wp) call complain(complaints, point, 'at', &
-         'the deck of a mirrored axle describes the left half, found y = '//str(y)//' on the right (y points '// &
-         trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); a point that there is only once is listed in shared')
+         'a deck with &mirror must describe the left half, found y = '//str(y)//' on the right (y points '// &
+         trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); list a point that exists only once in shared')
    end subroutine judge_point
 
    !> Whether an element is doubled with something that it refers to.
@@ -283,7 +283,7 @@ contains
                right = name_of_twin(named_group(role), value%text, right_twin)
                if (left == value%text) cycle
                if (.not. is_refused) call complain(complaints, record, record%entries(e)%key, record%entries(e)%key// &
-                  ': &mirror doubles the '//named_group(role)//' '//quoted(value%text)//'; name '//quoted(left)// &
+                  ': &mirror duplicates the '//named_group(role)//' '//quoted(value%text)//'; use '//quoted(left)// &
                   ' or '//quoted(right))
                value%text = left
             end associate

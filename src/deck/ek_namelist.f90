@@ -196,7 +196,7 @@ contains
 
       select case (type)
       case (word, prose)
-         expected = 'a word in quotes'
+         expected = 'a text in quotes'
       case (number)
          expected = 'a number'
       case (whole)
@@ -219,7 +219,7 @@ contains
          else if (len(value%text) > note_length) then
             fault = 'at most '//str(note_length)//' characters long, found '//str(len(value%text))
          else if (value%text == '') then
-            fault = expected//', found an empty one'
+            fault = expected//', found an empty text'
          else if (bad_byte(value%text) > 0) then
             fault = 'UTF-8 text, found '//quoted(value%text)//'; save the file as UTF-8'
          end if

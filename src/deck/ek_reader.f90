@@ -179,9 +179,9 @@ contains
                call complain(draft, deck, k, 'name', 'the name is given twice, first in '//line_of(deck, j, k)//doubling(j))
                exit
             else if (has_results(card%group) .and. has_results(draft%cards(j)%group)) then
-               call complain(draft, deck, k, 'name', 'the name is already that of the '// &
+               call complain(draft, deck, k, 'name', 'the name is already used by the '// &
                   trim(group_names(draft%cards(j)%group))//' in '//line_of(deck, j, k)//doubling(j)// &
-                  ' (joints, measures and elastic elements share their columns)')
+                  ' (names of joints, measures and elastic elements make column names)')
                exit
             end if
          end do
@@ -196,7 +196,7 @@ contains
 
          words = ''
          if ((deck%records(j)%twin == single) .eqv. (deck%records(k)%twin == single)) return
-         words = ' (&mirror makes '//trim(draft%cards(k)%name)//' of '// &
+         words = ' (&mirror creates '//trim(draft%cards(k)%name)//' from '// &
             own_name(deck%records(merge(j, k, deck%records(k)%twin == single)))//')'
       end function doubling
 
@@ -314,7 +314,7 @@ contains
          call find_point(draft, deck, k, 'centre', trim(centre), centre_at, has_centre)
          if (.not. mass > 0.0_wp) call complain(draft, deck, k, 'mass', 'mass must be above 0 kg, found '//str(mass))
          if (has_key(deck, k, 'mass') .neqv. has_key(deck, k, 'centre')) call complain(draft, deck, k, &
-            trim(merge('mass  ', 'centre', has_key(deck, k, 'mass'))), 'mass and centre (of gravity) go together')
+            trim(merge('mass  ', 'centre', has_key(deck, k, 'mass'))), 'give mass and centre (of gravity) together')
          if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
          if (is_found) then
             call add_body(suspension, trim(name), where_of(deck, k), at, mass, centre_at)

@@ -50,7 +50,7 @@ contains
          call check_positive(draft, deck, k, 'front_width', front_width)
          if (has_key(deck, k, 'front_overhang') .neqv. has_key(deck, k, 'front_width')) call complain(draft, deck, k, &
             trim(merge('front_overhang', 'front_width   ', has_key(deck, k, 'front_overhang'))), &
-            'front_overhang and front_width go together (both make the circle from wall to wall)')
+            'give front_overhang and front_width together (both define the wall-to-wall turning circle)')
          associate (this => suspension%axle)
             call choice(draft, deck, k, 'position', trim(position), [character(5) :: 'front', 'rear'], c)
             this%is_front = c == 1
@@ -117,7 +117,7 @@ contains
          associate (index => draft%cards(measure)%index)
             if (index == 0) return
             if (any(suspension%readouts(index)%measure%kind == [axis_axis, rotation])) call complain(draft, deck, k, &
-               'driver', 'driver: '//quoted(driver)//' must move along a length, but its measure is an angle')
+               'driver', 'driver: '//quoted(driver)//' must prescribe a length, but its measure is an angle')
          end associate
       end subroutine check_driver
 

@@ -108,7 +108,7 @@ contains
             call complain(draft, deck, k, 'target', &
                "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target)//hint)
          else if (words%method /= '' .and. lower(words%method) /= 'equilibrium') then
-            call complain(draft, deck, k, 'target', "target: only method 'equilibrium' can look for one, found "// &
+            call complain(draft, deck, k, 'target', "target: only method = 'equilibrium' can search for one, found "// &
                quoted(words%method))
          end if
       end subroutine read_target
@@ -127,7 +127,8 @@ contains
          if (cases(a)%target == '') cycle
          do b = 1, size(cases)
             if (lower(cases(b)%name) /= lower(cases(a)%name)//'_target') cycle
-            call complain(draft, deck, records(b), 'name', 'the file of this case would be that of the target of case '// &
+            call complain(draft, deck, records(b), 'name', &
+               'the results of this case would have the same file as the target of case '// &
                quoted(cases(a)%name)//' in '//line_of(deck, records(a), records(b)))
          end do
       end do
@@ -147,11 +148,11 @@ contains
       if (has_key(deck, k, 'load') .and. has_key(deck, k, 'drive')) then
          call complain(draft, deck, k, 'drive', 'give either load or drive, not both')
       else if (.not. (has_key(deck, k, 'load') .or. has_key(deck, k, 'drive'))) then
-         call complain(draft, deck, k, '', "'load' or 'drive' is missing (or 'test')")
+         call complain(draft, deck, k, '', "give 'load', 'drive' or 'test'")
       end if
       do j = 1, size(test_keys)
          if (has_key(deck, k, trim(test_keys(j)))) call complain(draft, deck, k, trim(test_keys(j)), &
-            trim(test_keys(j))//": only a case with a 'test' has one")
+            trim(test_keys(j))//": only a case with a 'test' takes this key")
       end do
       loads = count(words%load /= '')
       refused = 0

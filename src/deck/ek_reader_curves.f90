@@ -113,7 +113,7 @@ contains
       if (has_key(deck, k, 'rate') .and. has_key(deck, k, 'curve')) then
          call complain(draft, deck, k, 'curve', 'give either rate or curve, not both')
       else if (.not. (has_key(deck, k, 'rate') .or. has_key(deck, k, 'curve'))) then
-         call complain(draft, deck, k, '', "'rate' is missing (and 'curve' as well)")
+         call complain(draft, deck, k, '', "give 'rate' or 'curve'")
       end if
    end subroutine check_either
 

@@ -56,7 +56,7 @@ contains
          ends(:, 2) = ends(:, 1)
          if (at(2) /= '') call find_point(draft, deck, k, 'at', trim(at(2)), ends(:, 2), is_found)
          if (.not. (has_key(deck, k, 'kt') .or. has_key(deck, k, 'kr') .or. has_key(deck, k, 'curve'))) &
-            call complain(draft, deck, k, '', "'kt' is missing (and 'kr' as well)")
+            call complain(draft, deck, k, '', "give 'kt', 'kr' or 'curve'")
          do j = 1, 3
             call check_rate(draft, deck, k, 'kt', '('//str(j)//')', kt(j))
             call check_rate(draft, deck, k, 'kr', '('//str(j)//')', kr(j))
@@ -117,10 +117,10 @@ contains
          if (element%laws(c)%has_curve) then
             call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' is given twice')
          else if (abs(rates(c)) > 0.0_wp) then
-            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' has a rate already; give 0 in '// &
-               merge('kt', 'kr', c <= 3)//' for it')
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' already has a rate; set its element of '// &
+               merge('kt', 'kr', c <= 3)//' to 0')
          else if (name == '') then
-            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' has no name of a curve')
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' names no curve')
          end if
          if (c <= 3) then
             call find_curve(draft, deck, k, 'curve', name, draft%units%length, draft%units%force, curve)
@@ -197,7 +197,7 @@ contains
          call find_point(draft, deck, k, 'at', trim(at), element%arm, is_found)
          call choice(draft, deck, k, 'factor', trim(factor), [character(8) :: 'constant', 'case'], c)
          if (.not. (has_key(deck, k, 'force') .or. has_key(deck, k, 'moment'))) &
-            call complain(draft, deck, k, '', "'force' is missing (and 'moment' as well)")
+            call complain(draft, deck, k, '', "give 'force' or 'moment'")
          element%is_case = c /= 1
          ! kept also for a refused load: a case may ask whether it is scaled
          draft%cards(k)%is_used = element%is_case

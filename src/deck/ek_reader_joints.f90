@@ -59,20 +59,20 @@ contains
          case (distance, body_gap, global_gap)
             if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing")
          case default
-            call refuse(draft, deck, k, 'at', 'a measure of type '//quoted(type)//' has no point')
+            call refuse(draft, deck, k, 'at', 'a measure of type '//quoted(type)//' takes no points')
          end select
          if (kind == distance) call check_apart(draft, deck, k, at, ends, has_points, 'a distance')
          if (kind == distance) then
-            call refuse(draft, deck, k, 'axis', 'a distance has no axis')
-            call refuse(draft, deck, k, 'axis_vector', 'a distance has no axis')
+            call refuse(draft, deck, k, 'axis', 'a distance takes no axis')
+            call refuse(draft, deck, k, 'axis_vector', 'a distance takes no axis')
          else if (.not. has_u) then
-            call complain(draft, deck, k, '', "'axis' or 'axis_vector' is missing")
+            call complain(draft, deck, k, '', "give 'axis' or 'axis_vector'")
          end if
          if (kind /= axis_axis) then
-            call refuse(draft, deck, k, 'axis_2', 'only a measure of type '//quoted('axes')//' has a second axis')
-            call refuse(draft, deck, k, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' has a second axis')
+            call refuse(draft, deck, k, 'axis_2', 'only a measure of type '//quoted('axes')//' takes a second axis')
+            call refuse(draft, deck, k, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' takes a second axis')
          else if (.not. has_v) then
-            call complain(draft, deck, k, '', "'axis_2' or 'axis_2_vector' is missing")
+            call complain(draft, deck, k, '', "give 'axis_2' or 'axis_2_vector'")
          end if
 
          select case (kind)
@@ -189,7 +189,7 @@ contains
                   'axis and axis_2 must be parallel, found '//str(angle)//' deg between them')
             case ('constant_velocity')
                if (angle > 179.0_wp) call complain(draft, deck, k, '', &
-                  'axis and axis_2 point against each other; turn one of them round')
+                  'axis and axis_2 point in opposite directions; reverse one of them')
             end select
          end if
          if (.not. draft%cards(k)%is_good .or. .not. has_bodies) return
@@ -221,7 +221,7 @@ contains
             if (.not. draft%cards(k)%is_good .or. readout == 0) return
             if (.not. has_key(deck, k, 'stiffness')) then
                if (has_key(deck, k, 'balance')) call complain(draft, deck, k, 'balance', &
-                  'balance: a driver without a stiffness always takes part')
+                  'balance: only a driver with a stiffness takes this key')
                call add_driver(suspension, trim(name), where_of(deck, k), readout)
                return
             end if
@@ -307,14 +307,14 @@ contains
       must(3:6) = .false.
       must(10:11) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint has no such key')
+         if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint does not take this key')
          if (must(j) .and. .not. has_key(deck, k, trim(joint_keys(j)))) &
             call complain(draft, deck, k, '', quoted(joint_keys(j))//' is missing')
       end do
       if (kind == 'universal') then
          if (.not. any([has_key(deck, k, 'axis'), has_key(deck, k, 'axis_vector'), has_key(deck, k, 'axis_2'), &
             has_key(deck, k, 'axis_2_vector')])) call complain(draft, deck, k, '', &
-            "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen square to it)")
+            "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
          return
       end if
       if (needs_axis(kind) .and. .not. (has_key(deck, k, 'axis') .or. has_key(deck, k, 'axis_vector'))) &

@@ -60,8 +60,9 @@ contains
          if (has_key(deck, k, 'measure')) then
             call find_measure()
          else
-            if (.not. has_key(deck, k, 'bodies')) call complain(draft, deck, k, '', "'bodies' is missing (or 'measure')")
-            if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing (or 'measure')")
+            if (.not. has_key(deck, k, 'bodies')) call complain(draft, deck, k, '', &
+               "'bodies' is missing (give bodies and at, or measure)")
+            if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing (give bodies and at, or measure)")
             call find_ends(draft, deck, k, bodies, at, ends)
          end if
          call find_law(draft, deck, k, rate, trim(curve), value_unit, force_unit, law)
@@ -95,7 +96,7 @@ contains
 
          do j = 1, size(own)
             if (has_key(deck, k, trim(own(j)))) call complain(draft, deck, k, trim(own(j)), &
-               trim(own(j))//': the measure has its own; give either measure, or bodies and at')
+               trim(own(j))//': not used with measure; give either measure, or bodies and at')
          end do
          call look_up(draft, deck, k, 'measure', measure_group, trim(measure), found)
          if (found == 0) return
@@ -107,7 +108,7 @@ contains
          associate (readout => suspension%readouts(draft%cards(found)%index))
             if (is_of_angle(readout%measure%kind)) force_unit = force_unit*draft%units%length
             if (has_key(deck, k, 'free_length') .and. readout%measure%kind /= distance) call complain(draft, deck, k, &
-               'free_length', 'free_length: only a spring on a distance has one; give its preload at design')
+               'free_length', 'free_length: only a spring on a distance takes this key; give preload instead')
          end associate
       end subroutine find_measure
 
@@ -180,7 +181,7 @@ contains
          if (allocated(law)) then
             call look_up_curve(law, 0.0_wp, force, slope)
             if (abs(force) > 0.0_wp) call complain(draft, deck, k, 'curve', 'curve '//quoted(curve)// &
-               ' must be 0 at 0, as a stop without contact has no force; found '//str(force/draft%units%force))
+               ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force/draft%units%force))
          end if
          if (.not. draft%cards(k)%is_good) cycle
 
@@ -218,7 +219,7 @@ contains
 
          call find_bodies(draft, deck, k, bodies, number, has_bodies)
          call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, u, has_axis, is_axis)
-         if (.not. has_axis) call complain(draft, deck, k, '', "'axis' or 'axis_vector' is missing")
+         if (.not. has_axis) call complain(draft, deck, k, '', "give 'axis' or 'axis_vector'")
          call find_law(draft, deck, k, rate, trim(curve), draft%units%angle, moment_unit, law)
          if (.not. draft%cards(k)%is_good) cycle
 

@@ -63,7 +63,7 @@ contains
          else if (has_centre .and. has_contact) then
             height = this%centre(3) - this%contact(3)
             if (.not. height > 0.0_wp) call complain(draft, deck, k, 'contact', &
-               'the contact point must lie below the centre, found it '//str(-height/draft%units%length)//' above')
+               'the contact point must lie below the wheel centre, found it '//str(-height/draft%units%length)//' above')
             if (.not. has_key(deck, k, 'radius')) this%radius = height
          end if
          if (.not. tyre_rate > 0.0_wp) &
@@ -114,7 +114,7 @@ contains
             w = to_internal(draft, spin_vector)
             if (.not. draft%cards(k)%is_good) return
             if (.not. norm2(w) > 0.0_wp) then
-               call complain(draft, deck, k, 'spin_vector', 'spin_vector has no length')
+               call complain(draft, deck, k, 'spin_vector', 'spin_vector has zero length')
                return
             else if (.not. this%side*w(2) > 0.0_wp) then
                call complain(draft, deck, k, 'spin_vector', 'spin_vector must point outboard, to the '//trim(side)// &

@@ -61,20 +61,20 @@ contains
       words = ''
       select case (lower(name))
       case ('chassis', 'ground')
-         words = 'the name is reserved: it is that of the fixed body'
+         words = 'the name is reserved for the fixed body'
          return
       case ('wheel_travel')
-         words = "the name is reserved: drive = 'wheel_travel' means the height of a wheel, in the column wheel_travel_mm"
+         words = "the name is reserved: drive = 'wheel_travel' prescribes the height of a wheel (column wheel_travel_mm)"
          return
       end select
       if (index(lower(name), 'rig_') == 1) then
-         words = 'the name is reserved: rig_ begins the names of the test rig, as in the column rig_left_height_reaction_n'
+         words = 'the name is reserved: names of the test rig begin with rig_, as in the column rig_left_height_reaction_n'
          return
       end if
       if (.not. has_results) return
       if (len(name) > len(rate)) then
          if (lower(name(len(name) - len(rate) + 1:)) == rate) then
-            words = 'the name is reserved: _per ends the names of rates, as in the column wheel_rate_n_per_mm'
+            words = 'the name is reserved: names of rates end in _per, as in the column wheel_rate_n_per_mm'
             return
          end if
       end if

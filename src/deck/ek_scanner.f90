@@ -61,7 +61,7 @@ contains
                call complain(complaints, file, cursor, record%line, "'&end' without a group before it")
                cycle
             else if (word == '') then
-               call complain(complaints, file, cursor, record%line, "'&' without the name of a group")
+               call complain(complaints, file, cursor, record%line, "'&' without a group name")
             end if
             record%group = word
             record%file = file
@@ -125,7 +125,7 @@ contains
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) then
-            call complain(complaints, file, cursor, record%line, '&'//record%group//" is not ended by '/'")
+            call complain(complaints, file, cursor, record%line, '&'//record%group//" is not terminated by '/'")
             exit
          end if
          c = text(cursor%at:cursor%at)
@@ -139,7 +139,7 @@ contains
             if (lower(word) == 'end') exit
             cursor = start
             call complain(complaints, file, cursor, record%line, '&'//record%group// &
-               " is not ended by '/' before the next group in line "//str(cursor%line))
+               " is not terminated by '/' before the next group in line "//str(cursor%line))
             exit
          end if
 
@@ -166,7 +166,7 @@ contains
             start = cursor
             call scan_value(text, file, cursor, lost, after_comma, complaints)
             call complain(complaints, file, cursor, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
-               " where a key and '=' should be")
+               " where a key and '=' were expected")
          else if (c == '(') then
             call take_subscript(text, cursor, word)
             call add_value(entry, '('//word//')', .false., .false.)

@@ -168,7 +168,7 @@ contains
          return
       end if
       if (group == include_group) then
-         message = 'an &include is read before anything is set'
+         message = '--set cannot change an &include'
          return
       end if
       if (is_single(group) .neqv. dot == last) then

@@ -83,8 +83,8 @@ contains
       type(entry_t), intent(in) :: entry
       character(*), intent(in) :: unit
       character(:), allocatable :: words
-      words = entry%key//": found the unit '"//unit//"' behind "//entry%values(entry%used)%text// &
-         '; write the number alone (&model says in which units)'
+      words = entry%key//": found the unit '"//unit//"' after "//entry%values(entry%used)%text// &
+         '; write the number alone (&model sets the units)'
    end function unit_message
 
    !> Letters, the degree sign or % from here on.

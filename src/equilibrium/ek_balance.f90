@@ -78,16 +78,16 @@ contains
          do k = 1, size(suspension%rows)
             if (takes_part(suspension, k)) cycle
             associate (joint => suspension%joints(suspension%rows(k)%joint))
-               call words%add('balance: driver '//quoted(joint%name)//' keeps out and bears nothing at design'// &
+               call words%add('balance: driver '//quoted(joint%name)//' is excluded and carries no force at design'// &
                   trim(merge('                                                                             ', &
-                  ' (it acts on the body of a wheel; balance = .true. in its &joint lets it in) ', joint%says_balance)))
+                  ' (it acts on the body of a wheel; balance = .true. in its &joint includes it)', joint%says_balance)))
             end associate
          end do
       case ('spring')
          springs = count(is_free(suspension%springs))
          if (springs > size(suspension%wheels)) call words%add('balance: '//str(springs)//' springs are balanced for '// &
-            plural(size(suspension%wheels), 'wheel', 'wheels')//', so that their preloads are not unique; the least change of '// &
-            'them is taken. Springs in series bear one force: balance = .false. in the &spring that is to keep its preload')
+            plural(size(suspension%wheels), 'wheel', 'wheels')//', so their preloads are not unique; the smallest change of '// &
+            'them is used. Springs in series carry one force: set balance = .false. in the &spring that is to keep its preload')
       end select
    end subroutine balance_words
 
@@ -101,7 +101,7 @@ contains
       do k = 1, size(suspension%rows)
          if (takes_part(suspension, k)) cycle
          text = text//'; driver '//quoted(suspension%joints(suspension%rows(k)%joint)%name)// &
-            ' keeps out of it, unless its &joint says balance = .true.'
+            ' is excluded unless its &joint sets balance = .true.'
       end do
    end function kept_out
 
@@ -153,8 +153,8 @@ contains
          call factorise(kkt)
          call lower_by(height, suspension, state, kkt)
       end do
-      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; off by "// &
-         str(maxval(abs(height))*1000.0_wp, 4)//' mm')
+      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; "// &
+         'the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm')
    end subroutine balance_springs
 
    !> Changes the spring preloads so that, by the tangent at a state, the wheels come down by `height`.

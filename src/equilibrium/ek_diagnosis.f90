@@ -189,8 +189,8 @@ contains
                text = 'redundant: joint '//text//' constrains '//plural(times(g), 'motion', 'motions')// &
                   ' that cannot happen anyway'
             else
-               text = 'redundant: joints '//text//' hold the same '//plural(times(g), 'motion', 'motions')// &
-                  ' more than once; '//remedy(suspension, seen(:, g))
+               text = 'redundant: joints '//text//' over-constrain '//plural(times(g), 'direction', 'directions')// &
+                  '; '//remedy(suspension, seen(:, g))
             end if diagnosis_line
             call diagnosis%redundancies%add(text)
          end block
@@ -204,7 +204,7 @@ contains
       character(:), allocatable :: text
       integer :: first, last
 
-      text = 'replace one by a weaker type or by a bushing, or remove it'
+      text = 'replace one by a weaker joint type or by a bushing, or remove it'
       first = findloc(is_part, .true., dim=1)
       last = findloc(is_part, .true., dim=1, back=.true.)
       if (count(is_part) /= 2) return
@@ -271,7 +271,7 @@ contains
       allocate (motions_held, source=pick(held, stiffness > least))
       call make_sparse(motions_held)
       do k = 1, size(motions_held, 2)
-         call diagnosis%preload_held%add('held by preloads or loads alone, no spring, bushing or link stops it: '// &
+         call diagnosis%preload_held%add('held by preloads or loads alone; no spring, bushing or link resists it: '// &
             motion_words(suspension, state, kkt, motions_held(:, k)))
       end do
    end subroutine name_preload_held

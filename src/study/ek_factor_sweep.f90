@@ -62,7 +62,7 @@ contains
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, unit, readings, error)
-               if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study must stand: '// &
+               if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study failed: '// &
                   trim(label)//': '//trouble%message)
                if (allocated(error)) return
                call start_tables(study, readings, table, designs, curves, responses)
@@ -141,8 +141,8 @@ contains
       call sweep(suspension, case, path, kkt)
       call sweep_table(suspension, case, path, kkt, table)
       do k = 1, 2
-         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'state at factor '// &
-            str(path%value(path%failure(k)%state))//' was not found')
+         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &
+            str(path%value(path%failure(k)%state)))
       end do
    end subroutine run_design
 
@@ -199,8 +199,8 @@ contains
          if (hint /= '') text = text//hint//new_line('a')
          do j = 1, k - 1
             if (readings(j)%head == readings(k)%head) text = text//readings(k)%asked%where//': response '// &
-               quoted(readings(k)%asked%name)//': its column would be called '//quoted(readings(k)%head)// &
-               ', as that of response '//quoted(readings(j)%asked%name)//'; rename one'//new_line('a')
+               quoted(readings(k)%asked%name)//': its column would have the name '//quoted(readings(k)%head)// &
+               ', like that of response '//quoted(readings(j)%asked%name)//'; rename one'//new_line('a')
          end do
       end do
       if (len(text) > 0) call fail(error, exit_deck, text(:len(text) - 1))

@@ -43,7 +43,7 @@ contains
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          if (message == '' .and. column_index(table, reading%over) == 0) then
             message = no_column(reading%over, table)
-            if (asked%over == '') message = "'over' is missing: the results have no wheel travel that a slope could be taken over"
+            if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
          call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
          if (.not. ends_with(asked%name, '_'//unit)) reading%head = asked%name//'_'//unit
@@ -77,7 +77,7 @@ contains
       if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) at = minval(x)
       if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) at = maxval(x)
       if (.not. (at >= minval(x) .and. at <= maxval(x))) then
-         message = 'at = '//str(reading%asked%at)//' lies outside the case, whose factor goes from '// &
+         message = 'at = '//str(reading%asked%at)//' lies outside the range of the case, '// &
             str(minval(x))//' to '//str(maxval(x))
          return
       end if
@@ -122,7 +122,7 @@ contains
       if (count(is_left) < 2) return
       is_left(minloc(distance, dim=1, mask=is_left)) = .false.
       second = minval(distance, mask=is_left)
-      words = 'give the case '//str(ceiling(second/window))//' times as many increments or more, or the response a window of '// &
+      words = 'give the case '//str(ceiling(second/window))//' or more times as many increments, or the response a window of '// &
          str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more'
    end function remedy
 

@@ -52,12 +52,13 @@ contains
       call make_subject(deck, study%case, suspension, case, kkt, error)
       if (allocated(error)) return
       if (size(suspension%wheels) == 0) then
-         call fail(error, exit_deck, deck%file//': a step-size study compares a wheel, and the deck has none')
+         call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')
          return
       end if
       if (study%end == 'from') case%to = case%from
       if (.not. abs(case%to) > 0.0_wp) then
-         call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' begins at the end that is studied; take the other')
+         call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' has no range towards end = '// &
+            quoted(study%end)//'; set end = '//quoted(trim(merge('from', 'to  ', study%end == 'to'))))
          return
       end if
       case%from = 0.0_wp
@@ -66,7 +67,7 @@ contains
       case%increments = 100
       call walk_once(suspension, case, kkt, exact, closure, time, is_reached)
       if (.not. is_reached) then
-         call fail(error, exit_convergence, deck%file//': case '//quoted(case%name)//': no equilibrium at the end that is studied')
+         call fail(error, exit_convergence, deck%file//': case '//quoted(case%name)//': no equilibrium at the end of the range')
          return
       end if
       case%tolerance = 1.0e-10_wp      ! m, the default of a deck

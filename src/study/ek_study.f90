@@ -95,7 +95,7 @@ contains
          select case (draft%cards(k)%group)
          case (study_group)
             studies = studies + 1
-            if (studies > 1) call complain(draft, file, k, '', 'a second &study; one file holds one')
+            if (studies > 1) call complain(draft, file, k, '', 'a second &study; a file may hold only one')
             call take_study(file, draft, k, study)
          case (factor_group)
             call take_factor(file, draft, k, study)
@@ -138,7 +138,7 @@ contains
       associate (card => draft%cards(k))
          if (card%name == '') return
          if (.not. is_legal_name(trim(card%name))) then
-            call complain(draft, file, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
+            call complain(draft, file, k, 'name', 'a name must begin with a letter and contain only letters, digits and _')
          end if
          if (card%group == study_group) return
          if (any(heads == lower(card%name))) &
