@@ -1,4 +1,4 @@
-!> &axle and &steering: what the suspension is part of. At most one of each.
+!> &axle and &steering: data of the vehicle around the suspension. At most one of each.
 module ek_reader_axle
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -14,7 +14,7 @@ module ek_reader_axle
 
 contains
 
-   !> &axle: front or rear, and the shares of braking and driving force that reach it.
+   !> &axle: front or rear, and its shares of braking and driving force.
    subroutine read_axle(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -71,7 +71,7 @@ contains
       end do
    end subroutine read_axle
 
-   !> &steering: the driver of the rack, and what the steering wheel has to do with it.
+   !> &steering: the driver of the rack, and the ratio to the steering wheel.
    subroutine read_steering(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -103,7 +103,7 @@ contains
 
    contains
 
-      !> A driver, and one of a length: ratio and travel are lengths.
+      !> The joint must be a driver of a length, as ratio and travel are lengths.
       subroutine check_driver()
          integer :: measure
 
@@ -123,7 +123,7 @@ contains
 
    end subroutine read_steering
 
-   !> Whether a group that may be there once was there before; then that is a mistake.
+   !> Whether a group that may occur once has occurred before; reports it as a mistake.
    logical function is_second(draft, deck, k)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck

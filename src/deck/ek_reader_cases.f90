@@ -1,4 +1,4 @@
-!> &case: what is done to the wheels, or to anything else that can be driven.
+!> &case: the load or motion applied to the wheels or to any driver.
 module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -16,20 +16,20 @@ module ek_reader_cases
    private
    public :: read_cases
 
-   ! what a state may be off: rounding of a metre is 1e-13 mm, and no case converges below that; with more than a millimetre
-   ! the first guess of every state would do
+   ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
+   ! the first guess of every state would be accepted
    real(wp), parameter :: least_tolerance = 1.0e-15_wp, most_tolerance = 1.0e-3_wp      !! m
 
 contains
 
-   !> All cases, in the order of the deck; those with a mistake too, which the draft's complaints then tell.
+   !> All cases in the order of the deck, including those with a mistake, which is reported in the draft.
    subroutine read_cases(deck, draft, cases)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(case_t), allocatable, intent(out) :: cases(:)
       type(words_t) :: words
       real(wp) :: factor
-      integer, allocatable :: records(:)     ! of the cases
+      integer, allocatable :: records(:)     ! records of the cases
       integer :: k, c, used
 
       allocate (cases(count(draft%cards%group == case_group)))
@@ -115,12 +115,12 @@ contains
 
    end subroutine read_cases
 
-   !> The target of a case has a file of its own, <case>_target: no other case may be called so.
+   !> The target of a case has its own file, <case>_target: no other case may have this name.
    subroutine refuse_one_file_for_two(deck, draft, cases, records)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(case_t), intent(in) :: cases(:)
-      integer, intent(in) :: records(:)      !! of the cases
+      integer, intent(in) :: records(:)      !! records of the cases
       integer :: a, b
 
       do a = 1, size(cases)
@@ -134,7 +134,7 @@ contains
       end do
    end subroutine refuse_one_file_for_two
 
-   !> A case that names what it scales or drives.
+   !> A case that scales loads or drives a joint directly.
    subroutine read_drive(deck, k, draft, words, this, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -195,7 +195,7 @@ contains
          call look_up(draft, deck, k, 'load', load_group, name, found)
          if (found == 0) return
          if (draft%cards(found)%is_used) return
-         ! of a load that &mirror doubled, once
+         ! a load duplicated by &mirror is reported once
          if (.not. (deck%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, deck, k, 'load', &
             'load '//quoted(own_name(deck%records(found)))//' in '//line_of(deck, found, k)// &
             " is constant; a case scales loads with factor = 'case'")

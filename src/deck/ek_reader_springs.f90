@@ -15,9 +15,9 @@ module ek_reader_springs
    private
    public :: read_springs, read_dampers, read_stops, read_torsions
 
-   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: what the lip of a bump stop gives way
+   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
-   !> Where an element of two points is.
+   !> The bodies and points of an element between two points.
    type :: ends_t
       integer :: body(2) = 0
       real(wp) :: at(3, 2) = 0.0_wp        !! m, x rearward
@@ -37,7 +37,7 @@ contains
       type(spring_t) :: element
       type(ends_t) :: ends
       real(wp), allocatable :: free
-      type(curve_t), allocatable :: law      ! where there is none, or it was refused: an absent argument
+      type(curve_t), allocatable :: law      ! unallocated (none, or rejected): an absent argument
       real(wp) :: force_unit, value_unit     ! SI per unit of the deck
       integer :: k, found, status
 
@@ -89,7 +89,7 @@ contains
 
    contains
 
-      !> The measure that the spring acts on, and the units of its value and its force.
+      !> The measure of the spring, and the units of its value and force.
       subroutine find_measure()
          character(*), parameter :: own(2) = [character(6) :: 'bodies', 'at']
          integer :: j
@@ -100,7 +100,7 @@ contains
          end do
          call look_up(draft, deck, k, 'measure', measure_group, trim(measure), found)
          if (found == 0) return
-         if (draft%cards(found)%index == 0) then      ! refused itself
+         if (draft%cards(found)%index == 0) then      ! the measure was rejected
             draft%cards(k)%is_good = .false.
             return
          end if
@@ -114,7 +114,7 @@ contains
 
    end subroutine read_springs
 
-   !> &damper: of a damper, statics know the force of its gas.
+   !> &damper: only the gas force acts in statics.
    subroutine read_dampers(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -228,7 +228,7 @@ contains
       end do
    end subroutine read_torsions
 
-   !> Two bodies and two points apart from each other.
+   !> Two different bodies and two distinct points.
    subroutine find_ends(draft, deck, k, bodies, at, ends)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck

@@ -1,4 +1,4 @@
-!> &case with a `test`: which keys a test of the rig takes, and what they must say. ek_rig mounts it.
+!> &case with a `test`: the keys of each rig test and their legal values. ek_rig mounts the test.
 module ek_reader_tests
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -20,7 +20,7 @@ module ek_reader_tests
 
 contains
 
-   !> Reads a test: what it needs, and nothing else. Every mistake goes to the draft's complaints.
+   !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported in the draft.
    subroutine read_test(deck, k, draft, words, this, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -92,7 +92,7 @@ contains
             quoted(this%test)//': '//why)
       end subroutine refuse
 
-      !> At most one wheel a side, at least one.
+      !> At most one wheel per side, and at least one wheel.
       subroutine count_wheels()
          integer :: j, side
 
@@ -107,7 +107,7 @@ contains
          if (all(wheels == 0)) call complain(draft, deck, k, 'test', 'the rig needs a &wheel')
       end subroutine count_wheels
 
-      !> A wheel stands on the road by its tyre.
+      !> With vertical = 'road', each wheel needs a tyre rate.
       subroutine check_tyres()
          integer :: j
 
@@ -119,7 +119,7 @@ contains
          end do
       end subroutine check_tyres
 
-      !> What is steered: the case's own word, else that of &steering, else the only driver.
+      !> The steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
       subroutine find_steering()
          character(word_length) :: only
          integer :: j, found

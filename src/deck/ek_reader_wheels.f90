@@ -1,4 +1,4 @@
-!> &wheel: what is looked at.
+!> &wheel: the wheels whose attitude is reported.
 module ek_reader_wheels
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -95,7 +95,7 @@ contains
 
    contains
 
-      !> A left wheel on the right side would turn every sign of its results round.
+      !> A left wheel on the right side would reverse the signs of its results.
       subroutine check_side()
          if (this%side*this%centre(2) >= 0.0_wp) return
          call complain(draft, deck, k, 'side', 'side is '//quoted(side)//', but the centre '//quoted(centre)// &
