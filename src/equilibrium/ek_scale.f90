@@ -1,9 +1,9 @@
-!> The scale of a model: a length and a stiffness that are typical of it, and from them the scaling of the system.
+!> The scale of a model: a characteristic length and stiffness, and the scaling of the system derived from them.
 !>
 !>     D S D     with D = 1/√k for Δr, 1/(L√k) for Δπ, √k for rows in metres, L√k for rows between directions
 !>
-!> L [m] and k [N/m] make all blocks of the matrix of the order of one, so that pivots and condition mean the same
-!> whatever the size of the model. Rounded to powers of two: the scaling is then exact.
+!> With L [m] and k [N/m] all blocks of the matrix are of order one, so that pivots and condition numbers are independent of
+!> the size of the model. D is rounded to powers of two, which makes the scaling exact.
 module ek_scale
    use ek_kinds, only: wp
    use ek_measure, only: axis_axis, rotation
@@ -21,11 +21,11 @@ contains
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm
-      real(wp), intent(out) :: stiffness    !! k [N/m]; 1 where nothing is elastic
+      real(wp), intent(out) :: stiffness    !! k [N/m]; 1 if nothing is elastic
       real(wp) :: sum_log, least, tension, slope, rates(6)
       integer :: k, count, axis
 
-      least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
+      least = 1.0e-3_wp     ! a model whose points all coincide still needs a length: 1 mm
       length = 0.0_wp
       count = 0
       do k = 1, size(suspension%terms)
@@ -46,7 +46,7 @@ contains
       count = 0
       do k = 1, size(suspension%springs)
          if (suspension%springs(k)%kind /= axial_spring .and. suspension%springs(k)%kind /= measure_spring) cycle
-         if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and bars hold no wheel at design
+         if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and anti-roll bars carry no wheel at design
          call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
          if (slope <= 0.0_wp) cycle
          sum_log = sum_log + log(slope)
@@ -72,11 +72,11 @@ contains
 
    end subroutine characteristic
 
-   !> D of a model: six numbers a body, then one a row of Φ.
+   !> D of a model: six numbers per body, then one per row of Φ.
    pure subroutine scale_factors(suspension, length, stiffness, scale)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: length, stiffness     !! of `characteristic`
-      real(wp), intent(out) :: scale(:)             !! of as many numbers as the system has unknowns and rows
+      real(wp), intent(in) :: length, stiffness     !! from `characteristic`
+      real(wp), intent(out) :: scale(:)             !! length: unknowns + rows of the system
       integer :: nq, k
 
       nq = suspension%unknowns()
