@@ -1,8 +1,8 @@
-!> A sweep: from design outward to either end of a case, one state after the other.
+!> A sweep: from design outward to both ends of a case, one state after the other.
 !>
-!> A state that is not found is approached by halved increments; if that fails too, the sweep in
-!> that direction ends there, and everything before it is kept. The rows of a table are states of their own:
-!> where one is not found, the next is reached from design.
+!> A state that does not converge is approached by halved increments; if that fails too, the sweep in
+!> that direction ends, and the states before it are kept. The rows of a table are independent states:
+!> if one does not converge, the next is reached from design.
 module ek_path
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
@@ -19,12 +19,12 @@ module ek_path
    private
    public :: path_t, sweep, new_path, walk, progress_procedure
 
-   real(wp), parameter :: least_step = 1.0e-9_wp      !! of the range: where a path ends is found that sharply
+   real(wp), parameter :: least_step = 1.0e-9_wp      !! of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
    real(wp), parameter :: least_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
 
    abstract interface
-      !> Told now and then how many states of how many are there.
+      !> Called at intervals with the number of states done and the total.
       subroutine progress_procedure(done, total)
          integer, intent(in) :: done, total
       end subroutine progress_procedure
@@ -40,17 +40,17 @@ module ek_path
       logical, allocatable :: is_stable(:)        !! no negative stiffness
       integer, allocatable :: iterations(:)       !! factorisations spent on a state
       real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
-      real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
+      real(wp), allocatable :: settled(:)         !! packed state under the constant loads only
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
-      logical :: is_table = .false.               !! rows of a table, each a state of its own
-      integer :: crossings = 0                    !! bifurcations that the path goes through
+      logical :: is_table = .false.               !! rows of a table, each an independent state
+      integer :: crossings = 0                    !! number of bifurcations on the path
       real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
 contains
 
-   !> Sweeps a case; failures are told by path%failure, never by stopping.
+   !> Sweeps a case; failures are returned in path%failure and never stop the program.
    subroutine sweep(suspension, case, path, kkt, progress)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -63,7 +63,7 @@ contains
       if (case%method /= 'equilibrium') call confirm_path(suspension, case, path, kkt)
    end subroutine sweep
 
-   !> States of a linear method that are not on the path from design are taken back.
+   !> Rejects states of a linear method that are not on the path from design.
    subroutine confirm_path(suspension, case, path, kkt)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -72,7 +72,7 @@ contains
       real(wp) :: least
 
       least = least_step*span(path)
-      if (path%is_table) return        ! its rows are not one path
+      if (path%is_table) return        ! its rows do not form one path
       if (path%start > 0) then
          call one_way(path%start, path%states, 1, path%failure(1))
          call one_way(path%start, 1, -1, path%failure(2))
@@ -94,9 +94,9 @@ contains
 
    end subroutine confirm_path
 
-   !> Places of all states, and room for them.
+   !> Sets the places of all states and allocates storage for them.
    !>
-   !> A range around design is walked outward in both directions, its increments shared in proportion.
+   !> A range around design is swept outward in both directions, its increments divided in proportion.
    subroutine new_path(suspension, case, path)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -105,7 +105,7 @@ contains
 
       n = case%increments
       if (case%from*case%to <= 0.0_wp) then
-         ! the half is rounded on the same side of design whichever way the case is walked
+         ! the half is rounded on the same side of design for either direction of the case
          before = nint(n*abs(min(case%from, case%to))/(abs(case%from) + abs(case%to)))
          if (case%from > case%to) before = n - before
          if (abs(case%from) > 0.0_wp) before = max(before, 1)
@@ -189,7 +189,7 @@ contains
 
    contains
 
-      !> Stores the state at hand as state k.
+      !> Stores the current state as state k.
       subroutine keep(k)
          integer, intent(in) :: k
          call pack_state(state, path%packed(:, k))
@@ -202,7 +202,7 @@ contains
          end if
       end subroutine keep
 
-      !> From design to the nearer end of a range that leaves design out, in increments of the same size.
+      !> Goes from design to the nearer end of a range that excludes design, in increments of the same size.
       subroutine approach(k)
          integer, intent(in) :: k
          integer :: step, steps
@@ -218,7 +218,7 @@ contains
          call keep(k)
       end subroutine approach
 
-      !> From row to row of a table, and from design again behind a row that is not found; `lost` is the first of those.
+      !> Goes from row to row of a table, and from design again after a row that did not converge; `lost` is the first of those.
       subroutine walk_rows(lost)
          type(failure_t), intent(inout) :: lost
          type(failure_t) :: failure
@@ -239,7 +239,7 @@ contains
          end do
       end subroutine walk_rows
 
-      !> From state `first` (known) to state `last`.
+      !> Goes from state `first` (known) to state `last`.
       subroutine walk_branch(first, last, direction, failure)
          integer, intent(in) :: first, last, direction
          type(failure_t), intent(inout) :: failure
@@ -256,7 +256,7 @@ contains
          end do
       end subroutine walk_branch
 
-      !> Back to the settled state, at the place where nothing is asked for.
+      !> Returns to the settled state, where all inputs are zero.
       subroutine restart()
          call unpack_state(path%settled, state)
          here = schedule%rest
@@ -267,7 +267,7 @@ contains
          call leave(branch, settled_negative)
       end subroutine restart
 
-      !> The other branch, walked before, helps to guess the first states of this one.
+      !> Uses the states of the other direction to predict the first states of this one.
       subroutine seed(first, direction)
          integer, intent(in) :: first, direction
          integer :: k, last
@@ -284,7 +284,7 @@ contains
          end do
       end subroutine seed
 
-      !> One increment to `value`, by the method of the case.
+      !> One increment to `value` with the method of the case.
       subroutine advance(value, k, failure)
          real(wp), intent(in) :: value
          integer, intent(in) :: k
@@ -312,20 +312,20 @@ contains
 
    end subroutine walk
 
-   !> The range of a path, or 1 row of a table [place].
+   !> The range of a path; for a table, 1 row [place].
    pure real(wp) function span(path)
       type(path_t), intent(in) :: path
       span = 1.0_wp
       if (.not. path%is_table) span = maxval(abs(path%value)) + maxval(path%value) - minval(path%value)
    end function span
 
-   !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
+   !> An increment of the linear methods has failed if the matrix was singular or a body moved too far.
    subroutine check_increment(kkt, state_number, before, value, failure)
       type(kkt_t), intent(in) :: kkt
       integer, intent(in) :: state_number
       real(wp), intent(in) :: before, value      !! place at either end of the increment
       type(failure_t), intent(inout) :: failure
-      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, in one increment least of all
+      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, certainly not in one increment
       real(wp) :: moved
       integer :: k
 
