@@ -62,8 +62,8 @@ contains
       deflection = law%sign*(value - law%reference)
    end function deflection
 
-   !> Whether the slope of the law jumps, or nearly, between two values of the measure: a stop is met (the rounding of its
-   !> contact is short, and counts as a corner), or a corner of a curve.
+   !> Whether the slope of the law jumps, or nearly, between two values of the measure: a stop is met, or is in contact
+   !> (rubber that is steep from one state to the next counts as a corner), or a corner of a curve.
    pure logical function bends_between(law, from, to) result(bends)
       type(law_t), intent(in) :: law
       real(wp), intent(in) :: from, to
@@ -71,18 +71,8 @@ contains
 
       e = [deflection(law, from), deflection(law, to)]
       bends = .false.
-      if (law%is_one_sided) bends = zone(e(1)) /= zone(e(2)) .or. zone(e(1)) == 1
+      if (law%is_one_sided) bends = any(e > -0.5_wp*law%rounding)
       if (law%has_curve .and. .not. bends) bends = has_corner(law%curve, e(1), e(2))
-
-   contains
-
-      !> Before contact, in its rounding, behind it.
-      pure integer function zone(e)
-         real(wp), intent(in) :: e
-         zone = 0
-         if (abs(e) <= 0.5_wp*law%rounding) zone = 1
-         if (e > 0.5_wp*law%rounding) zone = 2
-      end function zone
 
    end function bends_between
 
