@@ -15,7 +15,7 @@ module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_measure, only: measure_value
-   use ek_law, only: bends_between
+   use ek_law, only: bend_between, no_bend, steep, corner
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
@@ -34,6 +34,8 @@ module ek_branch
    real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times what Newton's method leaves
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
+   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise where the rubber of a stop is steep
+   real(wp), parameter :: widest_corner = 1.25e8_wp   !! of the least step, an eighth of the range: longer steps are cut before a corner is believed
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors made no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump over a gap leaves more, unless it is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
@@ -145,8 +147,9 @@ contains
       integer, intent(out) :: verdict
       type(demand_t) :: rate
       integer :: negative_b
-      real(wp) :: rest
-      logical :: is_explained, can_bend
+      real(wp) :: rest, allowed
+      integer :: bend
+      logical :: is_explained
 
       rate = demand_rate(demand_a, demand_b, width)
       negative_b = kkt%negative
@@ -167,17 +170,19 @@ contains
          if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
       is_explained = rest <= smooth
-      can_bend = .false.
+      allowed = 0.0_wp
       if (.not. is_explained) then
-         can_bend = is_short .or. has_bent_law(suspension, self%before, state_b)
-         if (can_bend .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
+         bend = sharpest_bend(suspension, self%before, state_b)
+         if (bend == steep) allowed = slight
+         if (is_short .or. (bend == corner .and. abs(width) <= widest_corner*self%least)) allowed = huge(allowed)
+         if (rest <= allowed .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
             is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. (is_explained .or. self%has_tangent)) then
          call at_beginning()
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (can_bend .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
+         if (rest <= allowed .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
@@ -188,7 +193,7 @@ contains
          self%factorisations = self%factorisations + 1
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (.not. is_explained .and. can_bend) is_explained = is_bend(self, width, kkt%length)
+         if (.not. is_explained .and. rest <= allowed) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          verdict = doubtful
@@ -378,21 +383,21 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> A law has a corner between a and b: a stop is met, or a point of a curve where the slope jumps.
-   pure logical function has_bent_law(suspension, a, b)
+   !> The sharpest bend of a law between a and b.
+   pure integer function sharpest_bend(suspension, a, b) result(bend)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: a, b
       type(bushing_view_t) :: from, to
       integer :: k, axis, i, j
 
-      has_bent_law = .true.
+      bend = no_bend
       do k = 1, size(suspension%springs)
          associate (spring => suspension%springs(k))
             if (.not. spring%has_law) cycle
             i = spring%measure%body_i + 1
             j = spring%measure%body_j + 1
-            if (bends_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
-               measure_value(spring%measure, b%poses(i), b%poses(j)))) return
+            bend = max(bend, bend_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
+               measure_value(spring%measure, b%poses(i), b%poses(j))))
          end associate
       end do
       do k = 1, size(suspension%bushings)
@@ -401,19 +406,14 @@ contains
             call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
             call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
             do axis = 1, 3
-               if (bushing%laws(axis)%has_curve) then
-                  if (bends_between(bushing%laws(axis), dot_product(bushing%axes(:, axis), from%gap), &
-                     dot_product(bushing%axes(:, axis), to%gap))) return
-               end if
-               if (bushing%laws(axis + 3)%has_curve) then
-                  if (bends_between(bushing%laws(axis + 3), dot_product(bushing%axes(:, axis), from%turn%theta), &
-                     dot_product(bushing%axes(:, axis), to%turn%theta))) return
-               end if
+               if (bushing%laws(axis)%has_curve) bend = max(bend, bend_between(bushing%laws(axis), &
+                  dot_product(bushing%axes(:, axis), from%gap), dot_product(bushing%axes(:, axis), to%gap)))
+               if (bushing%laws(axis + 3)%has_curve) bend = max(bend, bend_between(bushing%laws(axis + 3), &
+                  dot_product(bushing%axes(:, axis), from%turn%theta), dot_product(bushing%axes(:, axis), to%turn%theta)))
             end do
          end associate
       end do
-      has_bent_law = .false.
-   end function has_bent_law
+   end function sharpest_bend
 
    !> The same of a step that was foreseen, which `compare` has not seen.
    logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
