@@ -14,6 +14,8 @@ module ek_path
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
    use ek_branch, only: branch_t, new_branch, leave, most_crossings
    use ek_confirm, only: confirm
+   use ek_arc, only: arc_t, new_arc, begin
+   use ek_arc_survey, only: survey_t, survey, go_to, length_at, tell_limits, most_limits, arrived
    use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
    implicit none(type, external)
    private
@@ -44,6 +46,9 @@ module ek_path
       logical :: is_table = .false.               !! rows of a table, each a state of its own
       integer :: crossings = 0                    !! bifurcations that the path goes through
       real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
+      integer :: limits = 0                       !! limit points, of a path that is walked by its arc length
+      real(wp) :: limit_place(2*most_limits) = 0.0_wp       !! their places
+      integer :: limit_state(2*most_limits) = 0   !! index of the nearest state; 0: before the range begins
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
@@ -145,7 +150,9 @@ contains
       type(predictor_t) :: predictor
       type(branch_t) :: branch
       type(schedule_t) :: schedule
+      type(arc_t) :: arc
       type(demand_t) :: demand
+      logical :: is_along_arc
       real(wp) :: here                   ! the place of `state`
       integer :: done, settled_negative
 
@@ -154,6 +161,9 @@ contains
       call demand_at(schedule, here, demand)
       predictor = new_predictor(size(path%settled))
       branch = new_branch(suspension)
+      is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
+      if (is_along_arc) arc = new_arc(suspension, maxval(abs(path%value)), case%tolerance)
+      path%limits = 0
       branch%least = least_step*span(path)
       branch%width = crossing_step*span(path)
       settled_negative = -1
@@ -206,6 +216,7 @@ contains
          integer :: step, steps
          real(wp) :: size_of_one
 
+         if (is_along_arc) return      ! walk_arc goes there itself
          size_of_one = abs(path%value(2) - path%value(1))
          steps = max(1, nint(abs(path%value(k))/size_of_one))
          call restart()
@@ -243,6 +254,10 @@ contains
          type(failure_t), intent(inout) :: failure
          integer :: k
 
+         if (is_along_arc) then
+            call walk_arc(first, last, direction, failure)
+            return
+         end if
          if (first == path%start) then
             call restart()
             call seed(first, -direction)
@@ -253,6 +268,42 @@ contains
             call keep(k)
          end do
       end subroutine walk_branch
+
+      !> States `first` to `last` at equal distances along the path. Where it does not come to the place of the last
+      !> one, the others are shared out over what there is.
+      subroutine walk_arc(first, last, direction, failure)
+         integer, intent(in) :: first, last, direction
+         type(failure_t), intent(inout) :: failure
+         type(survey_t) :: found
+         real(wp) :: far
+         integer :: k, spent
+         logical :: is_found
+
+         if (first == last) return
+         far = path%value(last)
+         call survey(arc, suspension, schedule, path%settled, path%value(first), far, kkt, found)
+         call tell_limits(found, first, last, path%limits, path%limit_place, path%limit_state)
+         call begin(arc, suspension, schedule, path%settled, 0.0_wp, far > 0.0_wp, kkt, is_found)
+         do k = first, last, direction
+            if (k == path%start) cycle
+            if (.not. is_found .or. (k == last .and. found%ending /= arrived)) exit
+            spent = arc%factorisations
+            call go_to(arc, suspension, schedule, length_at(found, k, first, last), kkt, is_found)
+            if (.not. is_found) exit
+            if (k == last) arc%place = far          ! it is but for rounding
+            state%poses(:) = arc%state%poses
+            state%reaction(:) = arc%state%reaction
+            if (k /= first) path%value(k) = arc%place
+            path%iterations(k) = arc%factorisations - spent + 1
+            call keep(k)
+         end do
+         if (k == last + direction) return
+         failure%state = k
+         failure%ending = found%ending
+         failure%value = found%last_place
+         failure%reached = found%last_place
+         failure%last = arc%packed_a
+      end subroutine walk_arc
 
       !> Back to the settled state, at the place where nothing is asked for.
       subroutine restart()
