@@ -12,7 +12,7 @@
 !>
 !> which is regular at a limit point, where N alone is not. Lengths are measured in
 !>
-!>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the characteristic length of ek_scale
+!>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
 !>
 !> so that they have no unit; reactions do not count. The tangent's sense is that of the one before it, and
 !> that takes the path over a fold. A position where joints lock is passed likewise; there the reactions are without bound.
@@ -22,6 +22,7 @@
 !> No memory is asked for after new_arc.
 module ek_arc
    use ek_kinds, only: wp
+   use ek_measure, only: distance
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, demand_rate, &
       motion_between, move_as_screw
@@ -30,7 +31,7 @@ module ek_arc
    use ek_lapack, only: dgesv
    implicit none(type, external)
    private
-   public :: arc_t, new_arc, begin, advance, probe, find_tangent, find_motion, product
+   public :: arc_t, new_arc, begin, advance, probe, find_tangent, find_motion, inner
 
    real(wp), parameter :: first_step = 1.0e-2_wp      !! of the unit of length
    real(wp), parameter :: longest_step = 1.0e-1_wp
@@ -44,7 +45,8 @@ module ek_arc
 
    !> A segment of the path, from a to b; where a probe of it is; and work space.
    type :: arc_t
-      real(wp) :: range = 1.0_wp                     !! place that counts as much as the characteristic length
+      real(wp) :: range = 1.0_wp                     !! place that counts as much as the size of the model
+      real(wp) :: size = 1.0_wp                      !! characteristic length, or the longest spring [m]
       real(wp) :: tolerance = 0.0_wp                 !! m
       logical :: is_symmetric = .true.               !! no load leaves N unsymmetric
       real(wp) :: length = 0.0_wp                    !! of the path from design to a
@@ -68,8 +70,9 @@ module ek_arc
 contains
 
    !> Room for a model.
-   function new_arc(suspension, range, tolerance) result(self)
+   function new_arc(suspension, length, range, tolerance) result(self)
       type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: length         !! characteristic, of ek_scale [m]
       real(wp), intent(in) :: range          !! place, above 0
       real(wp), intent(in) :: tolerance      !! m
       type(arc_t) :: self
@@ -83,6 +86,10 @@ contains
       self%state = design_state(suspension)
       self%other = self%state
       self%range = range
+      self%size = length
+      do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%measure%kind == distance) self%size = max(self%size, suspension%springs(k)%design_length)
+      end do
       self%tolerance = tolerance
       do k = 1, size(suspension%loads)
          if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
@@ -133,8 +140,9 @@ contains
          call probe(self, suspension, schedule, self%step, kkt, is_found)
          if (is_found) call find_tangent(self, suspension, schedule, kkt, is_found)
          if (is_found) then
-            turn = acos(min(max(product(self, kkt, self%tangent_a, self%tangent), -1.0_wp), 1.0_wp))
-            is_found = turn <= most_turn .and. rest() <= smooth
+            turn = acos(min(max(inner(self, kkt, self%tangent_a, self%tangent), -1.0_wp), 1.0_wp))
+            is_found = turn <= most_turn
+            if (is_found) is_found = rest() <= smooth
             if (.not. is_found .and. self%step <= corner_step) is_found = turn <= most_of_corner
          end if
          if (is_found) exit
@@ -157,7 +165,7 @@ contains
          real(wp) :: largest
          call find_motion(self, kkt, self%packed_a, self%place_a, largest)
          self%motion = self%motion - 0.5_wp*self%step*(self%tangent_a + self%tangent)
-         rest = sqrt(product(self, kkt, self%motion, self%motion))/self%step
+         rest = sqrt(inner(self, kkt, self%motion, self%motion))/self%step
       end function rest
 
    end subroutine advance
@@ -186,12 +194,12 @@ contains
          self%residual = kkt%rhs
          call solve_bordered(self, suspension, schedule, 0.0_wp, kkt, is_found)
          if (.not. is_found) return
-         length = sqrt(product(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
+         length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          is_found = .false.
          ! a correction as long as the step is no correction; nor is one longer than that before; nor one that is not a number
-         if (.not. length <= max(width, self%tolerance/kkt%length) .or. length > 2.0_wp*before) return
+         if (.not. length <= max(width, self%tolerance/self%size) .or. length > 2.0_wp*before) return
          call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
-         is_found = length*kkt%length <= self%tolerance
+         is_found = length*self%size <= self%tolerance
          if (is_found) return
          before = max(length, tiny(length))
       end do
@@ -225,9 +233,9 @@ contains
          call assemble(suspension, self%state, demand, whole_tangent, kkt)
          call solve_bordered(self, suspension, schedule, merge(1.0_wp, 0.0_wp, k == 0), kkt, is_found)
          if (.not. is_found) return
-         length = sqrt(product(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
+         length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          self%tangent = self%tangent + self%rhs(:, 1)
-         self%tangent = self%tangent/sqrt(product(self, kkt, self%tangent, self%tangent))
+         self%tangent = self%tangent/sqrt(inner(self, kkt, self%tangent, self%tangent))
          if (k > 0 .and. length <= exact) exit
       end do
       is_found = abs(self%tangent(kkt%n + 1)) < huge(length)      ! a number
@@ -291,7 +299,7 @@ contains
       pure real(wp) function weight(j)
          integer, intent(in) :: j
          weight = 1.0_wp
-         if (mod(j - 1, 6) < 3) weight = 1.0_wp/kkt%length**2
+         if (mod(j - 1, 6) < 3) weight = 1.0_wp/self%size**2
       end function weight
 
    end subroutine solve_bordered
@@ -310,17 +318,17 @@ contains
    end subroutine move_all
 
    !> a·b of two steps [twists; reactions; place].
-   pure real(wp) function product(self, kkt, a, b)
+   pure real(wp) function inner(self, kkt, a, b)
       type(arc_t), intent(in) :: self
       type(kkt_t), intent(in) :: kkt
       real(wp), contiguous, intent(in) :: a(:), b(:)
       integer :: k
 
-      product = a(kkt%n + 1)*b(kkt%n + 1)/self%range**2
+      inner = a(kkt%n + 1)*b(kkt%n + 1)/self%range**2
       do k = 1, kkt%nq, 6
-         product = product + dot_product(a(k:k + 2), b(k:k + 2))/kkt%length**2 + dot_product(a(k + 3:k + 5), b(k + 3:k + 5))
+         inner = inner + dot_product(a(k:k + 2), b(k:k + 2))/self%size**2 + dot_product(a(k + 3:k + 5), b(k + 3:k + 5))
       end do
-   end function product
+   end function inner
 
    !> From a state and its place to the last probe: the step, in self%motion, and how far the body went that moved most.
    subroutine find_motion(self, kkt, packed, place, largest)

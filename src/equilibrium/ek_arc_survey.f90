@@ -7,7 +7,7 @@ module ek_arc_survey
    use ek_state, only: demand_t
    use ek_schedule, only: schedule_t, demand_at
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
-   use ek_arc, only: arc_t, begin, advance, probe, find_tangent, find_motion, product
+   use ek_arc, only: arc_t, begin, advance, probe, find_tangent, find_motion, inner
    implicit none(type, external)
    private
    public :: survey_t, survey, go_to, length_at, tell_limits
@@ -21,7 +21,8 @@ module ek_arc_survey
    integer, parameter, public :: most_limits = 16   !! that are told
 
    integer, parameter :: most_steps = 20000
-   real(wp), parameter :: far_away = 10.0_wp        !! characteristic lengths
+   real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
+   real(wp), parameter :: farthest = 3.0_wp         !! m: no suspension moves that far
    real(wp), parameter :: far_off = 100.0_wp        !! ranges
    real(wp), parameter :: same_way = 0.9_wp         !! cosine
    real(wp), parameter :: same = 1.0e-14_wp         !! of the range
@@ -90,10 +91,10 @@ contains
 
          ending = arrived
          call find_motion(arc, kkt, settled, 0.0_wp, moved)
-         if (moved > far_away*kkt%length .or. abs(arc%place_b) > far_off*arc%range) ending = gone_far
-         behind = sqrt(product(arc, kkt, arc%motion, arc%motion))
-         if (behind > 1.01_wp*arc%width .or. product(arc, kkt, arc%motion, arc%tangent_0) < 0.0_wp) return
-         if (product(arc, kkt, arc%tangent_b, arc%tangent_0) < same_way) return
+         if (moved > max(far_away*arc%size, farthest) .or. abs(arc%place_b) > far_off*arc%range) ending = gone_far
+         behind = sqrt(inner(arc, kkt, arc%motion, arc%motion))
+         if (behind > 1.01_wp*arc%width .or. inner(arc, kkt, arc%motion, arc%tangent_0) < 0.0_wp) return
+         if (inner(arc, kkt, arc%tangent_b, arc%tangent_0) < same_way) return
          ending = gone_round
          found%far_length = arc%length + max(arc%width - behind, 0.0_wp)
       end function ending

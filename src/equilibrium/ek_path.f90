@@ -162,7 +162,7 @@ contains
       predictor = new_predictor(size(path%settled))
       branch = new_branch(suspension)
       is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
-      if (is_along_arc) arc = new_arc(suspension, maxval(abs(path%value)), case%tolerance)
+      if (is_along_arc) arc = new_arc(suspension, kkt%length, maxval(abs(path%value)), case%tolerance)
       path%limits = 0
       branch%least = least_step*span(path)
       branch%width = crossing_step*span(path)
