@@ -1,16 +1,15 @@
-!> Files and folders. A file written here is there whole or not at all; no shell is ever started.
-!>
-!> What Fortran does not offer (rename, mkdir, isatty, why something failed) is asked of the C
-!> library; `__errno_location` is the name glibc and musl give to errno.
+!> Files and folders. A file written here is there whole or not at all (ek_writer); no shell is ever started.
 module ek_file
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_size_t, &
-      c_associated, c_f_pointer
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_size_t
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file
+   use ek_posix, only: c_write, c_mkdir, c_remove, c_access, c_isatty
+   use ek_system, only: facts_t, facts_of, folder_file, device_file, other_file, error_number, system_reason, broken_pipe
+   use ek_writer, only: writer_t, begin_file, remove_stale
    implicit none(type, external)
    private
-   public :: write_whole, write_standard_output, read_whole, make_folder, remove_file
+   public :: write_whole, write_standard_output, write_standard_error, read_whole, make_folder, remove_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
@@ -19,140 +18,75 @@ module ek_file
    integer(c_int), parameter :: may_execute = 1  !! X_OK
    integer(c_int), parameter :: all_may = 511    !! 0777, the umask takes away
 
-   interface
-      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
-         import :: c_ptr, c_char
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function c_fopen
-      integer(c_size_t) function c_fwrite(bytes, size, count, stream) bind(c, name='fwrite')
-         import :: c_ptr, c_char, c_size_t
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: size, count
-         type(c_ptr), value :: stream
-      end function c_fwrite
-      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
-         import :: c_int, c_char, c_size_t
-         integer(c_int), value :: descriptor
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: count
-      end function c_write
-      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fclose
-      integer(c_int) function c_rename(from, to) bind(c, name='rename')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: from(*), to(*)
-      end function c_rename
-      integer(c_int) function c_remove(path) bind(c, name='remove')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_remove
-      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_mkdir
-      integer(c_int) function c_access(path, mode) bind(c, name='access')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_access
-      integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
-         import :: c_int
-         integer(c_int), value :: descriptor
-      end function c_isatty
-      integer(c_int) function c_getpid() bind(c, name='getpid')
-         import :: c_int
-      end function c_getpid
-      type(c_ptr) function c_errno() bind(c, name='__errno_location')
-         import :: c_ptr
-      end function c_errno
-      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
-         import :: c_ptr, c_int
-         integer(c_int), value :: number
-      end function c_strerror
-      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-      end function c_strlen
-   end interface
-
 contains
 
-   !> Write `text` as the content of `path`, in one step for every reader: into a temporary file of the
-   !> same folder first, which then takes the name. A device (`/dev/stdout`) is written directly.
+   !> Write `text` as the content of `path`, in one step for every reader. A device (`/dev/stdout`) is written directly.
    subroutine write_whole(path, text, error)
       character(*), intent(in) :: path
       character(*), intent(in) :: text                       !! bytes, written as they are
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      character(:), allocatable :: temporary, reason
-      character(12) :: pid
-      integer(c_int) :: ignored
-      logical :: is_device
+      type(writer_t) :: writer
 
-      is_device = index(path, '/dev/') == 1 .or. index(path, '/proc/') == 1
-      temporary = path
-      if (.not. is_device) then
-         write (pid, '(i0)') c_getpid()
-         temporary = path//'.'//trim(pid)//'.tmp'
-      end if
-      if (folder_exists(path)) then
-         reason = 'it is a folder'
-      else
-         call put_bytes(temporary, text, reason)
-         if (is_device .and. len(reason) == 0) return
-      end if
-      if (len(reason) == 0) then
-         if (c_rename(temporary//c_null_char, path//c_null_char) == 0) return
-         reason = system_reason()
-      end if
-      if (.not. is_device) ignored = c_remove(temporary//c_null_char)
-      call fail(error, exit_file, "cannot write '"//path//"': "//reason)
+      call begin_file(writer, path, error)
+      if (allocated(error)) return
+      call writer%add(text)
+      call writer%finish(error)
    end subroutine write_whole
 
    !> Write bytes to standard output, after what Fortran has put there. Unlike a Fortran `write` it tells
-   !> when the disk is full.
+   !> when the disk is full. A reader that wants no more (`| head`) is an error without words.
    subroutine write_standard_output(text, error)
       character(*), intent(in) :: text                       !! bytes, written as they are
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with the reason
+      integer :: ignored
+
+      flush (output_unit, iostat=ignored)
+      if (is_written(1_c_int, text)) return
+      if (error_number() == broken_pipe) then
+         call fail(error, exit_file, '')
+      else
+         call fail(error, exit_file, 'cannot write to standard output: '//system_reason())
+      end if
+   end subroutine write_standard_output
+
+   !> Write bytes to standard error. Where that is closed or full there is nobody left to tell.
+   subroutine write_standard_error(text)
+      character(*), intent(in) :: text
+      logical :: ignored
+
+      ignored = is_written(2_c_int, text)
+   end subroutine write_standard_error
+
+   !> All bytes of a text, to an open descriptor.
+   logical function is_written(descriptor, text)
+      integer(c_int), intent(in) :: descriptor
+      character(*), intent(in) :: text
+      integer, parameter :: interrupted = 4                  ! EINTR
       integer(c_size_t) :: done, now
 
-      flush (output_unit)
+      is_written = .true.
       done = 0
       do while (done < len(text, c_size_t))
-         now = c_write(1_c_int, text(done + 1:), len(text, c_size_t) - done)
+         now = c_write(descriptor, text(done + 1:), len(text, c_size_t) - done)
          if (now < 1) then                                   ! a ssize_t: negative on failure
-            call fail(error, exit_file, 'cannot write to standard output: '//system_reason())
+            if (error_number() == interrupted) cycle
+            is_written = .false.
             return
          end if
          done = done + now
       end do
-   end subroutine write_standard_output
-
-   !> Write bytes through the C library: gfortran's flush and close do not tell that a disk is full.
-   subroutine put_bytes(path, text, reason)
-      character(*), intent(in) :: path, text
-      character(:), allocatable, intent(out) :: reason       !! '' when every byte is out
-      type(c_ptr) :: stream
-      integer(c_size_t) :: length
-
-      reason = ''
-      stream = c_fopen(path//c_null_char, 'wb'//c_null_char)
-      if (.not. c_associated(stream)) then
-         reason = system_reason()
-         return
-      end if
-      length = len(text, c_size_t)
-      if (c_fwrite(text, 1_c_size_t, length, stream) /= length) reason = system_reason()
-      if (c_fclose(stream) /= 0 .and. len(reason) == 0) reason = system_reason()
-   end subroutine put_bytes
+   end function is_written
 
    !> The whole content of a file, byte for byte.
-   subroutine read_whole(path, text, error)
+   !>
+   !> Only what a user has named may be a pipe or a device: of what a file names, a device may have no end, and a pipe
+   !> nobody who ever writes to it.
+   subroutine read_whole(path, text, error, may_stream)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
+      logical, intent(in), optional :: may_stream            !! else it must be a plain file
+      type(facts_t) :: facts
       character(200) :: reason
       integer(i8) :: size
       integer :: unit, status, ignored
@@ -161,6 +95,13 @@ contains
       if (folder_exists(path)) then
          call fail(error, exit_file, "cannot read '"//path//"': it is a folder")
          return
+      end if
+      if (.not. is_true(may_stream)) then
+         facts = facts_of(path, follow=.true.)
+         if (facts%kind == device_file .or. facts%kind == other_file) then
+            call fail(error, exit_file, "cannot read '"//path//"': it is no plain file, but a pipe or a device")
+            return
+         end if
       end if
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
          status='old', iostat=status, iomsg=reason)
@@ -171,8 +112,9 @@ contains
             reason = 'it is larger than 2 GB'
          else if (size > 0) then
             deallocate (text)
-            allocate (character(size) :: text)
-            read (unit, iostat=status, iomsg=reason) text
+            allocate (character(size) :: text, stat=status)
+            reason = 'there is not enough memory for it'
+            if (status == 0) read (unit, iostat=status, iomsg=reason) text
          else
             call read_stream(unit, text)
             if (len(text) == most_streamed) then
@@ -187,6 +129,14 @@ contains
          call fail(error, exit_file, "cannot read '"//path//"': "//short_reason(reason))
       end if
    end subroutine read_whole
+
+   !> Of an optional argument that is false where it is not given.
+   pure logical function is_true(flag)
+      logical, intent(in), optional :: flag
+
+      is_true = .false.
+      if (present(flag)) is_true = flag
+   end function is_true
 
    !> What a pipe delivers, which has no size beforehand; not more than `most_streamed`.
    subroutine read_stream(unit, text)
@@ -211,7 +161,7 @@ contains
       text = text(:used)
    end subroutine read_stream
 
-   !> Make a folder and those above it; one that is there already is fine.
+   !> Make a folder and those above it; one that is there already is fine, and rid of what dead runs have left in it.
    subroutine make_folder(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -230,7 +180,9 @@ contains
       end do
       if (.not. folder_exists(path)) then
          call fail(error, exit_file, "cannot make the folder '"//path//"': "//reason)
+         return
       end if
+      call remove_stale(path)
    end subroutine make_folder
 
    !> Remove a file; that it was not there is no error.
@@ -329,25 +281,6 @@ contains
       dot = index(name, '.', back=.true.)
       if (dot > 1) name = name(:dot - 1)
    end function base_name
-
-   !> Why the last call of the C library failed, in its own words.
-   function system_reason() result(reason)
-      character(:), allocatable :: reason
-      integer(c_int), pointer :: number
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: text
-      integer :: k
-
-      call c_f_pointer(c_errno(), number)
-      text = c_strerror(number)
-      reason = 'unknown reason'
-      if (.not. c_associated(text)) return
-      call c_f_pointer(text, letters, [c_strlen(text)])
-      reason = repeat(' ', size(letters))
-      do k = 1, size(letters)
-         reason(k:k) = letters(k)
-      end do
-   end function system_reason
 
    !> The last part of gfortran's "Cannot open file 'x': No such file or directory".
    pure function short_reason(message) result(reason)

@@ -5,7 +5,7 @@ module ek_text
    use ek_letters, only: visible
    implicit none(type, external)
    private
-   public :: str, lower, quoted, nearest_name, vector_text, plural
+   public :: str, lower, quoted, nearest_name, vector_text, plural, printable
 
    !> A number as the shortest text that a person would write.
    interface str
@@ -13,6 +13,55 @@ module ek_text
    end interface str
 
 contains
+
+   !> A text as a terminal may show it: control characters, which move the cursor, set colours or worse, become `<U+001B>`.
+   !> Ends of lines and tabulators stay, and everything else of UTF-8.
+   pure function printable(text) result(shown)
+      character(*), intent(in) :: text
+      character(:), allocatable :: shown
+      character(16), parameter :: digits = '0123456789ABCDEF'
+      integer :: k, code, used, at
+
+      used = 0
+      do k = 1, len(text)
+         if (control_code(text, k) >= 0) used = used + 1
+      end do
+      if (used == 0) then
+         shown = text
+         return
+      end if
+      allocate (character(len(text) + 8*used) :: shown)
+      at = 0
+      k = 1
+      do while (k <= len(text))
+         code = control_code(text, k)
+         if (code >= 0) then
+            shown(at + 1:at + 8) = '<U+00'//digits(code/16 + 1:code/16 + 1)//digits(modulo(code, 16) + 1:modulo(code, 16) + 1)//'>'
+            at = at + 8
+            if (code >= 128 .and. iachar(text(k:k)) == 194) k = k + 1      ! two bytes of UTF-8
+         else
+            at = at + 1
+            shown(at:at) = text(k:k)
+         end if
+         k = k + 1
+      end do
+      shown = shown(:at)
+   end function printable
+
+   !> The control character at a place, U+0000 … U+001F or U+007F … U+009F; −1 where there is none.
+   pure integer function control_code(text, at) result(code)
+      character(*), intent(in) :: text
+      integer, intent(in) :: at
+
+      code = iachar(text(at:at))
+      if (code == 194 .and. at < len(text)) then
+         code = iachar(text(at + 1:at + 1))
+         if (code >= 128 .and. code < 160) return
+         code = -1
+      else if (code == 9 .or. code == 10 .or. (code >= 32 .and. code /= 127)) then
+         code = -1
+      end if
+   end function control_code
 
    !> A whole number without blanks.
    pure function str_integer(value) result(text)

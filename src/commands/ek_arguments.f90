@@ -8,8 +8,8 @@ module ek_arguments
 
    character(*), parameter :: commands(6) = [character(7) :: 'run', 'check', 'report', 'compare', 'study', 'bench']
    character(*), parameter :: command_words = 'run, check, report, compare, study or bench'
-   character(*), parameter :: options(12) = [character(12) :: '--out', '--method', '--increments', '--case', '--set', &
-      '--plot', '--no-plots', '--animate', '--window', '--quiet', '--help', '--version']
+   character(*), parameter :: options(13) = [character(12) :: '--compliance', '--out', '--method', '--increments', '--case', &
+      '--set', '--plot', '--no-plots', '--animate', '--window', '--quiet', '--help', '--version']
 
    !> A text of its own length.
    type :: setting_t
@@ -25,6 +25,7 @@ module ek_arguments
       type(setting_t), allocatable :: settings(:)   !! path=value
       type(setting_t), allocatable :: windows(:)    !! word=half width
       integer :: increments = 0                 !! 0: as in the deck
+      logical :: compliance = .false.           !! also the whole compliance matrix of every state
       logical :: plot = .false., no_plots = .false., animate = .false.
       logical :: quiet = .false., help = .false., version = .false.
    end type arguments_t
@@ -60,14 +61,16 @@ contains
                has_value = .true.
             end if
          end if
-         if (has_value .and. any(word == [character(10) :: '--plot', '--no-plots', '--animate', '--quiet', '--help', &
-            '--version'])) then
+         if (has_value .and. any(word == [character(12) :: '--plot', '--compliance', '--no-plots', '--animate', '--quiet', &
+            '--help', '--version'])) then
             call fail(error, exit_usage, word//' takes no value, found '//quoted(value))
             return
          end if
          select case (word)
          case ('--plot')
             arguments%plot = .true.
+         case ('--compliance')
+            arguments%compliance = .true.
          case ('--no-plots')
             arguments%no_plots = .true.
          case ('--animate')
@@ -152,6 +155,7 @@ contains
       unused = ''
       if (arguments%command /= 'run') then
          if (arguments%plot) unused = '--plot'
+         if (arguments%compliance) unused = '--compliance'
          if (len(arguments%method) > 0 .and. arguments%command /= 'report') unused = '--method'
          if (len(arguments%out) > 0 .and. any(arguments%command == [character(5) :: 'check', 'bench'])) unused = '--out'
       end if
@@ -177,6 +181,8 @@ contains
          call fail(error, exit_usage, arguments%command//' takes no '//unused)
       else if (arguments%plot .and. arguments%out == '-') then
          call fail(error, exit_usage, '--plot needs a folder, and --out - is none')
+      else if (arguments%compliance .and. arguments%out == '-') then
+         call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
       else if (arguments%out == '-' .and. any(arguments%command == [character(7) :: 'report', 'compare'])) then
          call fail(error, exit_usage, arguments%command//' writes several files: --out needs a folder, and - is none')
       else if (arguments%no_plots .and. arguments%animate) then

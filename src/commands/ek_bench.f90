@@ -4,7 +4,6 @@
 !> one right-hand side, measured in turn with the methods in the same run: the ratio holds when the
 !> machine is slow or busy. The least time of several rounds is told, for all alike.
 module ek_bench
-   use, intrinsic :: iso_fortran_env, only: output_unit
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted
@@ -25,6 +24,7 @@ module ek_bench
    use ek_csv, only: csv_text
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
+   use ek_words, only: tell
    implicit none(type, external)
    private
    public :: bench
@@ -47,6 +47,7 @@ contains
       real(wp), allocatable :: matrices(:, :, :)
       real(wp) :: unit, together, copying, best(3), start
       character(:), allocatable :: checksum
+      character(200) :: line
       integer :: k, m
 
       call load_deck(arguments, suspension, cases, checksum, error)
@@ -87,31 +88,48 @@ contains
       end do
 
       unit = together - copying
-      write (output_unit, '(a)') 'model '//suspension%name//', case '//case%name//', '//str(case%increments)// &
-         ' increments, matrix '//str(kkt%n)//' x '//str(kkt%n)
-      call tell('LAPACK dsysv alone', unit, unit)
+      call put('model '//suspension%name//', case '//case%name//', '//str(case%increments)// &
+         ' increments, matrix '//str(kkt%n)//' x '//str(kkt%n), error)
+      call put(timing('LAPACK dsysv alone', unit, unit), error)
       do m = 1, 3
-         call tell(trim(method_names(m))//' increment', best(m), unit)
+         call put(timing(trim(method_names(m))//' increment', best(m), unit), error)
       end do
       case%method = 'equilibrium'
       call sweep(suspension, case, path, kkt)
-      write (output_unit, '(a,i0)') 'equilibrium: converged states a second ', nint(1.0_wp/best(3))
-      write (output_unit, '(a,f5.3,a,i0)') 'equilibrium: factorisations a state ', &
+      call put('equilibrium: converged states a second '//str(nint(1.0_wp/best(3))), error)
+      write (line, '(a,f5.3,a,i0)') 'equilibrium: factorisations a state ', &
          real(sum(path%iterations), wp)/path%states, ', at most ', maxval(path%iterations)
+      call put(trim(line), error)
       case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default
       call sweep(suspension, case, exact, kkt)
-      write (output_unit, '(a,es8.1,a)') 'equilibrium: largest distance to the solution at tolerance 1e-10 mm: ', &
+      write (line, '(a,es8.1,a)') 'equilibrium: largest distance to the solution at tolerance 1e-10 mm: ', &
          largest_distance(path, exact, kkt%nq/6)*1000.0_wp, ' mm'
-      if (arguments%quiet) return
+      call put(trim(line), error)
+      if (arguments%quiet .or. allocated(error)) return
       call whole_way(arguments, error)
    end subroutine bench
 
-   !> One line: name, microseconds, ratio.
-   subroutine tell(name, time, unit)
+   !> One line to standard output; after a failure none.
+   subroutine put(line, error)
+      character(*), intent(in) :: line
+      type(error_t), allocatable, intent(inout) :: error
+      type(error_t), allocatable :: unheard
+
+      if (allocated(error)) return
+      call tell(line//new_line('a'), unheard)
+      if (allocated(unheard)) call move_alloc(unheard, error)
+   end subroutine put
+
+   !> Name, microseconds, ratio.
+   function timing(name, time, unit) result(line)
       character(*), intent(in) :: name
       real(wp), intent(in) :: time, unit
-      write (output_unit, '(a,t28,f9.3,a,f7.2,a)') name, time*1.0e6_wp, ' us', time/unit, ' units'
-   end subroutine tell
+      character(:), allocatable :: line
+      character(100) :: words
+
+      write (words, '(a,t28,f9.3,a,f7.2,a)') name, time*1.0e6_wp, ' us', time/unit, ' units'
+      line = trim(words)
+   end function timing
 
    !> The scaled matrices of some states of a sweep.
    subroutine collect_matrices(suspension, case, path, kkt, matrices)
@@ -195,6 +213,7 @@ contains
       type(path_t) :: path
       type(table_t) :: table
       character(:), allocatable :: checksum, text
+      character(200) :: line
       real(wp) :: marks(5)
 
       marks(1) = seconds()
@@ -214,9 +233,10 @@ contains
       marks(4) = seconds()
       text = csv_text(table)
       marks(5) = seconds()
-      write (output_unit, '(4(a,f7.2),a,i0,a)') 'deck to CSV [ms]: deck and model ', 1000*(marks(2) - marks(1)), &
+      write (line, '(4(a,f7.2),a,i0,a)') 'deck to CSV [ms]: deck and model ', 1000*(marks(2) - marks(1)), &
          ', sweep ', 1000*(marks(3) - marks(2)), ', table ', 1000*(marks(4) - marks(3)), &
          ', CSV text ', 1000*(marks(5) - marks(4)), ' (', len(text), ' bytes)'
+      call put(trim(line), error)
    end subroutine whole_way
 
 end module ek_bench

@@ -4,7 +4,7 @@ module ek_check
    use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
-   use ek_file, only: write_standard_output
+   use ek_words, only: tell_result => tell
    use ek_spring, only: axial_spring, measure_spring, stop_spring, torsion_spring
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
@@ -31,7 +31,7 @@ contains
       type(buffer_t) :: words
 
       call examine(arguments, words, error)
-      call write_standard_output(words%text(), unheard)
+      call tell_result(words%text(), unheard)
       if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
    end subroutine check
 

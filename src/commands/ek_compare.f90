@@ -5,18 +5,18 @@ module ek_compare
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
-   use ek_file, only: make_folder, write_whole, join_path, write_standard_output
+   use ek_file, only: make_folder, write_whole, join_path
    use ek_table, only: column_index
    use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn
-   use ek_gnuplot, only: run_gnuplot, script_name_t
+   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
+   use ek_drawing, only: run_gnuplot
    use ek_gradient_window, only: windows_t
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results
    use ek_window_option, only: chosen_windows
    use ek_arguments, only: arguments_t
-   use ek_words, only: say
+   use ek_words, only: say, tell
    use ek_compare_page, only: overlay, page_of, test_number
    implicit none(type, external)
    private
@@ -33,9 +33,10 @@ contains
       type(difference_t), allocatable :: rows(:)
       type(chart_set_t), allocatable :: charts(:)
       type(message_list_t) :: missing
-      type(error_t), allocatable :: undrawn
+      type(error_t), allocatable :: undrawn, unheard
       type(windows_t) :: windows
-      character(:), allocatable :: folder, message
+      character(:), allocatable :: folder, message, path
+      logical :: has_pictures
       integer :: k, l
 
       call chosen_windows(arguments, windows, error)
@@ -60,13 +61,14 @@ contains
       end do
       folder = arguments%out
       if (len(folder) == 0) folder = 'out'
+      call make_folder(folder, error)
+      if (allocated(error)) return
       call make_folder(join_path(folder, 'figures'), error)
       if (allocated(error)) return
 
       call compare_gradients(sets, rows)
       call find_missing(results, rows, missing)
-      call write_standard_output(words_of(results, rows), error)
-      if (allocated(error)) return
+      call tell(words_of(results, rows), unheard)                ! whoever does not listen still gets the files
       do k = 1, missing%count()
          call say(arguments%quiet, missing%line(k))
       end do
@@ -74,12 +76,22 @@ contains
       if (allocated(error)) return
 
       call overlay(results, charts)
-      call draw(arguments, charts, folder, message, undrawn)     ! the page comes also without its pictures
-      if (len(message) > 0) call say(arguments%quiet, message)
-      call write_whole(join_path(folder, 'compare.html'), page_of(results, rows, charts, missing, folder), error)
+      path = join_path(folder, 'compare.html')        ! first without its pictures: it comes also if gnuplot fails or hangs
+      message = ''
+      if (.not. arguments%no_plots) message = 'gnuplot has not finished them'
+      call write_whole(path, page_of(results, rows, charts, missing, folder, .false., message), error)
       if (allocated(error)) return
-      call say(arguments%quiet, join_path(folder, 'differences.csv')//', '//join_path(folder, 'compare.html'))
-      if (allocated(undrawn)) call move_alloc(undrawn, error)
+      call draw(arguments, charts, folder, message, has_pictures, undrawn)
+      if (len(message) > 0) call say(arguments%quiet, message)
+      if (allocated(undrawn)) message = undrawn%message
+      call write_whole(path, page_of(results, rows, charts, missing, folder, has_pictures, message), error)
+      if (allocated(error)) return
+      call say(arguments%quiet, join_path(folder, 'differences.csv')//', '//path)
+      if (allocated(undrawn)) then
+         call move_alloc(undrawn, error)
+      else if (allocated(unheard)) then
+         call move_alloc(unheard, error)
+      end if
    end subroutine compare
 
    !> What one of the results has and another lacks.
@@ -257,23 +269,27 @@ contains
    end subroutine write_differences
 
    !> All charts by one run of gnuplot.
-   subroutine draw(arguments, sets, folder, message, error)
+   subroutine draw(arguments, sets, folder, message, is_drawn, error)
       type(arguments_t), intent(in) :: arguments
       type(chart_set_t), intent(in) :: sets(:)
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message    !! why there are none
+      logical, intent(out) :: is_drawn
       type(error_t), allocatable, intent(out) :: error
-      type(script_name_t) :: scripts(1)
+      type(message_list_t) :: scripts, pictures
       type(chart_t), allocatable :: charts(:)
 
       message = ''
-      call remove_drawn(sets, folder)
+      is_drawn = .false.
+      if (arguments%no_plots) call remove_drawn(sets, folder)
       call gather_charts(sets, charts)
       if (arguments%no_plots .or. size(charts) == 0) return
       call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error)
       if (allocated(error)) return
-      scripts(1)%text = 'compare.gp'
-      call run_gnuplot(scripts, join_path(folder, 'figures'), message, error)
+      call scripts%add('compare.gp')
+      call pictures_of(charts, pictures)
+      call run_gnuplot(scripts, pictures, join_path(folder, 'figures'), message, error)
+      is_drawn = .not. allocated(error) .and. len(message) == 0
    end subroutine draw
 
 end module ek_compare

@@ -23,7 +23,7 @@ contains
    subroutine overlay(results, sets)
       type(results_t), intent(in) :: results(:)
       type(chart_set_t), allocatable, intent(out) :: sets(:)
-      character(36), allocatable :: columns(:)
+      character(48), allocatable :: columns(:)
       integer :: t, k
 
       allocate (sets(size(results(1)%tests)))
@@ -83,15 +83,17 @@ contains
    end subroutine overlay_quantity
 
    !> compare.html
-   function page_of(results, rows, sets, missing, folder) result(text)
+   function page_of(results, rows, sets, missing, folder, has_pictures, why_none) result(text)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
       type(chart_set_t), intent(in) :: sets(:)
       type(message_list_t), intent(in) :: missing
       character(*), intent(in) :: folder
+      logical, intent(in) :: has_pictures           !! those in the folder are of this comparison
+      character(*), intent(in) :: why_none          !! '' where nothing is to be said
       character(:), allocatable :: text, test
       type(page_t) :: page
-      type(message_list_t) :: names, values
+      type(message_list_t) :: names, values, warnings
       character(longest_label(results)) :: labels(size(results))
       character(longest_label(results) + 1) :: heads(3*size(results) + 1)
       integer :: k, r, t
@@ -105,6 +107,10 @@ contains
       call values%add('elastokin '//version)
       call begin_page(page, 'Comparison', 'Results laid over each other; gradients against those of A')
       call add_facts(page, names, values)
+      if (len(why_none) > 0) then
+         call warnings%add('The page has no pictures: '//why_none)
+         call add_warnings(page, 'To be read with care', warnings)
+      end if
       call add_warnings(page, 'Not in all of them', missing)
       if (size(rows) > 0) then
          call begin_section(page, 'gradients', 'Gradients')
@@ -144,7 +150,7 @@ contains
          call begin_section(page, 'test-'//str(t), results(1)%tests(t)%title)
          call add_legend(page, labels, design_row(results(1)%tests(t)%table) > 0, &
             results(1)%tests(t)%kind == 'table')
-         call add_chart_set(page, sets(t)%charts, folder)
+         if (has_pictures) call add_chart_set(page, sets(t)%charts, folder)
          call end_section(page)
       end do
       text = page_text(page)

@@ -24,6 +24,7 @@ contains
             '  --increments N     increments of the whole range, instead of the deck''s'//nl// &
             '  --set path=value   changes a number of the deck, with the same checks; may be repeated:'//nl// &
             '                     --set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'//nl// &
+            '  --compliance       also DIR/<model>_<case>_compliance.csv: the compliance matrix of every state'//nl// &
             '  --plot             also gnuplot scripts, and PNG and SVG where gnuplot is installed'//nl// &
             '  --quiet            no words but warnings and errors'//nl//nl// &
             'Exit status: 0 done, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
@@ -37,7 +38,8 @@ contains
       case ('report')
          text = 'elastokin report DECK [options]'//nl//nl// &
             'Runs the tests of a deck and writes, into DIR: report.html (one page, everything inside, nothing fetched), one'//nl// &
-            'CSV a test, gradients.csv and gradients.json (slopes with window, unit and sign), picture.png and picture.svg,'//nl// &
+            'CSV a test, gradients.csv and gradients.json (slopes with window, unit and sign), compliance.csv'//nl// &
+            '(the compliance matrix of every state of the first test), picture.png and picture.svg,'//nl// &
             'and figures/ with every chart as SVG and the gnuplot script that drew it.'//nl//nl// &
             '  --out DIR          where everything goes (default: out)'//nl// &
             '  --animate          also animation.gif: the suspension moving through its travel and steering'//nl// &

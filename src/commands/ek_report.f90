@@ -4,11 +4,13 @@ module ek_report
    use ek_units, only: millimetre
    use ek_text, only: str, plural
    use ek_version, only: version
+   use ek_clock, only: date_words
    use ek_file, only: make_folder, write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_csv, only: write_csv
+   use ek_table, only: table_t
    use ek_test_result, only: test_result_t
    use ek_chart_set, only: chart_set_t
    use ek_test_charts, only: test_charts
@@ -18,7 +20,7 @@ module ek_report
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
-   use ek_report_files, only: write_contents, contents_file, gradients_file
+   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
    use ek_report_pictures, only: film_t, draw_pictures
    use ek_report_page, only: report_page
    use ek_window_option, only: chosen_windows
@@ -45,10 +47,13 @@ contains
       type(gradient_t), allocatable :: gradients(:)
       type(chart_set_t), allocatable :: sets(:)
       type(windows_t) :: windows
-      type(message_list_t) :: warnings
+      type(message_list_t) :: warnings, page_warnings
       type(examination_t) :: found
       type(error_t), allocatable :: trouble, undrawn, unheard
+      type(table_t) :: compliance
       character(:), allocatable :: checksum, folder, message
+      logical :: has_matrix                        ! of the first test that is run: travel, with design
+      logical :: has_pictures, has_animation
       integer :: k, failed, code
 
       call chosen_windows(arguments, windows, error)
@@ -65,6 +70,8 @@ contains
          call fail(error, exit_model, unsolvable_words(arguments%file, found))
          return
       end if
+      call make_folder(folder, error)
+      if (allocated(error)) return
       call make_folder(join_path(folder, 'figures'), error)
       if (allocated(error)) return
       call balance(suspension, default_tolerance, error)
@@ -82,10 +89,17 @@ contains
       call remove_file(join_path(folder, contents_file))
 
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
+      call remove_file(join_path(folder, compliance_file))
+      has_matrix = size(suspension%wheels) == 0
       failed = 0
       code = exit_convergence
       do k = 1, size(planned)
-         call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble)
+         if (has_matrix) then
+            call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble)
+         else
+            call run_planned(suspension, planned(k), found%faults%line(k), checksum, tests(k), films(k)%path, trouble, &
+               compliance)
+         end if
          if (allocated(trouble)) then
             call complain(trouble%message)
             failed = failed + 1
@@ -98,6 +112,9 @@ contains
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
          if (allocated(error)) return
          call tell_path(join_path(folder, tests(k)%file), unheard)
+         if (.not. has_matrix) call write_matrix(compliance, folder, unheard, error)
+         if (allocated(error)) return
+         has_matrix = .true.
          call test_gradients(tests(k), windows, gradients)
          call test_charts(tests(k), sets(k)%charts)
       end do
@@ -110,7 +127,14 @@ contains
       call write_contents(tests, join_path(folder, contents_file), error)
       if (allocated(error)) return
 
-      call draw_pictures(arguments, suspension, tests, films, sets, folder, message, undrawn)
+      ! the page first, without its pictures: a gnuplot that fails, or never ends, cannot keep it away
+      if (.not. arguments%no_plots) then
+         page_warnings = warnings
+         call page_warnings%add('The page has no pictures: gnuplot has not finished them')
+         call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
+         if (allocated(error)) return
+      end if
+      call draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, undrawn)
       if (allocated(undrawn)) then
          call complain(undrawn%message)
          call warnings%add('The page lacks pictures: '//undrawn%message)
@@ -118,7 +142,9 @@ contains
          if (.not. arguments%no_plots) call say(arguments%quiet, message)
          call warnings%add('The page has no pictures: '//message)
       end if
-      call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
+      has_pictures = .not. allocated(undrawn) .and. len(message) == 0
+      call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
+         has_animation, error)
       if (allocated(error)) return
       call tell_path(join_path(folder, 'report.html'), unheard)
       if (failed > 0) then
@@ -131,8 +157,20 @@ contains
       end if
    end subroutine report
 
+   !> compliance.csv: the compliance matrix of every state of a test.
+   subroutine write_matrix(table, folder, unheard, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: folder
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(out) :: error
+
+      call write_csv(table, join_path(folder, compliance_file), error)
+      if (.not. allocated(error)) call tell_path(join_path(folder, compliance_file), unheard)
+   end subroutine write_matrix
+
    !> report.html
-   subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, error)
+   subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
+      has_animation, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: checksum
@@ -141,16 +179,14 @@ contains
       type(gradient_t), intent(in) :: gradients(:)
       type(message_list_t), intent(in) :: warnings
       character(*), intent(in) :: folder
+      logical, intent(in) :: has_pictures, has_animation     !! those in the folder are of this report
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: names, values
       character(:), allocatable :: title, settings
-      integer :: now(8), k
-      character(16) :: date
+      integer :: k
 
       title = suspension%title
       if (len(title) == 0) title = suspension%name
-      call date_and_time(values=now)
-      write (date, '(i4.4,a,i2.2,a,i2.2,a,i2.2,a,i2.2)') now(1), '-', now(2), '-', now(3), ' ', now(5), ':', now(6)
       call fact('Deck', arguments%file)
       call fact('Model', suspension%name)
       settings = ''
@@ -162,9 +198,9 @@ contains
          suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call fact('Deck checksum', checksum)
       call fact('Program', 'elastokin '//version)
-      call fact('Date', date)
+      call fact('Date', date_words())
       call write_whole(join_path(folder, 'report.html'), report_page(title, 'Kinematics and compliance report', names, values, &
-         warnings, tests, sets, gradients, folder), error)
+         warnings, tests, sets, gradients, folder, has_pictures, has_animation), error)
 
    contains
 

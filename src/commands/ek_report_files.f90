@@ -3,7 +3,7 @@ module ek_report_files
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
-   use ek_text, only: quoted, lower
+   use ek_text, only: str, quoted, lower
    use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
    use ek_csv, only: read_csv
    use ek_decimal, only: get_decimal
@@ -14,9 +14,11 @@ module ek_report_files
    use ek_gradient_file, only: read_gradients
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file
+   public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file, &
+      compliance_file
 
-   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv'
+   character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
+      compliance_file = 'compliance.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = 'anti phase'
 
    !> What compare lays over another of its kind.
@@ -49,7 +51,7 @@ contains
       character(:), allocatable :: file
 
       file = name//'.csv'
-      if (any(lower(file) == [character(13) :: contents_file, gradients_file])) file = name//'-case.csv'
+      if (any(lower(file) == [character(14) :: contents_file, gradients_file, compliance_file])) file = name//'-case.csv'
    end function table_file
 
    !> tests.csv: the tests of a report and their files.
@@ -72,7 +74,8 @@ contains
       call write_whole(path, text_table_csv(table), error)
    end subroutine write_contents
 
-   !> A report folder, or one CSV file, whose gradients are then made anew.
+   !> A report folder, or one CSV file, whose gradients are then made anew. Whoever made the folder, what its list names
+   !> lies in it.
    subroutine read_results(path, windows, results, error)
       character(*), intent(in) :: path
       type(windows_t), intent(in) :: windows
@@ -86,7 +89,7 @@ contains
       results%is_report = folder_exists(path)
       if (.not. results%is_report) then
          allocate (results%tests(1))
-         call read_test(path, 'results', results%tests(1), error)
+         call read_test(path, 'results', results%tests(1), error, may_stream=.true.)
          if (allocated(error)) return
          call test_gradients(results%tests(1), windows, results%gradients)
          return
@@ -99,6 +102,12 @@ contains
       if (allocated(error)) return
       allocate (results%tests(contents%rows))
       do k = 1, contents%rows
+         if (.not. (is_file_name(cell_of(contents, k, 'file')) .and. is_file_name(cell_of(contents, k, 'test')))) then
+            call fail(error, exit_file, contents%file//':'//str(contents%lines(k))//': '// &
+               quoted(cell_of(contents, k, 'file'))//' or '//quoted(cell_of(contents, k, 'test'))// &
+               ' is no plain name of a file')
+            return
+         end if
          call read_test(join_path(path, cell_of(contents, k, 'file')), cell_of(contents, k, 'test'), results%tests(k), error)
          if (allocated(error)) return
          results%tests(k)%title = cell_of(contents, k, 'title')
@@ -106,11 +115,23 @@ contains
       call read_gradients(join_path(path, gradients_file), results%gradients, error)
    end subroutine read_results
 
+   !> A name within a folder: no other folder, nothing hidden, no control character.
+   pure logical function is_file_name(name)
+      character(*), intent(in) :: name
+      integer :: k
+
+      is_file_name = len_trim(name) > 0 .and. scan(name, '/') == 0 .and. index(name, '.') /= 1 .and. index(name, '-') /= 1
+      do k = 1, len(name)
+         is_file_name = is_file_name .and. iachar(name(k:k)) >= 32 .and. iachar(name(k:k)) /= 127
+      end do
+   end function is_file_name
+
    !> A table, and what its header says of the test.
-   subroutine read_test(path, name, test, error)
+   subroutine read_test(path, name, test, error, may_stream)
       character(*), intent(in) :: path, name
       type(test_result_t), intent(out) :: test
       type(error_t), allocatable, intent(out) :: error
+      logical, intent(in), optional :: may_stream          !! see read_whole
       character(:), allocatable :: line
       logical :: is_number
       integer :: k, at, side
@@ -120,7 +141,7 @@ contains
       test%file = path
       test%kind = 'other'
       side = -1
-      call read_csv(path, test%table, error)
+      call read_csv(path, test%table, error, may_stream)
       if (allocated(error)) return
       do k = 1, test%table%header%count()
          line = test%table%header%line(k)

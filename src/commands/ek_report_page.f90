@@ -5,7 +5,7 @@ module ek_report_page
    use ek_text, only: plural
    use ek_file, only: read_whole, join_path, file_exists
    use ek_test_result, only: test_result_t, design_row, converged_rows, wheel_word
-   use ek_chart, only: chart_t
+   use ek_chart, only: chart_t, picture_file
    use ek_chart_set, only: chart_set_t
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
@@ -18,8 +18,10 @@ module ek_report_page
 
 contains
 
-   !> The text of report.html. Pictures are read from the folder; those that are not there are left out.
-   function report_page(title, subtitle, names, values, warnings, tests, sets, gradients, folder) result(text)
+   !> The text of report.html. Pictures are read from the folder, if they are of this report; those that are not there
+   !> are left out.
+   function report_page(title, subtitle, names, values, warnings, tests, sets, gradients, folder, has_pictures, &
+      has_animation) result(text)
       character(*), intent(in) :: title, subtitle
       type(message_list_t), intent(in) :: names, values      !! facts for the head
       type(message_list_t), intent(in) :: warnings           !! what is doubtful of the whole
@@ -27,6 +29,7 @@ contains
       type(chart_set_t), intent(in) :: sets(:)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: folder                     !! of the report
+      logical, intent(in) :: has_pictures, has_animation     !! those in the folder are of this report
       character(:), allocatable :: text
       type(page_t) :: page
       integer :: k
@@ -34,24 +37,26 @@ contains
       call begin_page(page, title, subtitle)
       call add_facts(page, names, values)
       call add_warnings(page, 'To be read with care', warnings)
-      call add_scene(page, title, folder)
+      if (has_pictures) call add_scene(page, title, folder, has_animation)
       call add_key_numbers(page, tests, gradients)
       do k = 1, size(tests)
-         call add_test(page, tests(k), sets(k)%charts, gradients, folder)
+         call add_test(page, tests(k), sets(k)%charts, gradients, folder, has_pictures)
       end do
       text = page_text(page)
    end function report_page
 
    !> The picture in space, and the animation.
-   subroutine add_scene(page, title, folder)
+   subroutine add_scene(page, title, folder, has_animation)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title, folder
+      logical, intent(in) :: has_animation
       type(error_t), allocatable :: error
       character(:), allocatable :: bytes
       logical :: has_svg, has_gif
 
       has_svg = file_exists(join_path(folder, 'picture.svg'))
-      has_gif = file_exists(join_path(folder, 'animation.gif'))
+      has_gif = has_animation
+      if (has_gif) has_gif = file_exists(join_path(folder, 'animation.gif'))
       if (.not. (has_svg .or. has_gif)) return
       call begin_section(page, 'picture', 'The suspension')
       if (has_svg) then
@@ -122,12 +127,13 @@ contains
    end subroutine add_values
 
    !> Section of a test: what went wrong, charts, gradients.
-   subroutine add_test(page, test, charts, gradients, folder)
+   subroutine add_test(page, test, charts, gradients, folder, has_pictures)
       type(page_t), intent(inout) :: page
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: folder
+      logical, intent(in) :: has_pictures
       character(16), allocatable :: names(:)
       type(message_list_t) :: words
       integer :: k, found
@@ -145,7 +151,7 @@ contains
          end do
          call add_legend(page, names, design_row(test%table) > 0, test%kind == 'table')
       end if
-      call add_chart_set(page, charts, folder)
+      if (has_pictures) call add_chart_set(page, charts, folder)
       call add_gradients(page, test, gradients, words)
       call end_section(page)
    end subroutine add_test
@@ -161,7 +167,7 @@ contains
 
       call begin_charts(page)
       do k = 1, size(charts)
-         path = join_path(join_path(folder, 'figures'), charts(k)%name//'.svg')
+         path = join_path(join_path(folder, 'figures'), picture_file(charts(k)))
          if (.not. file_exists(path)) cycle
          call read_whole(path, svg, error)
          if (allocated(error)) cycle

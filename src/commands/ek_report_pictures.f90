@@ -1,7 +1,7 @@
 !> The pictures of a report: the charts of its tests, the suspension in space, and how it moves; by one run of gnuplot.
 module ek_report_pictures
    use ek_kinds, only: wp
-   use ek_error, only: error_t
+   use ek_error, only: error_t, message_list_t
    use ek_units, only: millimetre
    use ek_text, only: str
    use ek_file, only: write_whole, join_path, remove_file
@@ -10,8 +10,8 @@ module ek_report_pictures
    use ek_path, only: path_t
    use ek_test_result, only: test_result_t
    use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn
-   use ek_gnuplot, only: run_gnuplot, script_name_t
+   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
+   use ek_drawing, only: run_gnuplot
    use ek_scene, only: scene_t, line_bump, line_rebound
    use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
    use ek_picture, only: add_solid, add_ghost, add_ground, add_names
@@ -32,27 +32,28 @@ contains
 
    !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and the charts
    !> in figures/.
-   subroutine draw_pictures(arguments, suspension, tests, films, sets, folder, message, error)
+   subroutine draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
       type(film_t), intent(in) :: films(:)                   !! one a test
       type(chart_set_t), intent(in) :: sets(:)               !! one a test
       character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message      !! why there are none; '' where there are
+      logical, intent(out) :: has_animation                  !! it was asked for, and something moves
+      character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' where there are
       type(error_t), allocatable, intent(out) :: error       !! a script that cannot be written, or that gnuplot refuses
-      type(script_name_t), allocatable :: scripts(:)
+      type(message_list_t) :: scripts, pictures
       type(chart_t), allocatable :: charts(:)
       type(camera_t) :: camera
-      integer :: n
 
       message = ''
-      ! pictures of an earlier report must not slip into this page
-      call remove_file(join_path(folder, 'picture.svg'))
-      call remove_file(join_path(folder, 'picture.png'))
-      call remove_file(join_path(folder, 'animation.gif'))
-      call remove_drawn(sets, folder)
+      has_animation = .false.
       if (arguments%no_plots) then
+         ! of an earlier report, they would stand beside a page that has none
+         call remove_file(join_path(folder, 'picture.svg'))
+         call remove_file(join_path(folder, 'picture.png'))
+         call remove_file(join_path(folder, 'animation.gif'))
+         call remove_drawn(sets, folder)
          message = 'none were asked for (--no-plots)'
          return
       end if
@@ -61,17 +62,20 @@ contains
       if (allocated(error)) return
       call write_picture(suspension, tests, films, folder, camera, error)
       if (allocated(error)) return
-      n = 2
+      call scripts%add('charts.gp')
+      call scripts%add('picture.gp')
+      call pictures_of(charts, pictures)
+      call pictures%add('../picture.svg')
+      call pictures%add('../picture.png')
       if (arguments%animate) then
-         call write_animation(suspension, tests, films, folder, camera, error)
+         call write_animation(suspension, tests, films, folder, camera, has_animation, error)
          if (allocated(error)) return
-         n = 3
+         if (has_animation) then
+            call scripts%add('animation.gp')
+            call pictures%add('../animation.gif')
+         end if
       end if
-      allocate (scripts(n))
-      scripts(1)%text = 'charts.gp'
-      scripts(2)%text = 'picture.gp'
-      if (n == 3) scripts(3)%text = 'animation.gp'
-      call run_gnuplot(scripts, join_path(folder, 'figures'), message, error)
+      call run_gnuplot(scripts, pictures, join_path(folder, 'figures'), message, error)
    end subroutine draw_pictures
 
    !> Design as solid parts, the ends of the travel as lines.
@@ -110,12 +114,13 @@ contains
    end subroutine write_picture
 
    !> There and back through the travel, then through the steering.
-   subroutine write_animation(suspension, tests, films, folder, camera, error)
+   subroutine write_animation(suspension, tests, films, folder, camera, is_there, error)
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
       type(film_t), intent(in) :: films(:)
       character(*), intent(in) :: folder
       type(camera_t), intent(in) :: camera
+      logical, intent(out) :: is_there                       !! else nothing moves
       type(error_t), allocatable, intent(out) :: error
       type(scene_t), allocatable :: scenes(:)
       character(64), allocatable :: captions(:)
@@ -127,7 +132,8 @@ contains
          moving_film(tests, films, [character(16) :: 'steering'])]
       frames = most_frames/max(1, count(chosen > 0))
       allocate (scenes(frames*count(chosen > 0)), captions(frames*count(chosen > 0)))
-      if (size(scenes) == 0) return
+      is_there = size(scenes) > 0
+      if (.not. is_there) return
       n = 0
       do f = 1, 2
          if (chosen(f) == 0) cycle

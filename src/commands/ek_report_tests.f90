@@ -10,12 +10,15 @@ module ek_report_tests
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep
    use ek_curve_reach, only: curve_reach_words
-   use ek_sweep_table, only: sweep_table, factor_unit
-   use ek_table, only: new_table
+   use ek_sweep_table, only: sweep_table, sweep_bytes, factor_unit
+   use ek_memory, only: ask_memory
+   use ek_compliance_table, only: compliance_table
+   use ek_table, only: table_t, new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
-   use ek_run_words, only: failure_words, settled_words, rack_words, open_words, add_line
+   use ek_failure_words, only: failure_words, stability_words
+   use ek_run_words, only: settled_words, rack_words, open_words, add_line
    implicit none(type, external)
    private
    public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
@@ -138,7 +141,7 @@ contains
 
    !> Runs one test. What does not converge is told in its remarks; `error` then has exit_convergence (or
    !> exit_model, where there is nothing to solve), and the states before it are in the table.
-   subroutine run_planned(base, planned, fault, checksum, test, path, error)
+   subroutine run_planned(base, planned, fault, checksum, test, path, error, compliance)
       type(suspension_t), intent(in) :: base
       type(planned_test_t), intent(in) :: planned
       character(*), intent(in) :: fault            !! of the model in this test, '' for none: then there is nothing to run
@@ -146,6 +149,7 @@ contains
       type(test_result_t), intent(out) :: test
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
+      type(table_t), intent(out), optional :: compliance    !! the compliance matrix of every state; untouched if it is not run
       real(wp), parameter :: seen_on_a_rig = 1.0e-5_wp     ! m: design is meant to be in equilibrium
       type(suspension_t) :: suspension
       type(case_t) :: case
@@ -177,6 +181,12 @@ contains
          return
       end if
       kkt = new_kkt(suspension)
+      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(planned%name)//' with '// &
+         plural(case%increments, 'increment', 'increments'), error)
+      if (allocated(error)) then
+         call test%remarks%add(error%message)
+         return
+      end if
       call sweep(suspension, case, path, kkt)
       test%is_run = .true.
       words = ''
@@ -185,7 +195,7 @@ contains
          call add_line(words, failure_words(suspension, case, path, path%failure(side), kkt))
          call test%remarks%add(failure_words(suspension, case, path, path%failure(side), kkt))
       end do
-      call remark_instability(suspension, case, path, test)
+      call stability_words(suspension, case, path, test%remarks)
       call settled_words(suspension, case, path, seen_on_a_rig, settled)
       do k = 1, settled%count()
          call test%remarks%add(settled%line(k))
@@ -200,27 +210,15 @@ contains
       end if
       if (len(words) > 0) call fail(error, exit_convergence, words)
 
+      if (present(compliance)) then
+         call compliance_table(suspension, case, path, kkt, compliance)
+         call add_header(compliance, suspension, case, checksum)
+      end if
       call add_header(test%table, suspension, case, checksum)
       call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
       if (.not. allocated(test%prefixes)) call find_wheels(test)
       call choose_abscissa(test)
    end subroutine run_planned
-
-   !> States that a real suspension would leave at once.
-   subroutine remark_instability(suspension, case, path, test)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      type(test_result_t), intent(inout) :: test
-      integer :: unstable, first
-
-      if (case%method == 'recursive') return
-      unstable = count(path%is_reached .and. .not. path%is_stable)
-      if (unstable == 0) return
-      first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
-      call test%remarks%add(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or '// &
-         'buckled), the first at factor '//str(path%value(first)/factor_unit(suspension, case)))
-   end subroutine remark_instability
 
 end module ek_report_tests

@@ -5,7 +5,8 @@ module ek_run
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
-   use ek_file, only: make_folder, write_standard_output, join_path, base_name
+   use ek_file, only: make_folder, join_path, base_name
+   use ek_memory, only: ask_memory
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_kkt, only: kkt_t, new_kkt
@@ -14,24 +15,28 @@ module ek_run
    use ek_path, only: path_t, sweep
    use ek_rig, only: mount
    use ek_wheel_side, only: single_side
-   use ek_sweep_table, only: sweep_table
+   use ek_sweep_table, only: sweep_table, sweep_bytes
+   use ek_compliance_table, only: compliance_table
    use ek_test_result, only: frame_line
    use ek_curve_reach, only: curve_reach_words
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
-   use ek_csv, only: write_csv, csv_text
+   use ek_csv, only: write_csv, tell_csv
    use ek_figure, only: figure_t
    use ek_plot, only: run_figures
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
    use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
+   use ek_failure_words, only: failure_words, stability_words
    use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
-      warn_of_instability, warn_of_travel, failure_words, open_words, add_line
+      warn_of_travel, open_words, add_line
    use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run, add_header
+
+   character(*), parameter :: compliance_ending = '_compliance.csv'
 
 contains
 
@@ -58,6 +63,10 @@ contains
          call fail(error, exit_usage, '--out - writes one table, but '//arguments%file//' has '//str(size(chosen))// &
             ' cases; name one with --case')
          return
+      end if
+      if (arguments%compliance) then
+         call refuse_double_files(chosen, error)
+         if (allocated(error)) return
       end if
       call examine_cases(suspension, chosen, found)
       if (found%none_solvable()) then
@@ -108,6 +117,22 @@ contains
       end if
    end subroutine run
 
+   !> A case whose table would have the name of the compliance matrix of another one.
+   subroutine refuse_double_files(cases, error)
+      type(case_t), intent(in) :: cases(:)
+      type(error_t), allocatable, intent(out) :: error
+      integer :: k, j
+
+      do k = 1, size(cases)
+         do j = 1, size(cases)
+            if (cases(j)%name//'.csv' /= cases(k)%name//compliance_ending) cycle
+            call fail(error, exit_usage, '--compliance: the compliance matrix of case '//quoted(cases(k)%name)// &
+               ' would overwrite the results of case '//quoted(cases(j)%name)//'; rename one, or choose with --case')
+            return
+         end do
+      end do
+   end subroutine refuse_double_files
+
    !> One case: examine, sweep, tell, write, draw.
    subroutine run_case(arguments, base, wanted, folder, checksum, unheard, error)
       type(arguments_t), intent(in) :: arguments
@@ -131,6 +156,9 @@ contains
       call mount(suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
+      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(case%name)//' with '// &
+         plural(case%increments, 'increment', 'increments'), error)
+      if (allocated(error)) return
       call sweep(suspension, case, path, kkt, show_progress)
       if (path%states > 1000) call clear_progress()
       words = ''
@@ -140,8 +168,8 @@ contains
       end do
       call say_settled(arguments, suspension, case, path)
       call warn_of_drift(suspension, case, path, kkt, lost)
-      call warn_of_instability(suspension, case, path)
       call warn_of_travel(suspension, case, path)
+      call stability_words(suspension, case, path, doubts)
       call rack_words(suspension, case, doubts)
       call curve_reach_words(suspension, case, path, doubts)
       do side = 1, doubts%count()
@@ -154,13 +182,14 @@ contains
 
       call add_header(table, suspension, case, checksum)
       if (folder == '-') then
-         call write_standard_output(csv_text(table), trouble)
+         call tell_csv(table, trouble)
       else
          name = join_path(folder, suspension%name//'_'//case%name//'.csv')
          call write_csv(table, name, trouble)
          if (.not. allocated(trouble)) then
             call tell_path(name, unheard)
             if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, undrawn)
+            if (arguments%compliance) call write_compliance(suspension, case, path, checksum, folder, kkt, unheard, trouble)
          end if
       end if
       if (.not. allocated(trouble) .and. len(case%target) > 0) &
@@ -170,6 +199,25 @@ contains
       call add_line(words, trouble%message)
       call fail(error, trouble%code, words)
    end subroutine run_case
+
+   !> The compliance matrix of every state that was found, in a file of its own.
+   subroutine write_compliance(suspension, case, path, checksum, folder, kkt, unheard, error)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      character(*), intent(in) :: checksum, folder
+      type(kkt_t), intent(inout) :: kkt
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(out) :: error
+      type(table_t) :: table
+      character(:), allocatable :: name
+
+      call compliance_table(suspension, case, path, kkt, table)
+      call add_header(table, suspension, case, checksum)
+      name = join_path(folder, suspension%name//'_'//case%name//compliance_ending)
+      call write_csv(table, name, error)
+      if (.not. allocated(error)) call tell_path(name, unheard)
+   end subroutine write_compliance
 
    !> The place where the target of a case is met: told, and its state written to a file of its own (not when the
    !> results go to standard output). The linear methods, whose states are not equilibria, have none.

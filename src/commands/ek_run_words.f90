@@ -6,13 +6,11 @@ module ek_run_words
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_spring, only: axial_spring, measure_spring, torsion_spring
-   use ek_suspension, only: suspension_t, body_name
+   use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_kkt, only: kkt_t
-   use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_path, only: path_t
-   use ek_reach, only: failure_t
    use ek_table, only: table_t, column, row_count
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_sweep_table, only: factor_unit
@@ -21,8 +19,8 @@ module ek_run_words
    use ek_words, only: say, warn
    implicit none(type, external)
    private
-   public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_instability, warn_of_travel
-   public :: patch_words, spring_words, rack_words, failure_words, open_words, add_line
+   public :: say_settled, settled_words, say_preloads, warn_of_drift, warn_of_travel, has_spring
+   public :: patch_words, spring_words, rack_words, open_words, add_line
 
 contains
 
@@ -76,8 +74,8 @@ contains
       end do
    end subroutine settled_words
 
-   !> Wheels that do not touch the ground where a wheel of their radius would. The rig pushes at the contact point, the
-   !> columns of the compliance matrix mean the point below the centre: of such a wheel they are two things.
+   !> Wheels that do not touch the ground where a wheel of their radius would. Tests and compliance matrix both take the contact
+   !> point of the deck; that it is meant is what this asks.
    subroutine patch_words(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -93,8 +91,8 @@ contains
                norm2(w%contact - w%centre + w%radius*[0.0_wp, 0.0_wp, 1.0_wp]))
             if (off <= much*w%radius) cycle
             call words%add('wheel '//quoted(w%name)//': its contact point is '//str(off/millimetre, 3)// &
-               ' mm away from where a wheel of radius '//str(w%radius/millimetre, 4)//' mm stands on the ground; forces of '// &
-               'a test act at the contact point, quantities of the compliance matrix mean the point below the centre')
+               ' mm away from where a wheel of radius '//str(w%radius/millimetre, 4)//' mm stands on the ground; all forces '// &
+               'at the patch act at the contact point')
          end associate
       end do
    end subroutine patch_words
@@ -183,7 +181,7 @@ contains
          if (.not. drift%is_known) then
             call add_line(lost, 'case '//quoted(case%name)//', method '//case%method// &
                ': no equilibrium was found near the state at factor '// &
-               str(path%value(k)/factor_unit(suspension, case))//'; the method has run past what the suspension can reach')
+               str(path%value(k)/factor_unit(suspension, case))//'; the linear method has left the range that the suspension can reach')
          else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
             call warn('case '//quoted(case%name)//', method '//case%method//': at factor '// &
                str(path%value(k)/factor_unit(suspension, case))//' the state is off equilibrium by '// &
@@ -218,29 +216,6 @@ contains
       if (case%method == 'recursive') text = ' (the bias of this method, which more increments do not remove; '// &
          'method = ''equilibrium'' has none)'
    end function advice
-
-   !> States that a real suspension would leave at once, and matrices that are nearly singular.
-   subroutine warn_of_instability(suspension, case, path)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      real(wp), parameter :: nearly_singular = 1.0e-12_wp    ! of the largest pivot: four digits are left
-      integer :: unstable, first
-
-      first = minloc(path%pivot_ratio, dim=1, mask=path%is_reached)
-      if (first > 0) then
-         if (path%pivot_ratio(first) < nearly_singular) call warn('case '//quoted(case%name)// &
-            ': the matrix is nearly singular (least over largest pivot '//str(path%pivot_ratio(first), 2)//') at factor '// &
-            str(path%value(first)/factor_unit(suspension, case))//'; see elastokin check')
-      end if
-      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness to tell by
-      unstable = count(path%is_reached .and. .not. path%is_stable)
-      if (unstable == 0) return
-      first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
-      call warn('case '//quoted(case%name)//': '//plural(unstable, 'state is', 'states are')// &
-         ' unstable (negative stiffness: over centre or buckled), the first at factor '// &
-         str(path%value(first)/factor_unit(suspension, case)))
-   end subroutine warn_of_instability
 
    !> A load that moves a wheel further than any suspension goes: a rate is missing or has the wrong unit.
    subroutine warn_of_travel(suspension, case, path)
@@ -277,76 +252,5 @@ contains
          end do
       end do
    end subroutine warn_of_travel
-
-   !> Where a sweep stopped, which body moved most in the attempt, which joint is furthest off.
-   function failure_words(suspension, case, path, failure, kkt) result(text)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      type(failure_t), intent(in) :: failure
-      type(kkt_t), intent(inout) :: kkt          !! work space
-      character(:), allocatable :: text
-      type(state_t) :: state
-      type(diagnosis_t) :: diagnosis
-      real(wp) :: unit
-      integer :: last, row
-
-      unit = factor_unit(suspension, case)
-      if (maxval(abs(path%settled)) <= 0.0_wp) then      ! no state has been stored there
-         text = 'case '//quoted(case%name)//': no equilibrium under the constant loads'
-      else if (path%is_table) then
-         text = 'case '//quoted(case%name)//': '//lost_rows(path)//' not found; equilibrium'
-         row = nint(path%value(failure%state))
-         if (count(.not. path%is_reached) > 1) text = text//' of row '//str(row)
-         text = text//' is lost between '//str(100.0_wp*(failure%reached - row + 1), 4)//' and '// &
-            str(100.0_wp*(failure%value - row + 1), 4)//' % of the way to it from '
-         if (row == 1) text = text//'design'
-         if (row > 1) text = text//'row '//str(row - 1)
-      else
-         text = 'case '//quoted(case%name)//': state '//str(failure%state - 1)//' (factor '// &
-            str(path%value(failure%state)/unit)//') was not found; equilibrium is lost between factor '// &
-            str(failure%reached/unit, 8)//' and '//str(failure%value/unit, 8)
-      end if
-      if (failure%is_singular) text = text//'; the matrix is singular there'
-      if (failure%body > 0) text = text//'; body '//quoted(body_name(suspension, failure%body))// &
-         ' moved most in the last attempt ('//str(failure%moved/millimetre, 3)//' mm)'
-      if (failure%row > 0) text = text//'; joint '//quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)// &
-         ' is furthest from closing'
-      if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) &
-         text = text//'; the deck has no spring'
-      if (.not. failure%is_singular .or. count(path%is_reached) == 0) return
-      last = merge(failure%state - 1, failure%state + 1, failure%state > max(path%start, 1))
-      if (last < 1 .or. last > path%states) return
-      if (.not. path%is_reached(last)) return
-      state = design_state(suspension)
-      call unpack_state(path%packed(:, last), state)
-      call diagnose(suspension, state, kkt, diagnosis)
-      if (.not. diagnosis%is_solvable()) text = text//new_line('a')//diagnosis%words()
-   end function failure_words
-
-   !> 'row 3 of the table was', or 'rows 3, 4, 7 … of the table, 12 in all, were'.
-   function lost_rows(path) result(text)
-      type(path_t), intent(in) :: path
-      character(:), allocatable :: text
-      integer, parameter :: most_named = 10
-      integer :: k, lost
-
-      text = ''
-      lost = 0
-      do k = 1, path%states
-         if (path%is_reached(k)) cycle
-         lost = lost + 1
-         if (lost > most_named) cycle
-         if (lost > 1) text = text//', '
-         text = text//str(nint(path%value(k)))
-      end do
-      if (lost == 1) then
-         text = 'row '//text//' of the table was'
-      else if (lost <= most_named) then
-         text = 'rows '//text//' of the table were'
-      else
-         text = 'rows '//text//' … of the table, '//str(lost)//' in all, were'
-      end if
-   end function lost_rows
 
 end module ek_run_words

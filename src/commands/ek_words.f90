@@ -1,11 +1,11 @@
 !> Words for a person, on standard error; results go elsewhere, and their paths to standard output.
 module ek_words
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use ek_error, only: error_t
-   use ek_file, only: is_terminal, write_standard_output
+   use ek_text, only: str, printable
+   use ek_file, only: is_terminal, write_standard_output, write_standard_error
    implicit none(type, external)
    private
-   public :: say, warn, complain, tell_path, show_progress, clear_progress
+   public :: say, warn, complain, tell, tell_path, show_progress, clear_progress
 
 contains
 
@@ -13,23 +13,37 @@ contains
    subroutine say(quiet, text)
       logical, intent(in) :: quiet
       character(*), intent(in) :: text
-      if (.not. quiet) write (error_unit, '(a)') text
+      if (.not. quiet) call to_person(text)
    end subroutine say
 
    !> Something that makes results doubtful.
    subroutine warn(text)
       character(*), intent(in) :: text
-      write (error_unit, '(a)') 'warning: '//text
+      call to_person('warning: '//text)
    end subroutine warn
 
-   !> An error, before the program ends or goes on to the next case.
+   !> An error, before the program ends or goes on to the next case. One without words is kept to itself.
    subroutine complain(text)
       character(*), intent(in) :: text
-      write (error_unit, '(a)') 'error: '//text
+      if (len(text) > 0) call to_person('error: '//text)
    end subroutine complain
 
+   !> The one place where words leave for standard error: what a deck brings along of control characters does not reach
+   !> the terminal.
+   subroutine to_person(text)
+      character(*), intent(in) :: text
+      call write_standard_error(printable(text)//new_line('a'))
+   end subroutine to_person
+
+   !> Findings for a person, on standard output.
+   subroutine tell(text, error)
+      character(*), intent(in) :: text                          !! with the ends of its lines
+      type(error_t), allocatable, intent(out) :: error          !! exit_file
+      call write_standard_output(printable(text), error)
+   end subroutine tell
+
    !> The path of a result, for whoever reads standard output. Where that is full or closed the work goes on: the result
-   !> is there. The first such failure is kept.
+   !> is there. The first such failure is kept; that the reader wanted no more paths (`| head`) is none.
    subroutine tell_path(path, unheard)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(inout) :: unheard      !! exit_file
@@ -37,18 +51,19 @@ contains
 
       if (allocated(unheard)) return
       call write_standard_output(path//new_line('a'), error)
-      if (allocated(error)) call move_alloc(error, unheard)
+      if (.not. allocated(error)) return
+      if (len(error%message) > 0) call move_alloc(error, unheard)
    end subroutine tell_path
 
    !> A line that overwrites itself, on a terminal only.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
-      if (is_terminal(2)) write (error_unit, '(a,i0,a,i0,a)', advance='no') achar(13)//'  ', done, ' of ', total, ' states'
+      if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')
    end subroutine show_progress
 
    !> Takes the progress line away.
    subroutine clear_progress()
-      if (is_terminal(2)) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', 40)//achar(13)
+      if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
 end module ek_words

@@ -55,7 +55,7 @@ contains
          if (allocated(error)) return
          call parse_deck(text, 'standard input', deck, error, is_study)
       else
-         call read_whole(path, text, error)
+         call read_whole(path, text, error, may_stream=.true.)
          if (allocated(error)) return
          call parse_deck(text, path, deck, error, is_study)
       end if

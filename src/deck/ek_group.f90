@@ -167,6 +167,7 @@ module ek_group
       key_t(axle_group, 'position', word, 1, 1, .true.), &
       key_t(axle_group, 'wheelbase', number, 1, 1, .true.), &
       key_t(axle_group, 'cg_height', number, 1, 1, .true.), &
+      key_t(axle_group, 'mass', number, 1, 1, .false.), &
       key_t(axle_group, 'brake_share', number, 1, 1, .true.), &
       key_t(axle_group, 'drive_share', number, 1, 1, .false.), &
       key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &

@@ -6,7 +6,7 @@ module ek_include
    use ek_error, only: error_t
    use ek_file, only: read_whole, join_path, folder_name
    use ek_text, only: str, quoted
-   use ek_complaint, only: place_t, complaints_t
+   use ek_complaint, only: place_t, complaints_t, place_in
    use ek_record, only: record_t, add_record, entry_index, place_of
    use ek_scanner, only: scan_text
    implicit none(type, external)
@@ -14,6 +14,8 @@ module ek_include
    public :: read_text
 
    integer, parameter :: most_nested = 8      !! files within files; more is a mistake
+   integer, parameter :: most_files = 500     !! in all: ten that include ten each, eight deep, would be 10^8
+   integer, parameter :: most_letters = 50000000   !! in all; the largest deck known has 1 % of it
 
    !> The files that are open, from the deck inwards.
    type :: file_t
@@ -30,21 +32,22 @@ contains
       integer, intent(out) :: used
       type(complaints_t), intent(inout) :: complaints
       type(file_t) :: open_files(0:most_nested)
-      integer :: sources
+      integer :: sources, letters
 
       allocate (records(32))
       used = 0
       sources = 0
+      letters = 0
       open_files(0)%path = file
-      call take_text(text, 0, open_files, sources, records, used, complaints)
+      call take_text(text, 0, open_files, sources, letters, records, used, complaints)
    end subroutine read_text
 
    !> The text of the innermost open file.
-   recursive subroutine take_text(text, depth, open_files, sources, records, used, complaints)
+   recursive subroutine take_text(text, depth, open_files, sources, letters, records, used, complaints)
       character(*), intent(in) :: text
       integer, intent(in) :: depth
       type(file_t), intent(inout) :: open_files(0:)
-      integer, intent(inout) :: sources                       !! files read so far
+      integer, intent(inout) :: sources, letters              !! files read so far, and their letters
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(complaints_t), intent(inout) :: complaints
@@ -59,7 +62,7 @@ contains
          name = ''
          if (own(k)%group == 'include') call find_name(own(k), name, place)
          call add_record(records, used, own(k))
-         if (name /= '') call take_file(name, place, depth, open_files, sources, records, used, complaints)
+         if (name /= '') call take_file(name, place, depth, open_files, sources, letters, records, used, complaints)
       end do
    end subroutine take_text
 
@@ -79,19 +82,21 @@ contains
    end subroutine find_name
 
    !> A file beside the innermost open one.
-   recursive subroutine take_file(name, place, depth, open_files, sources, records, used, complaints)
+   recursive subroutine take_file(name, place, depth, open_files, sources, letters, records, used, complaints)
       character(*), intent(in) :: name
       type(place_t), intent(in) :: place        !! of the &include
       integer, intent(in) :: depth
       type(file_t), intent(inout) :: open_files(0:)
-      integer, intent(inout) :: sources
+      integer, intent(inout) :: sources, letters
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(complaints_t), intent(inout) :: complaints
       type(error_t), allocatable :: error
+      type(place_t) :: all_of_it
       character(:), allocatable :: text, path
       integer :: k, records_before, complaints_before
 
+      if (sources > most_files + 1) return                     ! told already
       path = beside(open_files(depth)%path, name)
       do k = 0, depth
          if (plain_path(open_files(k)%path) /= plain_path(path)) cycle
@@ -107,10 +112,18 @@ contains
          call complaints%add(place, 'include: '//error%message)
          return
       end if
+      letters = letters + min(len(text), most_letters)
+      if (sources > most_files .or. letters > most_letters) then
+         call place_in(open_files(0)%path, 0, 0, all_of_it)     ! before all other mistakes, which it makes a hundred times
+         call complaints%add(all_of_it, 'more than '//str(most_files)//' files or '//str(most_letters/1000000)// &
+            ' MB are included in all; the last one by '//place%words)
+         sources = most_files + 2                              ! once; what follows is not read
+         return
+      end if
       records_before = used
       complaints_before = complaints%count()
       open_files(depth + 1)%path = path
-      call take_text(text, depth + 1, open_files, sources, records, used, complaints)
+      call take_text(text, depth + 1, open_files, sources, letters, records, used, complaints)
       if (used == records_before .and. complaints%count() == complaints_before) &
          call complaints%add(place, 'include: there is no group in '//quoted(path))
    end subroutine take_file

@@ -20,8 +20,9 @@ contains
       type(draft_t), intent(inout) :: draft
       type(suspension_t), intent(inout) :: suspension
       character(word_length) :: name, position, drive_reaction
-      real(wp) :: wheelbase, cg_height, brake_share, drive_share, front_overhang, front_width
-      namelist /axle/ name, position, wheelbase, cg_height, brake_share, drive_share, drive_reaction, front_overhang, front_width
+      real(wp) :: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width
+      namelist /axle/ name, position, wheelbase, cg_height, mass, brake_share, drive_share, drive_reaction, &
+         front_overhang, front_width
       integer :: k, c, status
 
       do k = 1, deck%used
@@ -32,6 +33,7 @@ contains
          drive_reaction = 'wheel_centre'
          wheelbase = 1.0_wp
          cg_height = 1.0_wp
+         mass = 1.0_wp
          brake_share = 0.0_wp
          drive_share = 1.0_wp
          front_overhang = 1.0_wp
@@ -40,6 +42,8 @@ contains
          if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
          call check_positive(draft, deck, k, 'wheelbase', wheelbase)
          call check_positive(draft, deck, k, 'cg_height', cg_height)
+         call check_positive(draft, deck, k, 'mass', mass)
+         if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
          call check_share(draft, deck, k, 'brake_share', brake_share)
          call check_share(draft, deck, k, 'drive_share', drive_share)
          call check_positive(draft, deck, k, 'front_overhang', front_overhang)
@@ -56,6 +60,7 @@ contains
             this%where = where_of(deck, k)
             this%wheelbase = wheelbase*draft%units%length
             this%cg_height = cg_height*draft%units%length
+            this%mass = mass
             this%brake_share = brake_share
             this%drive_share = drive_share
             if (has_key(deck, k, 'front_overhang') .and. c > 0 .and. .not. this%is_front) call complain(draft, deck, k, &

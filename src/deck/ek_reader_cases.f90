@@ -29,13 +29,16 @@ contains
       type(case_t), allocatable, intent(out) :: cases(:)
       type(words_t) :: words
       real(wp) :: factor
+      integer, allocatable :: records(:)     ! of the cases
       integer :: k, c, used
 
       allocate (cases(count(draft%cards%group == case_group)))
+      allocate (records(size(cases)))
       used = 0
       do k = 1, deck%used
          if (draft%cards(k)%group /= case_group) cycle
          used = used + 1
+         records(used) = k
          call read_words(deck, k, draft, words)
 
          factor = 1.0_wp
@@ -80,6 +83,7 @@ contains
          cases(used)%method = lower(trim(words%method))
          if (has_key(deck, k, 'tolerance')) cases(used)%tolerance = words%tolerance*draft%units%length
       end do
+      call refuse_one_file_for_two(deck, draft, cases, records)
 
    contains
 
@@ -128,6 +132,24 @@ contains
       end subroutine read_follow
 
    end subroutine read_cases
+
+   !> The target of a case has a file of its own, <case>_target: no other case may be called so.
+   subroutine refuse_one_file_for_two(deck, draft, cases, records)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(case_t), intent(in) :: cases(:)
+      integer, intent(in) :: records(:)      !! of the cases
+      integer :: a, b
+
+      do a = 1, size(cases)
+         if (cases(a)%target == '') cycle
+         do b = 1, size(cases)
+            if (lower(cases(b)%name) /= lower(cases(a)%name)//'_target') cycle
+            call complain(draft, deck, records(b), 'name', 'the file of this case would be that of the target of case '// &
+               quoted(cases(a)%name)//' in '//line_of(deck, records(a), records(b)))
+         end do
+      end do
+   end subroutine refuse_one_file_for_two
 
    !> A case that names what it scales or drives.
    subroutine read_drive(deck, k, draft, words, this, factor)

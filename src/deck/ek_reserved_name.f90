@@ -16,7 +16,6 @@ module ek_reserved_name
 
    type(column_t), parameter :: reserved_columns(*) = [ &
       column_t('state', 'state'), column_t('factor', 'factor'), column_t('converged', 'converged'), &
-      column_t('stable', 'stable'), column_t('near_singular', 'near_singular'), &
       column_t('iterations', 'iterations'), column_t('constraint_error', 'constraint_error'), &
       column_t('toe', 'toe_deg'), column_t('camber', 'camber_deg'), column_t('steer', 'steer_deg'), &
       column_t('inclination', 'inclination_deg'), column_t('caster', 'caster_deg'), &
@@ -41,6 +40,12 @@ module ek_reserved_name
       column_t('across_spindle', 'across_spindle_offset_mm'), column_t('across_spindle_offset', 'across_spindle_offset_mm'), &
       column_t('total_track', 'total_track_mm'), column_t('total_track_change', 'total_track_change_mm'), &
       column_t('ideal_outer_steer', 'ideal_outer_steer_deg'), column_t('outer_steer_error', 'outer_steer_error_deg'), &
+      column_t('side_view_arm_centre_x', 'side_view_arm_centre_x_mm'), column_t('side_view_arm_centre_z', &
+      'side_view_arm_centre_z_mm'), column_t('front_view_arm_centre_y', 'front_view_arm_centre_y_mm'), &
+      column_t('front_view_arm_centre_z', 'front_view_arm_centre_z_mm'), &
+      column_t('roll_centre_with_tyres_y', 'roll_centre_with_tyres_y_mm'), &
+      column_t('roll_centre_with_tyres_height', 'roll_centre_with_tyres_height_mm'), &
+      column_t('force_roll_centre_height', 'force_roll_centre_height_mm'), &
       column_t('steering_rack', 'steering_rack_force_n')]
 
 contains

@@ -43,6 +43,7 @@ module ek_path
       integer, allocatable :: iterations(:)       !! factorisations spent on a state
       real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
+      logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
       logical :: is_table = .false.               !! rows of a table, each a state of its own
       integer :: crossings = 0                    !! bifurcations that the path goes through
       real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
@@ -178,6 +179,7 @@ contains
          settled_negative = kkt%negative
       end if
       call pack_state(state, path%settled)
+      path%is_settled = .true.
       done = 0
       if (path%is_table) then
          call walk_rows(path%failure(1))

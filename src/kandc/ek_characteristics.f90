@@ -2,13 +2,12 @@
 !> roll, swing arms, roll centre, compliances, anti features.
 !>
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
-!> axes. "In phase": both wheels carry the load; "anti phase": the other carries its opposite. Signs of the results are
-!> those of the columns toe, camber, caster, steer. With θ the rotation of the carrier and side = −1 left, +1 right:
+!> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance_port).
+!> "In phase": both wheels carry the load; "anti phase": the other carries its opposite. The slopes of steer, toe, camber and
+!> caster are those of the columns of that name, by the chain rule of ek_angle_rate.
 !>
-!>     toe = side θ_z     camber = −side θ_x     caster = θ_y     steer = θ_z        (first order, from δw = θ×w)
-!>
-!> The patch lies the radius r straight below the wheel centre, whatever the carrier does: it moves by
-!> δx − r θ_y, δy + r θ_x, δz, and (Fx, Fy) there is the same at the centre with Mx = r Fy, My = −r Fx.
+!> Two conditions in the vertical direction: with the vertical force held (the matrix as it is) and with the heights of the
+!> wheel centres held (`hold` of ek_compliance_port).
 !>
 !> Everything is SI and radians. A quotient whose denominator vanishes is not a number. No suspension is stiffer
 !> than a block of steel (some 1e10 N/m), so a compliance below 1e-12 m/N is rounding, and no swing arm longer than a
@@ -16,44 +15,68 @@
 module ek_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_rotation, only: cross
    use ek_suspension, only: axle_t
+   use ek_steer_angle, only: steer_rate
+   use ek_angle_rate, only: axes_t, toe_rate, camber_rate, caster_rate
+   use ek_compliance_port, only: load_at_patch, read_at_patch, hold
    implicit none(type, external)
    private
-   public :: wheel_characteristics_t, axle_characteristics_t, sway_t
-   public :: wheel_characteristics, axle_characteristics, patch_matrix, motion_ratio, quotient
+   public :: wheel_characteristics_t, axle_characteristics_t, response_t, stand_t
+   public :: wheel_characteristics, axle_characteristics, motion_ratio, quotient
 
    real(wp), parameter :: least_compliance = 1.0e-12_wp   !! m/N
+   real(wp), parameter :: least_turn = 1.0e-13_wp         !! rad/(N m): 1/least_turn is stiffer than any block of steel
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
+   real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
    real(wp), parameter, public :: trail = 0.030_wp        !! m: offset of a lateral force behind the patch, about that of a tyre
+   integer, parameter, public :: in_phase = 1, anti_phase = 2
+   integer, parameter, public :: load_held = 1, height_held = 2
 
-   !> What a lateral force or an aligning moment does.
-   type :: sway_t
-      real(wp) :: deflection = 0.0_wp      !! m/N, at the patch; of a moment not used
-      real(wp) :: steer = 0.0_wp           !! rad/N, or rad/(N m)
-      real(wp) :: camber = 0.0_wp
-   end type sway_t
+   !> How the wheels stand at a state, in the order of C.
+   type :: stand_t
+      type(axes_t) :: axes(2)
+      real(wp) :: centre(3, 2) = 0.0_wp      !! wheel centres [m]
+      real(wp) :: arm(3, 2) = 0.0_wp         !! contact point less wheel centre [m]
+      real(wp) :: tyre_rate(2) = 0.0_wp      !! N/m; 0: not given
+      real(wp) :: track = 0.0_wp             !! distance of the contact points at design [m]
+      real(wp) :: roll = 0.0_wp              !! axle roll at the state [rad]
+   end type stand_t
 
-   !> One wheel. Roll: per angle of the axle, positive left wheel up; the second three per roll of the wheel
-   !> centres, the first three of the patches, tyres included.
+   !> What a wheel does per unit of something (m, rad, N or N m).
+   type :: response_t
+      real(wp) :: patch(3) = 0.0_wp          !! displacement of the contact point [m]
+      real(wp) :: centre(3) = 0.0_wp         !! of the wheel centre [m]
+      real(wp) :: rotation(3) = 0.0_wp       !! of the carrier about global axes [rad]
+      real(wp) :: steer = 0.0_wp, toe = 0.0_wp, camber = 0.0_wp, caster = 0.0_wp   !! rad; caster only of a geometric axis
+   end type response_t
+
+   !> One wheel. Roll: per angle of the axle, positive left wheel up.
    type :: wheel_characteristics_t
-      real(wp) :: wheel_rate = 0.0_wp, ride_rate = 0.0_wp          !! N/m
-      real(wp) :: bump_steer = 0.0_wp, bump_toe = 0.0_wp, bump_camber = 0.0_wp, bump_caster = 0.0_wp    !! rad/m
-      real(wp) :: roll_steer = 0.0_wp, roll_camber = 0.0_wp, roll_caster = 0.0_wp                       !! rad/rad
-      real(wp) :: wheel_roll_steer = 0.0_wp, wheel_roll_camber = 0.0_wp, wheel_roll_caster = 0.0_wp     !! rad/rad
+      real(wp) :: wheel_rate = 0.0_wp, ride_rate = 0.0_wp, hop_rate = 0.0_wp      !! N/m
+      real(wp) :: single_rate(2) = 0.0_wp      !! own load alone; the other wheel's (load, height) held [N/m]
+      type(response_t) :: bump                 !! per m of wheel travel
+      type(response_t) :: wheel_roll           !! per rad of axle roll
+      type(response_t) :: roll                 !! per rad of axle roll and what the tyres add to it
       real(wp) :: side_arm_length = 0.0_wp, front_arm_length = 0.0_wp    !! m
       real(wp) :: side_arm_angle = 0.0_wp      !! rad, positive: the arm rises rearward
       real(wp) :: front_arm_angle = 0.0_wp     !! rad, positive: the arm rises inward
-      type(sway_t) :: lateral_in, lateral_anti, lateral_in_trail, lateral_anti_trail, aligning_in, aligning_anti
-      real(wp) :: braking_deflection = 0.0_wp, braking_steer = 0.0_wp, braking_caster = 0.0_wp     !! per N rearward
-      real(wp) :: traction_deflection = 0.0_wp, traction_steer = 0.0_wp, traction_caster = 0.0_wp  !! per N forward
+      real(wp) :: side_arm_centre(2) = 0.0_wp  !! x, z [m]
+      real(wp) :: front_arm_centre(2) = 0.0_wp !! y, z [m]
+      type(response_t) :: lateral(2, 2), lateral_trail(2, 2)             !! (phase, held), per N to the right
+      type(response_t) :: aligning(2, 2)                                 !! (phase, held), per N m to the left
+      type(response_t) :: braking(2), traction(2)                        !! (held), per N rearward, forward
+      real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical force per lateral force, patch heights held
       real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! −: anti-dive, anti-lift (drive) or anti-lift (brake), anti-squat
-      real(wp) :: fore_aft_stiffness = 0.0_wp, lateral_stiffness = 0.0_wp, vertical_stiffness = 0.0_wp  !! N/m
+      real(wp) :: brake_travel = 0.0_wp, drive_travel = 0.0_wp           !! wheel travel per g [m]
+      real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), in phase, at the wheel centre [N/m, N m/rad]
    end type wheel_characteristics_t
 
    !> Both wheels together.
    type :: axle_characteristics_t
-      real(wp) :: suspension_roll_rate = 0.0_wp, total_roll_rate = 0.0_wp   !! N m/rad
-      real(wp) :: roll_centre(2) = 0.0_wp                                   !! y, z [m]
+      real(wp) :: suspension_roll_rate = 0.0_wp, total_roll_rate = 0.0_wp, tramp_rate = 0.0_wp   !! N m/rad
+      real(wp) :: roll_centre(2) = 0.0_wp, tyre_roll_centre(2) = 0.0_wp     !! y, z [m]
+      real(wp) :: force_roll_centre = 0.0_wp                                !! height above the contact points [m]
    end type axle_characteristics_t
 
 contains
@@ -64,28 +87,6 @@ contains
       quotient = ieee_value(1.0_wp, ieee_quiet_nan)
       if (abs(b) > least) quotient = a/b
    end function quotient
-
-   !> CP: C seen from points the given radii straight below the wheel centres, six rows and columns a wheel.
-   !>
-   !>     CP = Bᵀ C B,  B = [I 0; ã I], a = (0, 0, −r): Mx = r Fy, My = −r Fx
-   pure function patch_matrix(c, radius) result(cp)
-      real(wp), intent(in) :: c(:, :)
-      real(wp), intent(in) :: radius(:)      !! of each wheel in the order of C [m]
-      real(wp) :: cp(size(c, 1), size(c, 2))
-      integer :: w, at
-
-      cp = c
-      do w = 1, size(radius)
-         at = 6*(w - 1)
-         cp(:, at + 1) = cp(:, at + 1) - radius(w)*cp(:, at + 5)
-         cp(:, at + 2) = cp(:, at + 2) + radius(w)*cp(:, at + 4)
-      end do
-      do w = 1, size(radius)
-         at = 6*(w - 1)
-         cp(at + 1, :) = cp(at + 1, :) - radius(w)*cp(at + 5, :)
-         cp(at + 2, :) = cp(at + 2, :) + radius(w)*cp(at + 4, :)
-      end do
-   end function patch_matrix
 
    !> What this wheel does when both carry a load (with = 1), or the other the opposite (with = −1).
    pure function phase(c, place, with) result(own)
@@ -102,84 +103,178 @@ contains
       own = own + with*c(at + 1:at + 6, other + 1:other + 6)
    end function phase
 
-   !> All of one wheel. C and CP are 6×6 (a wheel alone: the other is taken as if it were not there) or 12×12, left
-   !> wheel first. Ride rate and the first roll quotients mean something only with tyre rates, the roll quotients
-   !> only with two wheels, the anti features only with data of the axle.
-   pure function wheel_characteristics(c, cp, place, side, track, tyre_rate, axle) result(is)
-      real(wp), intent(in) :: c(:, :), cp(:, :)
+   !> The response of a wheel whose carrier moves by a twist (displacement of the wheel centre, rotation).
+   pure type(response_t) function respond(stand, place, twist) result(is)
+      type(stand_t), intent(in) :: stand
+      integer, intent(in) :: place
+      real(wp), intent(in) :: twist(6)
+
+      is%centre = twist(1:3)
+      is%rotation = twist(4:6)
+      is%patch = twist(1:3) + cross(twist(4:6), stand%arm(:, place))
+      is%steer = steer_rate(stand%axes(place)%spin, twist(4:6))
+      is%toe = toe_rate(stand%axes(place), twist(4:6))
+      is%camber = camber_rate(stand%axes(place), twist(4:6))
+      if (stand%axes(place)%has_steer_axis) is%caster = caster_rate(stand%axes(place), twist(4:6))
+   end function respond
+
+   !> A twist per something, not a number where that is at most `least`.
+   pure function per(twist, amount, least) result(rate)
+      real(wp), intent(in) :: twist(6), amount, least
+      real(wp) :: rate(6)
+      rate = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (abs(amount) > least) rate = twist/amount
+   end function per
+
+   !> All of one wheel. C is 6×6 (a wheel alone: the other is taken as if it were not there) or 12×12, left wheel
+   !> first. Ride and hop rate and the roll with tyres mean something only with tyre rates, roll only with two wheels, the
+   !> anti features only with data of the axle.
+   pure function wheel_characteristics(c, stand, place, axle) result(is)
+      real(wp), intent(in) :: c(:, :)
+      type(stand_t), intent(in) :: stand
       integer, intent(in) :: place             !! of this wheel in C
-      integer, intent(in) :: side              !! −1 left, +1 right
-      real(wp), intent(in) :: track            !! m
-      real(wp), intent(in) :: tyre_rate(:)     !! N/m, in the order of C; 0: not given
       type(axle_t), intent(in) :: axle
       type(wheel_characteristics_t) :: is
-      real(wp) :: in(6, 6), anti(6, 6), patch_in(6, 6), patch_anti(6, 6), height, tyre
+      real(wp) :: m(size(c, 1), size(c, 1)), cp(size(c, 1), size(c, 1)), c_held(size(c, 1), size(c, 1)), &
+         m_held(size(c, 1), size(c, 1)), in(6, 6), anti(6, 6), tyre
+      integer :: k, wheels
 
+      wheels = size(c, 1)/6
+      m = load_at_patch(c, stand%arm(:, :wheels))
+      cp = read_at_patch(m, stand%arm(:, :wheels))
+      c_held = hold(c, c)
+      m_held = hold(c, m)
       in = phase(c, place, 1.0_wp)
       anti = phase(c, place, -1.0_wp)
-      patch_in = phase(cp, place, 1.0_wp)
-      patch_anti = phase(cp, place, -1.0_wp)
+      tyre = stand%tyre_rate(place)
 
-      is%wheel_rate = quotient(1.0_wp, in(3, 3), least_compliance)
-      if (all(tyre_rate > 0.0_wp)) is%ride_rate = quotient(1.0_wp, in(3, 3) + 1.0_wp/tyre_rate(place), least_compliance)
-      is%bump_steer = quotient(in(6, 3), in(3, 3), least_compliance)
-      is%bump_toe = quotient(side*in(6, 3), in(3, 3), least_compliance)
-      is%bump_camber = quotient(-side*in(4, 3), in(3, 3), least_compliance)
-      is%bump_caster = quotient(in(5, 3), in(3, 3), least_compliance)
-
-      if (size(c, 1) == 12) then
-         ! loads +1 left, −1 right: of this wheel −side times the anti-phase column; camber's own −side makes it +1
-         height = roll_compliance(c)
-         tyre = 0.0_wp
-         if (all(tyre_rate > 0.0_wp)) tyre = sum(1.0_wp/tyre_rate)
-         is%wheel_roll_steer = quotient(-side*track*anti(6, 3), height, least_compliance)
-         is%wheel_roll_camber = quotient(track*anti(4, 3), height, least_compliance)
-         is%wheel_roll_caster = quotient(-side*track*anti(5, 3), height, least_compliance)
-         is%roll_steer = quotient(-side*track*anti(6, 3), height + tyre, least_compliance)
-         is%roll_camber = quotient(track*anti(4, 3), height + tyre, least_compliance)
-         is%roll_caster = quotient(-side*track*anti(5, 3), height + tyre, least_compliance)
-      end if
-
+      do k = 1, 6
+         is%stiffness(k) = quotient(1.0_wp, in(k, k), merge(least_compliance, least_turn, k <= 3))
+      end do
+      is%wheel_rate = is%stiffness(3)
+      if (tyre > 0.0_wp) is%ride_rate = quotient(1.0_wp, in(3, 3) + 1.0_wp/tyre, least_compliance)
+      is%hop_rate = is%wheel_rate + tyre
+      is%bump = respond(stand, place, per(in(:, 3), in(3, 3), least_compliance))
       call swing_arm(in(1, 3), in(3, 3), in(5, 3), is%side_arm_length, is%side_arm_angle)
-      call swing_arm(-side*anti(2, 3), anti(3, 3), anti(4, 3), is%front_arm_length, is%front_arm_angle)
+      call swing_arm(-stand%axes(place)%side*anti(2, 3), anti(3, 3), anti(4, 3), is%front_arm_length, is%front_arm_angle)
+      is%side_arm_centre = arm_centre(stand%centre([1, 3], place), in([1, 3], 3), in(5, 3), -1.0_wp)
+      is%front_arm_centre = arm_centre(stand%centre([2, 3], place), anti([2, 3], 3), anti(4, 3), 1.0_wp)
+      if (wheels == 2) call in_roll(c, m, cp, stand, place, is)
 
-      is%lateral_in = sway_of(patch_in, 0.0_wp, side)
-      is%lateral_anti = sway_of(patch_anti, 0.0_wp, side)
-      is%lateral_in_trail = sway_of(patch_in, trail, side)
-      is%lateral_anti_trail = sway_of(patch_anti, trail, side)
-      is%aligning_in = sway_t(patch_in(2, 6), in(6, 6), -side*in(4, 6))
-      is%aligning_anti = sway_t(patch_anti(2, 6), anti(6, 6), -side*anti(4, 6))
-      is%braking_deflection = patch_in(1, 1)
-      is%braking_steer = patch_in(6, 1)
-      is%braking_caster = patch_in(5, 1)
-      is%traction_deflection = in(1, 1)      ! forward, per force forward
-      is%traction_steer = -in(6, 1)
-      is%traction_caster = -in(5, 1)
-      call anti_features(in, patch_in, axle, is%anti_brake, is%anti_drive)
-      is%fore_aft_stiffness = quotient(1.0_wp, in(1, 1), least_compliance)
-      is%lateral_stiffness = quotient(1.0_wp, in(2, 2), least_compliance)
-      is%vertical_stiffness = is%wheel_rate
+      do k = 1, wheels      ! one wheel has no anti phase
+         call loads(in_phase + k - 1, load_held, phase(m, place, 3.0_wp - 2.0_wp*k), phase(c, place, 3.0_wp - 2.0_wp*k))
+         call loads(in_phase + k - 1, height_held, phase(m_held, place, 3.0_wp - 2.0_wp*k), &
+            phase(c_held, place, 3.0_wp - 2.0_wp*k))
+      end do
+      call anti_features(in, phase(m, place, 1.0_wp), axle, is)
+
+   contains
+
+      !> What forces at the patch and at the centre, and moments, do. m, c: loads there and here, read at the centre.
+      pure subroutine loads(in, held, m, c)
+         integer, intent(in) :: in, held        !! phase, condition
+         real(wp), intent(in) :: m(6, 6), c(6, 6)
+
+         is%lateral(in, held) = respond(stand, place, m(:, 2))
+         is%lateral_trail(in, held) = respond(stand, place, m(:, 2) + trail*m(:, 6))
+         is%aligning(in, held) = respond(stand, place, c(:, 6))
+         if (in == anti_phase) return
+         is%braking(held) = respond(stand, place, m(:, 1))
+         is%traction(held) = respond(stand, place, -c(:, 1))
+         if (axle%drives_at_patch) is%traction(held) = respond(stand, place, -m(:, 1))
+      end subroutine loads
+
    end function wheel_characteristics
 
-   !> Both wheels: roll rates and roll centre.
-   pure function axle_characteristics(c, cp, patches, tyre_rate) result(is)
-      real(wp), intent(in) :: c(:, :), cp(:, :)     !! 12×12, left wheel first
-      real(wp), intent(in) :: patches(3, 2)         !! left, right [m]
-      real(wp), intent(in) :: tyre_rate(:)          !! N/m, 0: not given
-      type(axle_characteristics_t) :: is
-      real(wp) :: height, track
+   !> What needs two wheels: roll, the stiffness of one of them, jacking.
+   !>
+   !>     axle roll φ = atan(Δz/t), Δz the difference in height of the contact points: dφ = cos²φ dΔz/t
+   pure subroutine in_roll(c, m, cp, stand, place, is)
+      real(wp), intent(in) :: c(12, 12), m(12, 12), cp(12, 12)
+      type(stand_t), intent(in) :: stand
+      integer, intent(in) :: place
+      type(wheel_characteristics_t), intent(inout) :: is
+      real(wp) :: twist(6), height, per_height, lift(2)
+      integer :: at, other
 
-      track = patches(2, 2) - patches(2, 1)
-      height = roll_compliance(c)
-      is%suspension_roll_rate = quotient(track**2, height, least_compliance)
-      if (all(tyre_rate > 0.0_wp)) is%total_roll_rate = quotient(track**2, height + sum(1.0_wp/tyre_rate), least_compliance)
-      is%roll_centre = roll_centre(cp, patches)
+      at = 6*(place - 1)
+      other = 6 - at
+      twist = m(at + 1:at + 6, 3) - m(at + 1:at + 6, 9)       ! loads +1 left, −1 right
+      height = roll_compliance(cp)
+      per_height = cos(stand%roll)**2/stand%track
+      is%wheel_roll = respond(stand, place, per(twist, height*per_height, least_compliance*per_height))
+      if (all(stand%tyre_rate > 0.0_wp)) is%roll = respond(stand, place, &
+         per(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, least_compliance*per_height))
+      is%single_rate(load_held) = quotient(1.0_wp, c(at + 3, at + 3), least_compliance)
+      is%single_rate(height_held) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (abs(c(other + 3, other + 3)) > least_compliance) is%single_rate(height_held) = quotient(1.0_wp, &
+         c(at + 3, at + 3) - c(at + 3, other + 3)*c(other + 3, at + 3)/c(other + 3, other + 3), least_compliance)
+      lift = jacking_forces(cp, [1.0_wp, 1.0_wp])
+      is%jacking(in_phase) = lift(place)
+      lift = jacking_forces(cp, [1.0_wp, -1.0_wp])
+      is%jacking(anti_phase) = lift(place)*merge(1.0_wp, -1.0_wp, place == 1)      ! per force on the wheel itself
+   end subroutine in_roll
+
+   !> Both wheels: roll rates and roll centres.
+   !>
+   !> The roll moment is ½ t (F left − F right), so the pair of unit forces makes the moment t, and its slope over axle roll is
+   !> t²/(cos²φ Δ), Δ as in in_roll.
+   !>
+   !> Force-based roll centre (W. C. Mitchell, "Asymmetric roll centers", SAE 983085; Milliken, Race Car Vehicle Dynamics, ch. 17):
+   !> the height at which the lateral forces do not roll the body. With the patches held at their heights, a unit force to the
+   !> right at each of them is answered by the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
+   pure function axle_characteristics(c, stand) result(is)
+      real(wp), intent(in) :: c(:, :)               !! 12×12, left wheel first
+      type(stand_t), intent(in) :: stand
+      type(axle_characteristics_t) :: is
+      real(wp) :: cp(12, 12), patch(3, 2), height, moment, lift(2), tyre(2)
+
+      cp = read_at_patch(load_at_patch(c, stand%arm), stand%arm)
+      patch = stand%centre + stand%arm
+      height = roll_compliance(cp)
+      moment = (stand%track/cos(stand%roll))**2
+      is%suspension_roll_rate = quotient(moment, height, least_compliance)
+      is%roll_centre = roll_centre(cp, patch, [0.0_wp, 0.0_wp])
+      if (all(stand%tyre_rate > 0.0_wp)) then
+         tyre = 1.0_wp/stand%tyre_rate
+         is%total_roll_rate = quotient(moment, height + sum(tyre), least_compliance)
+         is%tramp_rate = tramp_rate(moment, [cp(3, 3) - cp(3, 9), cp(9, 9) - cp(9, 3)], tyre)
+         is%tyre_roll_centre = roll_centre(cp, patch, tyre)
+      end if
+      lift = jacking_forces(cp, [1.0_wp, 1.0_wp])
+      is%force_roll_centre = -0.5_wp*dot_product(patch(2, :), lift)
    end function axle_characteristics
 
-   !> C33 − C39 − C93 + C99: difference in height of the wheels per force up on the left, down on the right.
-   pure real(wp) function roll_compliance(c)
-      real(wp), intent(in) :: c(:, :)
-      roll_compliance = c(3, 3) - c(3, 9) - c(9, 3) + c(9, 9)
+   !> The roll rate with each wheel's suspension and tyre side by side: what holds the unsprung masses in tramp.
+   pure real(wp) function tramp_rate(moment, wheel, tyre) result(rate)
+      real(wp), intent(in) :: moment               !! (t/cos φ)² [m²]
+      real(wp), intent(in) :: wheel(2), tyre(2)    !! compliances, of a wheel under opposite loads [m/N]
+      real(wp) :: both(2)
+
+      rate = ieee_value(1.0_wp, ieee_quiet_nan)
+      both = wheel + tyre
+      if (minval(abs(both)) > least_compliance) rate = quotient(moment, sum(wheel*tyre/both), least_compliance)
+   end function tramp_rate
+
+   !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces to the right
+   !> there: V = −CP_zz⁻¹ CP_zy F. Not a number where the wheels cannot move up and down each for itself.
+   pure function jacking_forces(cp, lateral) result(lift)
+      real(wp), intent(in) :: cp(:, :)          !! 12×12
+      real(wp), intent(in) :: lateral(2)        !! left, right [N]
+      real(wp) :: lift(2), rise(2), determinant
+
+      rise = [dot_product(cp(3, [2, 8]), lateral), dot_product(cp(9, [2, 8]), lateral)]
+      determinant = cp(3, 3)*cp(9, 9) - cp(3, 9)*cp(9, 3)
+      lift = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (abs(determinant) <= 1.0e-10_wp*abs(cp(3, 3)*cp(9, 9)) .or. abs(determinant) <= least_compliance**2) return
+      lift(1) = -(cp(9, 9)*rise(1) - cp(3, 9)*rise(2))/determinant
+      lift(2) = -(cp(3, 3)*rise(2) - cp(9, 3)*rise(1))/determinant
+   end function jacking_forces
+
+   !> CP33 − CP39 − CP93 + CP99: difference in height of the patches per force up on the left, down on the right.
+   pure real(wp) function roll_compliance(cp)
+      real(wp), intent(in) :: cp(:, :)
+      roll_compliance = cp(3, 3) - cp(3, 9) - cp(9, 3) + cp(9, 9)
    end function roll_compliance
 
    !> Length √(dh² + dz²)/|dθ| and angle atan(−dh/dz) of the arm about whose end a wheel centre swings.
@@ -196,30 +291,32 @@ contains
       if (abs(dz) > least_compliance) angle = atan(-dh/dz)
    end subroutine swing_arm
 
-   !> A lateral force to the right at the patch, its line `behind` the patch: Mz = behind × Fy.
-   pure type(sway_t) function sway_of(cp, behind, side) result(sway)
-      real(wp), intent(in) :: cp(6, 6)      !! of the patch, in phase or anti phase
-      real(wp), intent(in) :: behind        !! m
-      integer, intent(in) :: side
+   !> The centre (h, z) about which a point swings in a plane: it moves by (dh, dz) while the carrier turns by ω about the
+   !> normal; `hand` is 1 where (h, z, normal) is right-handed as (y, z, x), −1 as (x, z, y).
+   !>
+   !>     dh = −hand ω (z − z0),  dz = hand ω (h − h0)
+   pure function arm_centre(point, way, turn, hand) result(centre)
+      real(wp), intent(in) :: point(2), way(2), turn, hand
+      real(wp) :: centre(2), size_of
 
-      sway%deflection = cp(2, 2) + behind*cp(2, 6)
-      sway%steer = cp(6, 2) + behind*cp(6, 6)
-      sway%camber = -side*(cp(4, 2) + behind*cp(4, 6))
-   end function sway_of
+      size_of = norm2(way)
+      centre = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (abs(turn) <= max(size_of, least_compliance)/longest_arm) return
+      centre = [point(1) - hand*way(2)/turn, point(2) + hand*way(1)/turn]
+   end function arm_centre
 
-   !> −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle.
+   !> −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
    !>
    !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the patch, and the load
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: the other way round, at the centre
-   !> or the patch. Zf, Zw: what the wheel centres move up under the one and under the other.
-   pure subroutine anti_features(in, patch_in, axle, brake, drive)
-      real(wp), intent(in) :: in(6, 6), patch_in(6, 6)
+   !> or the patch. Zf, Zw: what the wheel centres move up under the one and under the other; both together, times the weight of
+   !> the car, is the travel per g.
+   pure subroutine anti_features(in, patch_in, axle, is)
+      real(wp), intent(in) :: in(6, 6), patch_in(6, 6)      !! loads at the centre and at the patch, read at the centre
       type(axle_t), intent(in) :: axle
-      real(wp), intent(out) :: brake, drive
+      type(wheel_characteristics_t), intent(inout) :: is
       real(wp) :: share, transfer, lever, least
 
-      brake = 0.0_wp
-      drive = 0.0_wp
       if (.not. axle%has_axle) return
       share = axle%brake_share
       if (.not. axle%is_front) share = 1.0_wp - share
@@ -228,19 +325,22 @@ contains
       if (.not. axle%is_front) transfer = -transfer
       lever = in(3, 1)
       if (axle%drives_at_patch) lever = patch_in(3, 1)
-      brake = quotient(-0.5_wp*share*patch_in(3, 1), transfer*in(3, 3), least)
-      drive = quotient(0.5_wp*axle%drive_share*lever, -transfer*in(3, 3), least)
+      is%anti_brake = quotient(-0.5_wp*share*patch_in(3, 1), transfer*patch_in(3, 3), least)
+      is%anti_drive = quotient(0.5_wp*axle%drive_share*lever, -transfer*patch_in(3, 3), least)
+      is%brake_travel = axle%mass*gravity*(transfer*patch_in(3, 3) + 0.5_wp*share*patch_in(3, 1))
+      is%drive_travel = axle%mass*gravity*(-transfer*patch_in(3, 3) - 0.5_wp*axle%drive_share*lever)
    end subroutine anti_features
 
    !> Where the instant axes of both patches in the front view meet: dz (z − z0) + dy (y − y0) = 0 through each, (dy, dz)
-   !> the way of the patch in roll. Not a number where the two ways are parallel to 1e-8.
-   pure function roll_centre(cp, patches) result(centre)
+   !> the way of the patch in roll, to which a tyre adds what it gives way. Not a number where the two ways are parallel to 1e-8.
+   pure function roll_centre(cp, patches, tyre) result(centre)
       real(wp), intent(in) :: cp(:, :), patches(3, 2)
+      real(wp), intent(in) :: tyre(2)                !! m/N
       real(wp) :: centre(2), way(2, 2), right(2), determinant, size_of_both
       integer :: k
 
-      way(:, 1) = [cp(2, 3) - cp(2, 9), cp(3, 3) - cp(3, 9)]
-      way(:, 2) = [cp(8, 9) - cp(8, 3), cp(9, 9) - cp(9, 3)]
+      way(:, 1) = [cp(2, 3) - cp(2, 9), cp(3, 3) - cp(3, 9) + tyre(1)]
+      way(:, 2) = [cp(8, 9) - cp(8, 3), cp(9, 9) - cp(9, 3) + tyre(2)]
       do k = 1, 2
          right(k) = dot_product(way(:, k), patches(2:3, k))
       end do

@@ -7,9 +7,11 @@
 !>     value = size · s_y/s_x · slope
 !>
 !> with `size` bringing the unit (per m, per kN, per 100 N m) and signs that depend on the side of the wheel:
-!> steer is positive to the left on both wheels (s_y = side of toe), and what mirrors from left to right stands over
-!> what mirrors too (s_x), the roll that lifts the wheel itself, the force that points inward. So both wheels of a
-!> symmetric axle show the same number.
+!> steer is positive to the left on both wheels (s_y = side of toe), and anti phase counts the force on the wheel itself. These
+!> are the signs of the columns of the compliance matrix: a fitted slope over a small window is the column, on either wheel. In
+!> steering alone the input counts as seen from the wheel (s_x): positive towards its own side.
+!>
+!> A column that changes over the window by no more than what Newton and rounding leave of its unit has the slope 0.
 module ek_gradient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -125,8 +127,28 @@ contains
          if (gradient%points >= least_points) gradient%note = trim(gradient%over)//' does not change'
          return
       end if
+      if (abs(slope)*gradient%window_half <= noise_of(gradient%column)) slope = 0.0_wp
       gradient%value = slope*definition%size*turn_of(test, definition, side)
    end function one_gradient
+
+   !> What is rounding in the unit of a column, by its ending: travel is driven to 1e-7 mm, of which the other numbers of a table
+   !> are a share (1e-7 mm is 1e-8 deg at a lever of 500 mm, 1e-3 N at 10 kN/mm); ten times that.
+   pure real(wp) function noise_of(column) result(noise)
+      character(*), intent(in) :: column
+
+      noise = 1.0e-12_wp
+      if (ends('_mm')) noise = 1.0e-6_wp
+      if (ends('_deg')) noise = 1.0e-7_wp
+      if (ends('_n') .or. ends('_nm')) noise = 1.0e-2_wp
+
+   contains
+
+      pure logical function ends(ending)
+         character(*), intent(in) :: ending
+         ends = index(column, ending, back=.true.) == len(column) - len(ending) + 1 .and. len(column) > len(ending)
+      end function ends
+
+   end function noise_of
 
    !> s_y/s_x of a wheel.
    pure real(wp) function turn_of(test, definition, side) result(turn)

@@ -5,11 +5,15 @@ module ek_gradient_definition
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: definition_t, definitions_of
+   public :: definition_t, definitions_of, fitted
+
+   !> Ends the name of every gradient: a least-squares slope over a window is not the slope at a state that a column of the
+   !> compliance matrix tells, and not called so.
+   character(*), parameter :: fitted = ' (fitted)'
 
    !> How a gradient is made: the equation at the top of ek_gradient.
    type :: definition_t
-      character(36) :: quantity = ''
+      character(52) :: quantity = ''
       character(28) :: column = ''
       character(20) :: over = ''          !! column; 'factor' in units of the case (N, N m, mm)
       real(wp) :: size = 1.0_wp           !! times the slope
@@ -20,7 +24,8 @@ module ek_gradient_definition
       logical :: is_own = .false.         !! x counts as seen from the wheel: mirrored on the right one
    end type definition_t
 
-   character(*), parameter :: in_bump = ' in bump', left_in_bump = '+ turns to the left in bump'
+   character(*), parameter :: in_bump = ' in bump', left_in_bump = '+ turns to the left in bump', &
+      left_up = ' with the left wheel up'
 
    type(definition_t), parameter :: travel_list(*) = [ &
       definition_t('bump toe', 'toe_deg', 'wheel_travel_mm', 1000.0_wp, 'deg/m', '+ front edge moves inward'//in_bump), &
@@ -37,47 +42,43 @@ module ek_gradient_definition
       definition_t('roll-centre height change', 'roll_centre_height_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
       '+ rises over the ground'//in_bump)]
 
+   ! Per roll of the wheels against the body, positive with the left wheel up on either wheel, as the column axle_roll_deg: the
+   ! slopes of wheel_roll_… of the matrix are those at a state
    type(definition_t), parameter :: roll_list(*) = [ &
-      definition_t('roll steer', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ turns to the left when the left wheel goes up', 's'), &
-      definition_t('roll toe', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ front edge moves inward on the wheel that goes up', &
-      is_own=.true.), &
-      definition_t('roll camber', 'camber_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top moves outward on the wheel that goes up', &
-      is_own=.true.), &
-      definition_t('roll inclination', 'inclination_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top moves outward, against the road, on the wheel that goes up', is_own=.true.), &
-      definition_t('roll caster', 'caster_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top of the axis moves rearward on the wheel that goes up', is_own=.true.), &
-      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', &
-      '+ grows on the wheel that goes up', &
-      is_own=.true.), &
+      definition_t('wheel roll steer', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ turns to the left'//left_up, 's'), &
+      definition_t('wheel roll toe', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ front edge moves inward'//left_up), &
+      definition_t('wheel roll camber', 'camber_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ top moves outward'//left_up), &
+      definition_t('camber relative to road in roll', 'inclination_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
+      '+ top moves outward, against the road,'//left_up), &
+      definition_t('wheel roll caster', 'caster_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
+      '+ top of the axis moves rearward'//left_up), &
+      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', '+ grows'//left_up), &
       definition_t('roll rate', 'roll_moment_nm', 'axle_roll_deg', 1.0_wp, 'N m/deg', '+ resists')]
 
    type(definition_t), parameter :: lateral_list(*) = [ &
       definition_t('lateral force steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', &
       '+ turns to the left under a force to the right', 's'), &
       definition_t('lateral force camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', &
-      '+ top moves outward under a force inward', &
-      is_own=.true.), &
-      definition_t('lateral deflection', 'track_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch gives way along the force', 'i')]
+      '+ top moves outward under a force to the right'), &
+      definition_t('lateral deflection', 'track_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch moves with the force', 'i')]
 
    type(definition_t), parameter :: aligning_list(*) = [ &
       definition_t('aligning torque steer', 'toe_deg', 'factor', 100.0_wp, 'deg/100 N m', &
       '+ turns to the left under a torque to the left', 's'), &
       definition_t('aligning torque camber', 'camber_deg', 'factor', 100.0_wp, 'deg/100 N m', &
-      '+ top moves outward under a torque that turns the front edge outward', is_own=.true.)]
+      '+ top moves outward under a torque to the left')]
 
    type(definition_t), parameter :: braking_list(*) = [ &
-      definition_t('braking deflection', 'wheelbase_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch gives way rearward'), &
+      definition_t('braking deflection', 'wheelbase_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch moves rearward'), &
+      definition_t('braking camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top moves outward'), &
       definition_t('braking steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ turns to the left', 's'), &
       definition_t('braking toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward'), &
       definition_t('braking caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top of the axis moves rearward')]
 
    type(definition_t), parameter :: traction_list(*) = [ &
       definition_t('traction deflection', 'wheel_centre_x_mm', 'factor', 1000.0_wp, 'mm/kN', &
-      '+ wheel centre gives way forward', 'd'), &
+      '+ wheel centre moves forward', 'd'), &
+      definition_t('traction camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top moves outward'), &
       definition_t('traction steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ turns to the left', 's'), &
       definition_t('traction toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward'), &
       definition_t('traction caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top of the axis moves rearward')]
@@ -86,15 +87,15 @@ module ek_gradient_definition
       definition_t('steer per steering wheel', 'toe_deg', 'steering_wheel_deg', 1.0_wp, 'deg/deg', '+ to the left', 's'), &
       definition_t('steer per steering input', 'toe_deg', 'factor', 1.0_wp, 'deg/mm', '+ to the left', 's'), &
       definition_t('steer camber', 'camber_deg', 'factor', 1.0_wp, 'deg/mm', &
-      '+ top moves outward, steered to the own side', is_own=.true.), &
+      '+ top moves outward, inner wheel', is_own=.true.), &
       definition_t('steer caster', 'caster_deg', 'factor', 1.0_wp, 'deg/mm', &
-      '+ top moves rearward, steered to the own side', is_own=.true.), &
+      '+ top moves rearward, inner wheel', is_own=.true.), &
       definition_t('scrub radius change', 'scrub_radius_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, steered to the own side', is_own=.true.), &
+      '+ grows, inner wheel', is_own=.true.), &
       definition_t('caster trail change', 'caster_trail_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, steered to the own side', is_own=.true.), &
-      definition_t('lift', 'wheel_travel_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ wheel moves up, steered to the own side', is_own=.true.)]
+      '+ grows, inner wheel', is_own=.true.), &
+      definition_t('wheel lift in steer', 'wheel_travel_mm', 'factor', 1.0_wp, 'mm/mm', &
+      '+ wheel moves up, inner wheel', is_own=.true.)]
 
    type(definition_t), parameter :: vertical_list(*) = [ &
       definition_t('vertical deflection', 'wheel_travel_mm', 'factor', 1000.0_wp, 'mm/kN', '+ wheel moves up under a force up'), &
@@ -108,12 +109,13 @@ contains
    pure function definitions_of(kind) result(list)
       character(*), intent(in) :: kind
       type(definition_t), allocatable :: list(:)
+      integer :: k
 
       select case (kind)
       case ('parallel_travel', 'opposite_travel', 'single_travel')
          list = travel_list
-         if (kind == 'opposite_travel') list%quantity = 'opposite '//list%quantity(:27)
-         if (kind == 'single_travel') list%quantity = 'single '//list%quantity(:29)
+         if (kind == 'opposite_travel') list%quantity = 'opposite '//list%quantity(:43)
+         if (kind == 'single_travel') list%quantity = 'single '//list%quantity(:45)
       case ('roll')
          list = roll_list
       case ('lateral_force')
@@ -131,6 +133,9 @@ contains
       case default
          allocate (list(0))
       end select
+      do k = 1, size(list)
+         list(k)%quantity = trim(list(k)%quantity)//fitted
+      end do
    end function definitions_of
 
 end module ek_gradient_definition

@@ -13,39 +13,24 @@ module ek_kandc_columns
    use ek_kkt, only: kkt_t
    use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t
    use ek_vehicle, only: vehicle_t
-   use ek_wheel_side, only: is_axle, prefix_of
+   use ek_wheel_side, only: is_axle, prefix_of, design_track
    use ek_wheel_force, only: vertical_force
-   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
-   use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, sway_t, wheel_characteristics, &
-      axle_characteristics, patch_matrix, motion_ratio, quotient
+   use ek_compliance, only: new_compliance, wheel_compliance
+   use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, wheel_characteristics, &
+      axle_characteristics, motion_ratio, quotient
+   use ek_angle_rate, only: axes_of
+   use ek_kandc_row, only: kandc_t, put, put_known
+   use ek_response_columns, only: put_rates, put_arms, put_forces
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
    use ek_steer_axis, only: instant_axis, locked_twist
-   use ek_geometry_columns, only: column_list_t, geometry_columns
-   use ek_table, only: name_length
+   use ek_geometry_columns, only: geometry_columns
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, tell_kandc
+   public :: kandc_t, start_kandc, tell_kandc, rig_rows
 
-   ! what a value in SI is divided by
-   real(wp), parameter :: per_metre = degree                       !! deg/m
-   real(wp), parameter :: n_per_mm = 1.0e3_wp                      !! N/mm
-   real(wp), parameter :: mm_per_kn = 1.0e-6_wp                    !! mm/kN
-   real(wp), parameter :: deg_per_kn = degree/1.0e3_wp             !! deg/kN
-   real(wp), parameter :: deg_per_100nm = degree/100.0_wp          !! deg/(100 N m)
    real(wp), parameter :: nm_per_deg = 1.0_wp/degree               !! N m/deg
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
-
-   !> The columns of a model and the work space to fill them.
-   type :: kandc_t
-      integer :: used = 0                              !! columns
-      character(name_length), allocatable :: names(:)
-      real(wp), allocatable :: values(:)
-      logical :: is_naming = .true.
-      type(vehicle_t) :: vehicle
-      type(compliance_t) :: compliance
-      type(column_list_t) :: geometry
-   end type kandc_t
 
 contains
 
@@ -91,8 +76,8 @@ contains
       type(demand_t), intent(in) :: demand
       type(kandc_t), intent(inout) :: self
       type(attitude_t) :: now(size(suspension%wheels))
-      real(wp) :: centre(3, size(suspension%wheels)), patch(3, size(suspension%wheels)), tyre(size(suspension%wheels))
-      real(wp) :: radius(size(suspension%wheels)), lift(size(suspension%wheels)), roll, track, ratio
+      real(wp) :: lift(size(suspension%wheels)), ratio
+      type(stand_t) :: stand
       integer :: w, k, n
 
       n = 6*size(suspension%wheels)
@@ -100,25 +85,13 @@ contains
       do k = 1, size(suspension%wheels)
          w = self%compliance%order(k)
          now(k) = wheel_attitude(suspension, state, w)
-         associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
-            centre(:, k) = pose%r + rotated(pose%a, wheel%centre)
-            radius(k) = wheel%radius
-         end associate
-         patch(:, k) = centre(:, k) - [0.0_wp, 0.0_wp, radius(k)]
          lift(k) = vertical_force(suspension, state, demand, w)
-         tyre(k) = 0.0_wp
-         if (allocated(self%vehicle%tyre_rate)) tyre(k) = self%vehicle%tyre_rate(w)
       end do
-      roll = 0.0_wp
-      track = 0.0_wp
-      if (is_axle(suspension)) then
-         roll = axle_roll(patch(:, 1), patch(:, 2))
-         track = patch(2, 2) - patch(2, 1)
-      end if
+      if (is_axle(suspension)) stand = stand_of(suspension, state, self)
       do k = 1, size(suspension%wheels)
-         call list_wheel(suspension, state, k, now(k), centre(:, k), lift(k), radius, roll, track, tyre, self)
+         call list_wheel(suspension, state, k, now(k), lift(k), stand, self)
       end do
-      if (is_axle(suspension)) call list_axle(suspension, now, patch, lift, radius, roll, track, tyre, self)
+      if (is_axle(suspension)) call list_axle(suspension, now, lift, stand, self)
       call list_steering(suspension, state, self)
       call geometry_columns(suspension, self%vehicle, self%compliance, state, self%geometry)
       do k = 1, self%geometry%used
@@ -133,83 +106,85 @@ contains
       end do
    end subroutine list
 
+   !> How both wheels of an axle stand, in the order of the compliance matrix.
+   type(stand_t) function stand_of(suspension, state, self) result(stand)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(kandc_t), intent(in) :: self
+      integer :: k
+
+      do k = 1, 2
+         call stand_up(suspension, state, self, k, k, stand)
+      end do
+      stand%track = design_track(suspension)
+      stand%roll = axle_roll(stand%centre(:, 1) + stand%arm(:, 1), stand%centre(:, 2) + stand%arm(:, 2), stand%track)
+   end function stand_of
+
+   !> Where a wheel of the compliance matrix is: place `at` of a stand.
+   pure subroutine stand_up(suspension, state, self, place, at, stand)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(kandc_t), intent(in) :: self
+      integer, intent(in) :: place, at
+      type(stand_t), intent(inout) :: stand
+
+      associate (w => self%compliance%order(place))
+         associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
+            stand%axes(at) = axes_of(wheel, pose)
+            stand%centre(:, at) = pose%r + rotated(pose%a, wheel%centre)
+            stand%arm(:, at) = rotated(pose%a, wheel%contact - wheel%centre)
+         end associate
+         if (allocated(self%vehicle%tyre_rate)) stand%tyre_rate(at) = self%vehicle%tyre_rate(w)
+      end associate
+   end subroutine stand_up
+
    !> One wheel.
-   subroutine list_wheel(suspension, state, place, now, centre, lift, radius, roll, track, tyre, self)
+   subroutine list_wheel(suspension, state, place, now, lift, pair, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: place               !! in the compliance matrix
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: centre(3), lift, radius(:), roll, track, tyre(:)    !! lift: force of the ground [N]
+      real(wp), intent(in) :: lift               !! force of the ground [N]
+      type(stand_t), intent(in) :: pair          !! both wheels of an axle
       type(kandc_t), intent(inout) :: self
       type(wheel_characteristics_t) :: is
       type(steer_axis_t) :: axis
+      type(stand_t) :: stand
       character(:), allocatable :: prefix
-      real(wp) :: contact(3)
-      integer :: w
+      real(wp) :: frame
+      integer :: w, at
       logical :: is_pair, is_shod
 
       w = self%compliance%order(place)
       prefix = prefix_of(suspension, w)
       is_pair = is_axle(suspension)
-      is_shod = all(tyre > 0.0_wp)
-      associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1), &
-            axle => self%vehicle%axle, c => self%compliance%response)
-         contact = pose%r + rotated(pose%a, wheel%contact)
+      frame = merge(-1.0_wp, 1.0_wp, suspension%is_iso)
+      if (is_pair) then
+         stand = pair
+         at = place
+         is_shod = all(stand%tyre_rate > 0.0_wp)
+      else
+         call stand_up(suspension, state, self, place, 1, stand)
+         at = 1
+         is_shod = stand%tyre_rate(1) > 0.0_wp
+      end if
+      associate (wheel => suspension%wheels(w), axle => self%vehicle%axle, c => self%compliance%response)
          if (self%compliance%is_known) then
-            axis = instant_axis(self%compliance, place, wheel%side, centre, contact)
+            axis = instant_axis(self%compliance, place, wheel%side, stand%centre(:, at), stand%centre(:, at) + stand%arm(:, at))
             if (is_pair) then
-               is = wheel_characteristics(c(:12, :12), patch_matrix(c(:12, :12), radius), place, wheel%side, track, tyre, axle)
+               is = wheel_characteristics(c(:12, :12), stand, place, axle)
             else
-               associate (own => c(6*place - 5:6*place, 6*place - 5:6*place))
-                  is = wheel_characteristics(own, patch_matrix(own, radius(place:place)), 1, wheel%side, track, &
-                     tyre(place:place), axle)
-               end associate
-               is_shod = tyre(place) > 0.0_wp
+               is = wheel_characteristics(c(6*place - 5:6*place, 6*place - 5:6*place), stand, 1, axle)
             end if
-         else if (.not. is_pair) then
-            is_shod = tyre(place) > 0.0_wp
          end if
 
          call put(self, prefix//'steer_deg', steer_of(now%toe, wheel%side)/degree)
-         if (is_pair) call put(self, prefix//'inclination_deg', inclination_of(now%camber, wheel%side, roll)/degree)
+         if (is_pair) call put(self, prefix//'inclination_deg', inclination_of(now%camber, wheel%side, stand%roll)/degree)
          call put(self, prefix//'vertical_force_n', lift)
          call put_axis(self, prefix//'instant_', axis)
-         call put_known(self, prefix//'wheel_rate_n_per_mm', is%wheel_rate/n_per_mm)
-         if (is_shod) call put_known(self, prefix//'ride_rate_n_per_mm', is%ride_rate/n_per_mm)
-         call put_known(self, prefix//'bump_steer_deg_per_m', is%bump_steer/per_metre)
-         call put_known(self, prefix//'bump_toe_deg_per_m', is%bump_toe/per_metre)
-         call put_known(self, prefix//'bump_camber_deg_per_m', is%bump_camber/per_metre)
-         call put_known(self, prefix//'bump_caster_deg_per_m', is%bump_caster/per_metre)
-         if (is_pair .and. is_shod) then
-            call put_known(self, prefix//'roll_steer_deg_per_deg', is%roll_steer)
-            call put_known(self, prefix//'roll_camber_deg_per_deg', is%roll_camber)
-            call put_known(self, prefix//'roll_caster_deg_per_deg', is%roll_caster)
-         end if
-         if (is_pair) then
-            call put_known(self, prefix//'wheel_roll_steer_deg_per_deg', is%wheel_roll_steer)
-            call put_known(self, prefix//'wheel_roll_camber_deg_per_deg', is%wheel_roll_camber)
-            call put_known(self, prefix//'wheel_roll_caster_deg_per_deg', is%wheel_roll_caster)
-         end if
-         call put_known(self, prefix//'side_view_arm_length_mm', is%side_arm_length/millimetre)
-         call put_known(self, prefix//'side_view_arm_angle_deg', is%side_arm_angle/degree)
-         call put_known(self, prefix//'front_view_arm_length_mm', is%front_arm_length/millimetre)
-         call put_known(self, prefix//'front_view_arm_angle_deg', is%front_arm_angle/degree)
-         call put_lateral(self, prefix//'lateral_in_', is%lateral_in)
-         if (is_pair) call put_lateral(self, prefix//'lateral_anti_', is%lateral_anti)
-         call put_lateral(self, prefix//'lateral_in_trail_', is%lateral_in_trail)
-         if (is_pair) call put_lateral(self, prefix//'lateral_anti_trail_', is%lateral_anti_trail)
-         call put_known(self, prefix//'aligning_in_steer_deg_per_100nm', is%aligning_in%steer/deg_per_100nm)
-         call put_known(self, prefix//'aligning_in_camber_deg_per_100nm', is%aligning_in%camber/deg_per_100nm)
-         if (is_pair) then
-            call put_known(self, prefix//'aligning_anti_steer_deg_per_100nm', is%aligning_anti%steer/deg_per_100nm)
-            call put_known(self, prefix//'aligning_anti_camber_deg_per_100nm', is%aligning_anti%camber/deg_per_100nm)
-         end if
-         call put_known(self, prefix//'braking_deflection_mm_per_kn', is%braking_deflection/mm_per_kn)
-         call put_known(self, prefix//'braking_steer_deg_per_kn', is%braking_steer/deg_per_kn)
-         call put_known(self, prefix//'braking_caster_deg_per_kn', is%braking_caster/deg_per_kn)
-         call put_known(self, prefix//'traction_deflection_mm_per_kn', is%traction_deflection/mm_per_kn)
-         call put_known(self, prefix//'traction_steer_deg_per_kn', is%traction_steer/deg_per_kn)
-         call put_known(self, prefix//'traction_caster_deg_per_kn', is%traction_caster/deg_per_kn)
+         call put_rates(self, prefix, is, frame, is_pair, is_shod, wheel%has_steer_axis)
+         call put_arms(self, prefix, is, frame)
+         call put_forces(self, prefix, is, frame, is_pair, wheel%has_steer_axis)
          if (axle%has_axle .and. axle%is_front) then
             call put_known(self, prefix//'anti_dive_percent', 100.0_wp*is%anti_brake)
             call put_known(self, prefix//'anti_lift_drive_percent', 100.0_wp*is%anti_drive)
@@ -217,31 +192,48 @@ contains
             call put_known(self, prefix//'anti_lift_brake_percent', 100.0_wp*is%anti_brake)
             call put_known(self, prefix//'anti_squat_percent', 100.0_wp*is%anti_drive)
          end if
-         call put_known(self, prefix//'fore_aft_stiffness_n_per_mm', is%fore_aft_stiffness/n_per_mm)
-         call put_known(self, prefix//'lateral_stiffness_n_per_mm', is%lateral_stiffness/n_per_mm)
-         call put_known(self, prefix//'vertical_stiffness_n_per_mm', is%vertical_stiffness/n_per_mm)
+         if (.not. (axle%has_axle .and. axle%mass > 0.0_wp)) return
+         if (axle%is_front) then      ! the body goes down where the wheel goes up
+            call put_known(self, prefix//'brake_dive_mm_per_g', is%brake_travel/millimetre)
+            call put_known(self, prefix//'drive_lift_mm_per_g', -is%drive_travel/millimetre)
+         else
+            call put_known(self, prefix//'brake_lift_mm_per_g', -is%brake_travel/millimetre)
+            call put_known(self, prefix//'drive_squat_mm_per_g', is%drive_travel/millimetre)
+         end if
       end associate
    end subroutine list_wheel
 
    !> Both wheels together.
-   subroutine list_axle(suspension, now, patch, lift, radius, roll, track, tyre, self)
+   subroutine list_axle(suspension, now, lift, stand, self)
       type(suspension_t), intent(in) :: suspension
       type(attitude_t), intent(in) :: now(2)             !! left, right
-      real(wp), intent(in) :: patch(3, 2), lift(2), radius(2), roll, track, tyre(2)
+      real(wp), intent(in) :: lift(2)
+      type(stand_t), intent(in) :: stand
       type(kandc_t), intent(inout) :: self
       type(axle_characteristics_t) :: is
-      real(wp) :: frame, left, right
+      real(wp) :: frame, left, right, ground
+      logical :: is_shod
 
-      associate (c => self%compliance%response, axle => self%vehicle%axle)
-         if (self%compliance%is_known) is = axle_characteristics(c(:12, :12), patch_matrix(c(:12, :12), radius), patch, tyre)
+      associate (c => self%compliance%response, axle => self%vehicle%axle, track => stand%track)
+         if (self%compliance%is_known) is = axle_characteristics(c(:12, :12), stand)
+         is_shod = all(stand%tyre_rate > 0.0_wp)
          frame = merge(-1.0_wp, 1.0_wp, suspension%is_iso)
+         ground = 0.5_wp*sum(stand%centre(3, :) + stand%arm(3, :))
          call put_known(self, 'suspension_roll_rate_nm_per_deg', is%suspension_roll_rate/nm_per_deg)
-         if (all(tyre > 0.0_wp)) call put_known(self, 'total_roll_rate_nm_per_deg', is%total_roll_rate/nm_per_deg)
+         if (is_shod) then
+            call put_known(self, 'total_roll_rate_nm_per_deg', is%total_roll_rate/nm_per_deg)
+            call put_known(self, 'tramp_rate_nm_per_deg', is%tramp_rate/nm_per_deg)
+         end if
          call put(self, 'roll_moment_nm', 0.5_wp*track*(lift(1) - lift(2)))
-         call put(self, 'axle_roll_deg', roll/degree)
+         call put(self, 'axle_roll_deg', stand%roll/degree)
          call put_known(self, 'roll_centre_y_mm', frame*is%roll_centre(1)/millimetre)
          call put_known(self, 'roll_centre_z_mm', is%roll_centre(2)/millimetre)
-         call put_known(self, 'roll_centre_height_mm', (is%roll_centre(2) - 0.5_wp*(patch(3, 1) + patch(3, 2)))/millimetre)
+         call put_known(self, 'roll_centre_height_mm', (is%roll_centre(2) - ground)/millimetre)
+         if (is_shod) then
+            call put_known(self, 'roll_centre_with_tyres_y_mm', frame*is%tyre_roll_centre(1)/millimetre)
+            call put_known(self, 'roll_centre_with_tyres_height_mm', (is%tyre_roll_centre(2) - ground)/millimetre)
+         end if
+         call put_known(self, 'force_roll_centre_height_mm', is%force_roll_centre/millimetre)
          if (.not. axle%has_axle .or. self%vehicle%steer_row == 0) return
          left = steer_of(now(1)%toe, -1)
          right = steer_of(now(2)%toe, 1)
@@ -307,16 +299,6 @@ contains
       end do
    end function row_change
 
-   !> The three columns of what a lateral force does.
-   subroutine put_lateral(self, stem, sway)
-      type(kandc_t), intent(inout) :: self
-      character(*), intent(in) :: stem
-      type(sway_t), intent(in) :: sway
-      call put_known(self, stem//'deflection_mm_per_kn', sway%deflection/mm_per_kn)
-      call put_known(self, stem//'steer_deg_per_kn', sway%steer/deg_per_kn)
-      call put_known(self, stem//'camber_deg_per_kn', sway%camber/deg_per_kn)
-   end subroutine put_lateral
-
    !> The six columns of a steer axis; not a number where the axis is not known.
    subroutine put_axis(self, stem, axis)
       type(kandc_t), intent(inout) :: self
@@ -334,38 +316,5 @@ contains
       call put(self, stem//'spindle_length_mm', values(5))
       call put(self, stem//'spindle_offset_mm', values(6))
    end subroutine put_axis
-
-   !> A column from the compliance matrix: not a number where that is not known.
-   subroutine put_known(self, name, value)
-      type(kandc_t), intent(inout) :: self
-      character(*), intent(in) :: name
-      real(wp), intent(in) :: value
-
-      if (self%compliance%is_known .or. self%is_naming) then
-         call put(self, name, value)
-      else
-         call put(self, name, ieee_value(1.0_wp, ieee_quiet_nan))
-      end if
-   end subroutine put_known
-
-   !> The next column: its name in the first pass, its value afterwards.
-   subroutine put(self, name, value)
-      type(kandc_t), intent(inout) :: self
-      character(*), intent(in) :: name
-      real(wp), intent(in) :: value
-      character(name_length), allocatable :: more(:)
-
-      self%used = self%used + 1
-      if (.not. self%is_naming) then
-         self%values(self%used) = value
-         return
-      end if
-      if (self%used > size(self%names)) then
-         allocate (more(2*size(self%names)))
-         more(:self%used - 1) = self%names
-         call move_alloc(more, self%names)
-      end if
-      self%names(self%used) = name
-   end subroutine put
 
 end module ek_kandc_columns

@@ -6,6 +6,7 @@ module ek_key_numbers
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, design_row, converged_rows
    use ek_gradient, only: gradient_t
+   use ek_gradient_definition, only: fitted
    use ek_key_number, only: key_number_t
    use ek_place_numbers, only: place_numbers
    implicit none(type, external)
@@ -15,17 +16,19 @@ module ek_key_numbers
    !> Where a key number comes from.
    type :: source_t
       character(20) :: group = ''
-      character(36) :: quantity = ''
-      character(36) :: name = ''          !! column, or quantity of a gradient
+      character(52) :: quantity = ''
+      character(52) :: name = ''          !! column, or quantity of a gradient without its ' (fitted)'
       character(8) :: how = ''            !! 'design': column at design; 'gradient'; 'largest', 'least': over a test
       character(16) :: kind = ''          !! of the test; '': any
       character(4) :: phase = ''          !! 'in', 'anti'; '': any
       character(12) :: unit = ''
       character(56) :: sign = ''
+      character(1) :: steered = ' '       !! 'y': of an axle with &steering alone; 'n': of one without
    end type source_t
 
    character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
-      comply = 'Compliance', anti = 'Anti features', steer = 'Steering'
+      comply = 'Compliance', &
+      held = 'Compliance at design', elastic = 'Elastic steer axis', anti = 'Anti features', steer = 'Steering'
 
    type(source_t), parameter :: attitude_list(*) = [ &
       source_t(attitude, 'toe', 'toe_deg', 'design', '', '', 'deg', '+ front edge inward'), &
@@ -38,13 +41,14 @@ module ek_key_numbers
       '+ axis meets the ground ahead of the patch'), &
       source_t(attitude, 'spindle length', 'spindle_length_mm', 'design', '', '', 'mm', '+ wheel centre outboard of the axis'), &
       source_t(attitude, 'spindle offset', 'spindle_offset_mm', 'design', '', '', 'mm', '+ wheel centre behind the axis'), &
-      source_t(attitude, 'caster, instant axis', 'instant_caster_deg', 'design', '', '', 'deg', '+ leans rearward at the top'), &
+      source_t(attitude, 'caster, instant axis', 'instant_caster_deg', 'design', '', '', 'deg', &
+      '+ leans rearward at the top', 'y'), &
       source_t(attitude, 'kingpin inclination, instant axis', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
-      '+ leans inward at the top'), &
+      '+ leans inward at the top', 'y'), &
       source_t(attitude, 'scrub radius, instant axis', 'instant_scrub_radius_mm', 'design', '', '', 'mm', &
-      '+ inboard of the patch'), &
+      '+ inboard of the patch', 'y'), &
       source_t(attitude, 'caster trail, instant axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &
-      '+ ahead of the patch'), &
+      '+ ahead of the patch', 'y'), &
       source_t(attitude, 'steer-axis offset, wheel centre', 'centre_axis_distance_mm', 'design', '', '', 'mm', &
       'shortest distance'), &
       source_t(attitude, 'steer-axis offset, patch', 'patch_axis_distance_mm', 'design', '', '', 'mm', 'shortest distance'), &
@@ -55,16 +59,20 @@ module ek_key_numbers
       source_t(attitude, 'total track', 'total_track_mm', 'design', '', '', 'mm', 'distance of the patches'), &
       source_t(attitude, 'wheel load', 'vertical_force_n', 'design', '', '', 'N', 'ground on wheel'), &
       source_t(attitude, 'roll centre height', 'roll_centre_height_mm', 'design', '', '', 'mm', '+ above the ground'), &
-      source_t(attitude, 'roll centre, lateral', 'roll_centre_y_mm', 'design', '', '', 'mm', 'y of the deck')]
+      source_t(attitude, 'roll centre, lateral', 'roll_centre_y_mm', 'design', '', '', 'mm', 'y of the deck'), &
+      source_t(attitude, 'force-based roll centre height', 'force_roll_centre_height_mm', 'design', '', '', 'mm', &
+      '+ above the ground')]
 
    type(source_t), parameter :: rates_list(*) = [ &
       source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'both wheels in phase'), &
-      source_t(rates, 'wheel rate, slope of the wheel load', 'wheel rate', 'gradient', 'parallel_travel', '', 'N/mm', ''), &
+      source_t(rates, 'wheel rate', 'wheel rate', 'gradient', 'parallel_travel', '', 'N/mm', ''), &
       source_t(rates, 'ride rate', 'ride_rate_n_per_mm', 'design', '', '', 'N/mm', 'with the tyre'), &
       source_t(rates, 'ride frequency', 'ride_frequency_hz', 'design', '', '', 'Hz', 'ride rate and sprung mass'), &
       source_t(rates, 'vertical deflection', 'vertical deflection', 'gradient', 'vertical_force', '', 'mm/kN', '+ up'), &
       source_t(rates, 'suspension roll rate', 'suspension_roll_rate_nm_per_deg', 'design', '', '', 'N m/deg', ''), &
       source_t(rates, 'total roll rate', 'total_roll_rate_nm_per_deg', 'design', '', '', 'N m/deg', 'with the tyres'), &
+      source_t(rates, 'hop rate', 'hop_rate_n_per_mm', 'design', '', '', 'N/mm', 'tyre in parallel'), &
+      source_t(rates, 'tramp rate', 'tramp_rate_nm_per_deg', 'design', '', '', 'N m/deg', 'tyres in parallel'), &
       source_t(rates, 'fore-aft stiffness', 'fore_aft_stiffness_n_per_mm', 'design', '', '', 'N/mm', 'at the wheel centre'), &
       source_t(rates, 'lateral stiffness', 'lateral_stiffness_n_per_mm', 'design', '', '', 'N/mm', 'at the wheel centre'), &
       source_t(rates, 'vertical stiffness', 'vertical_stiffness_n_per_mm', 'design', '', '', 'N/mm', 'at the wheel centre')]
@@ -82,10 +90,10 @@ module ek_key_numbers
       source_t(ride, 'side-view swing arm angle', 'side_view_arm_angle_deg', 'design', '', '', 'deg', ''), &
       source_t(ride, 'front-view swing arm length', 'front_view_arm_length_mm', 'design', '', '', 'mm', ''), &
       source_t(ride, 'front-view swing arm angle', 'front_view_arm_angle_deg', 'design', '', '', 'deg', ''), &
-      source_t(roll, 'roll steer', 'roll steer', 'gradient', 'roll', '', '', ''), &
-      source_t(roll, 'roll camber', 'roll camber', 'gradient', 'roll', '', '', ''), &
-      source_t(roll, 'roll inclination', 'roll inclination', 'gradient', 'roll', '', '', ''), &
-      source_t(roll, 'roll caster', 'roll caster', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'wheel roll steer', 'wheel roll steer', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'wheel roll camber', 'wheel roll camber', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'camber relative to road in roll', 'camber relative to road in roll', 'gradient', 'roll', '', '', ''), &
+      source_t(roll, 'wheel roll caster', 'wheel roll caster', 'gradient', 'roll', '', '', ''), &
       source_t(roll, 'wheel load in roll', 'wheel load in roll', 'gradient', 'roll', '', '', ''), &
       source_t(roll, 'roll rate', 'roll rate', 'gradient', 'roll', '', '', '')]
 
@@ -108,11 +116,51 @@ module ek_key_numbers
       source_t(comply, 'traction steer', 'traction steer', 'gradient', 'traction', '', '', ''), &
       source_t(comply, 'traction caster', 'traction caster', 'gradient', 'traction', '', '', '')]
 
+   ! at design, from the compliance matrix
+   type(source_t), parameter :: held_list(*) = [ &
+      source_t(held, 'lateral deflection, in phase, load held', 'lateral_in_load_held_deflection_mm_per_kn', 'design', &
+      '', '', 'mm/kN', '+ patch moves with the force'), &
+      source_t(held, 'lateral deflection, in phase, height held', 'lateral_in_height_held_deflection_mm_per_kn', 'design', &
+      '', '', 'mm/kN', '+ patch moves with the force'), &
+      source_t(held, 'lateral force steer, in phase, load held', 'lateral_in_load_held_steer_deg_per_kn', 'design', &
+      '', '', 'deg/kN', '+ to the left under a force to the right'), &
+      source_t(held, 'lateral force steer, in phase, height held', 'lateral_in_height_held_steer_deg_per_kn', 'design', &
+      '', '', 'deg/kN', '+ to the left under a force to the right'), &
+      source_t(held, 'lateral force camber, in phase, load held', 'lateral_in_load_held_camber_deg_per_kn', 'design', &
+      '', '', 'deg/kN', '+ top outward under a force to the right'), &
+      source_t(held, 'lateral force camber, in phase, height held', 'lateral_in_height_held_camber_deg_per_kn', 'design', &
+      '', '', 'deg/kN', '+ top outward under a force to the right'), &
+      source_t(held, 'aligning torque steer, in phase, load held', 'aligning_in_load_held_steer_deg_per_100nm', 'design', &
+      '', '', 'deg/100 N m', '+ to the left under a torque to the left'), &
+      source_t(held, 'aligning torque steer, in phase, height held', 'aligning_in_height_held_steer_deg_per_100nm', 'design', &
+      '', '', 'deg/100 N m', '+ to the left under a torque to the left'), &
+      source_t(held, 'braking deflection, load held', 'braking_load_held_deflection_mm_per_kn', 'design', '', '', 'mm/kN', &
+      '+ patch moves rearward'), &
+      source_t(held, 'braking deflection, height held', 'braking_height_held_deflection_mm_per_kn', 'design', '', '', 'mm/kN', &
+      '+ patch moves rearward'), &
+      source_t(held, 'braking steer, load held', 'braking_load_held_steer_deg_per_kn', 'design', '', '', 'deg/kN', &
+      '+ to the left'), &
+      source_t(held, 'braking steer, height held', 'braking_height_held_steer_deg_per_kn', 'design', '', '', 'deg/kN', &
+      '+ to the left'), &
+      source_t(held, 'traction wind-up, load held', 'traction_load_held_rotation_y_deg_per_kn', 'design', '', '', 'deg/kN', &
+      'rotation of the carrier about y'), &
+      source_t(held, 'jacking, in phase', 'lateral_in_jacking_n_per_kn', 'design', '', '', 'N/kN', &
+      '+ the ground pushes up under a force to the right'), &
+      source_t(elastic, 'caster', 'instant_caster_deg', 'design', '', '', 'deg', '+ leans rearward at the top', 'n'), &
+      source_t(elastic, 'kingpin inclination', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
+      '+ leans inward at the top', 'n'), &
+      source_t(elastic, 'scrub radius', 'instant_scrub_radius_mm', 'design', '', '', 'mm', '+ inboard of the patch', 'n'), &
+      source_t(elastic, 'caster trail', 'instant_caster_trail_mm', 'design', '', '', 'mm', '+ ahead of the patch', 'n')]
+
    type(source_t), parameter :: last_list(*) = [ &
       source_t(anti, 'anti-dive', 'anti_dive_percent', 'design', '', '', '%', 'braking, front'), &
       source_t(anti, 'anti-lift, drive', 'anti_lift_drive_percent', 'design', '', '', '%', 'drive, front'), &
       source_t(anti, 'anti-lift, braking', 'anti_lift_brake_percent', 'design', '', '', '%', 'braking, rear'), &
       source_t(anti, 'anti-squat', 'anti_squat_percent', 'design', '', '', '%', 'drive, rear'), &
+      source_t(anti, 'dive, braking', 'brake_dive_mm_per_g', 'design', '', '', 'mm/g', '+ body goes down'), &
+      source_t(anti, 'lift, drive', 'drive_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body goes up'), &
+      source_t(anti, 'lift, braking', 'brake_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body goes up'), &
+      source_t(anti, 'squat, drive', 'drive_squat_mm_per_g', 'design', '', '', 'mm/g', '+ body goes down'), &
       source_t(steer, 'steering ratio', 'steering_ratio', 'design', '', '', '–', 'steering wheel over road wheel'), &
       source_t(steer, 'steer per steering input', 'steer per steering input', 'gradient', 'steering', '', '', ''), &
       source_t(steer, 'steer per steering wheel', 'steer per steering wheel', 'gradient', 'steering', '', '', ''), &
@@ -134,14 +182,21 @@ contains
       type(gradient_t), intent(in) :: gradients(:)
       type(key_number_t), allocatable, intent(out) :: numbers(:)
       type(key_number_t) :: number
-      integer :: used
+      logical :: is_steered
+      integer :: used, k
 
-      allocate (numbers(size(attitude_list) + size(rates_list) + size(ride_list) + size(comply_list) + size(last_list)))
+      allocate (numbers(size(attitude_list) + size(rates_list) + size(ride_list) + size(comply_list) + &
+         size(held_list) + size(last_list)))
       used = 0
+      is_steered = .false.
+      do k = 1, size(tests)
+         is_steered = is_steered .or. column_index(tests(k)%table, 'steering_ratio') > 0
+      end do
       call take(attitude_list)
       call take(rates_list)
       call take(ride_list)
       call take(comply_list)
+      call take(held_list)
       call take(last_list)
       numbers = numbers(:used)
       call place_numbers(tests, numbers)
@@ -161,6 +216,7 @@ contains
             number%left = nothing()
             number%right = nothing()
             number%is_of_axle = .false.
+            if (list(k)%steered == merge('n', 'y', is_steered)) cycle
             if (list(k)%how == 'gradient') then
                call from_gradients(tests, gradients, list(k), number, is_there)
             else
@@ -188,9 +244,10 @@ contains
          if (tests(t)%kind /= source%kind) cycle
          if (len_trim(source%phase) > 0 .and. ((source%phase == 'anti') .neqv. tests(t)%is_anti)) cycle
          do k = 1, size(gradients)
-            if (gradients(k)%test /= tests(t)%name .or. gradients(k)%quantity /= source%name) cycle
+            if (gradients(k)%test /= tests(t)%name .or. gradients(k)%quantity /= trim(source%name)//fitted) cycle
             is_there = .true.
-            if (size(tests(t)%prefixes) < 2) number%quantity = trim(source%name)    ! one wheel has no phase
+            number%quantity = trim(source%quantity)//fitted
+            if (size(tests(t)%prefixes) < 2) number%quantity = trim(source%name)//fitted      ! one wheel has no phase
             number%unit = gradients(k)%unit
             number%sign = gradients(k)%sign//' (over '//gradients(k)%window//')'
             if (gradients(k)%side == 'right') then

@@ -27,7 +27,7 @@ module ek_rig
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_units, only: degree, millimetre
-   use ek_wheel_side, only: side_name, height_name, left_and_right
+   use ek_wheel_side, only: side_name, height_name, left_and_right, design_track
    use ek_measure, only: rotation, axis_axis
    use ek_suspension, only: suspension_t, load_t, driver_row
    use ek_builder, only: add_travel_driver, add_height_driver, add_load
@@ -45,7 +45,6 @@ contains
       type(case_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error      !! exit_deck: the test does not fit the model; exit_file
       integer :: wheels(2), row
-      real(wp) :: track
 
       if (.not. allocated(this%test)) this%test = ''
       if (len(this%test) == 0) then
@@ -69,15 +68,13 @@ contains
          call drive_heights(merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], row == 1), 'travel of the '// &
             trim(merge('left ', 'right', row == 1))//' wheel')
       case ('roll')
-         track = abs(suspension%bodies(suspension%wheels(wheels(2))%body)%origin(2) + suspension%wheels(wheels(2))%contact(2) &
-            - suspension%bodies(suspension%wheels(wheels(1))%body)%origin(2) - suspension%wheels(wheels(1))%contact(2))
          if (control('patch') == 'road') then
             call add_height_driver(suspension, 'rig_roll', this%where, wheels, [1.0_wp, -1.0_wp], .true., &
                suspension%wheels(wheels)%tyre_rate)
          else
             call add_height_driver(suspension, 'rig_roll', this%where, wheels, [1.0_wp, -1.0_wp], control('patch') == 'patch')
          end if
-         call append_course(this%courses, '', 'rig_roll', track, follows_tangent)
+         call append_course(this%courses, '', 'rig_roll', design_track(suspension), follows_tangent)
          this%unit = degree
          this%unit_name = 'deg'
          this%place_name = trim(merge('roll of the road, left up', 'axle roll, left wheel up ', control('patch') == 'road'))

@@ -32,10 +32,12 @@ contains
       rate = turn(3) - spin(3)*(turn(1)*spin(1) + turn(2)*spin(2))/(spin(1)**2 + spin(2)**2)
    end function steer_rate
 
-   !> Roll of the line through both patches against the body: atan((z_left − z_right)/track).
-   pure real(wp) function axle_roll(left, right) result(roll)
-      real(wp), intent(in) :: left(3), right(3)   !! points below the wheel centres, or the centres [m]
-      roll = atan2(left(3) - right(3), right(2) - left(2))
+   !> Roll of the axle against the body: atan((z_left − z_right)/track), with the track at design, as the rig's test `roll`
+   !> drives it.
+   pure real(wp) function axle_roll(left, right, track) result(roll)
+      real(wp), intent(in) :: left(3), right(3)   !! contact points [m]
+      real(wp), intent(in) :: track               !! distance of the contact points at design [m]
+      roll = atan2(left(3) - right(3), track)
    end function axle_roll
 
    !> Camber against the road: the road rolls with the wheels, by θ_x = −roll, and camber is −side·θ_x.

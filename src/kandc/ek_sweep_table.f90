@@ -3,10 +3,10 @@
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
 module ek_sweep_table
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_suspension, only: suspension_t, driver_row
    use ek_case, only: case_t
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_state, only: state_t, demand_t, design_state, unpack_state, coordinates
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
@@ -16,7 +16,7 @@ module ek_sweep_table
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: nearly_singular, sweep_table, sweep_columns, factor_unit
+   public :: nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! least over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is none
@@ -26,7 +26,7 @@ contains
    !> The table of a sweep: all states that were reached, and the first that was not on either side,
    !> marked by converged = 0 and values that are not numbers.
    !>
-   !> Where the case wants all, the quantities of K&C come before the last five columns, from the compliance matrix
+   !> Where the case wants all, the quantities of K&C come before the last columns, from the compliance matrix
    !> of every state.
    subroutine sweep_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension
@@ -40,10 +40,11 @@ contains
       type(kandc_t) :: kandc
       character(name_length), allocatable :: columns(:)
       real(wp) :: unit
-      integer :: first, last, k, row, shown, told
+      integer :: first, last, k, row, shown, told, ended
 
       call list_columns(suspension, case, columns, kandc)
-      told = size(columns) - 5        ! the last one before the end
+      ended = size(columns)
+      told = ended - ends_of(case)    ! the last one before the end
       shown = told - kandc%used       ! the last column that shows the state itself
 
       call reached_rows(path, first, last)
@@ -57,15 +58,14 @@ contains
          table%values(1, row) = k - 1
          table%values(2, row) = path%value(k)/unit
          table%values(told + 1, row) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
-         table%values(told + 4, row) = path%iterations(k)
+         table%values(ended - 1, row) = path%iterations(k)
          if (.not. path%is_reached(k)) cycle
-         ! the matrix of the recursive method has no geometric stiffness to tell by
-         if (case%method /= 'recursive') table%values(told + 2, row) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
-         table%values(told + 3, row) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
+         if (knows_stability(case)) table%values(told + 2, row) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
+         table%values(ended - 2, row) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
          call unpack_state(path%packed(:, k), state)
          call assemble(suspension, state, demand, residual_only, kkt)
          call state_values(suspension, state, kkt, table%values(3:shown, row))
-         table%values(told + 5, row) = norm2(kkt%values)
+         table%values(ended, row) = norm2(kkt%values)
          if (norm2(kkt%values) > open_joints) table%values(told + 1, row) = 0.0_wp
          if (.not. case%has_all) cycle
          call tell_kandc(suspension, state, demand, kkt, kandc)
@@ -96,17 +96,47 @@ contains
       call state_columns(suspension, names)
       shown = 2 + size(names)
       told = shown + kandc%used
-      allocate (columns(told + 5))
+      allocate (columns(told + ends_of(case)))
       columns(1) = 'state'
       columns(2) = 'factor'
       columns(3:shown) = names
       if (case%has_all) columns(shown + 1:told) = kandc%names(:kandc%used)
       columns(told + 1) = 'converged'
-      columns(told + 2) = 'stable'
-      columns(told + 3) = 'near_singular'
-      columns(told + 4) = 'iterations'
-      columns(told + 5) = 'constraint_error'
+      if (knows_stability(case)) columns(told + 2) = 'stable'
+      columns(size(columns) - 2:) = [character(name_length) :: 'near_singular', 'iterations', 'constraint_error']
    end subroutine list_columns
+
+   !> The matrix of the recursive method has no geometric stiffness to tell stability by.
+   pure logical function knows_stability(case)
+      type(case_t), intent(in) :: case
+      knows_stability = case%method /= 'recursive'
+   end function knows_stability
+
+   !> Columns behind the quantities: converged, stable, near_singular, iterations, constraint_error.
+   pure integer function ends_of(case)
+      type(case_t), intent(in) :: case
+      ends_of = merge(5, 4, knows_stability(case))
+   end function ends_of
+
+   !> Memory that the sweep of a case and its table take [bytes], and a margin.
+   integer(i8) function sweep_bytes(suspension, case) result(bytes)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, parameter :: of_a_path = 6             ! numbers of a state beside its coordinates
+      integer(i8), parameter :: margin = 20000000_i8  ! bytes: everything that does not grow with the states
+      character(name_length), allocatable :: names(:)
+      type(kandc_t) :: kandc
+      integer :: columns
+
+      call state_columns(suspension, names)
+      columns = size(names) + 7
+      if (case%has_all) then
+         call start_kandc(suspension, vehicle_of(suspension), kandc)
+         columns = columns + kandc%used
+      end if
+      ! the table twice: where it is made, and where it is kept
+      bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*columns)
+   end function sweep_bytes
 
    !> The states to be told: those reached, and one beyond on a side that failed; of a table every row.
    pure subroutine reached_rows(path, first, last)

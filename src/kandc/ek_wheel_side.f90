@@ -1,9 +1,10 @@
 !> The two sides of an axle: which wheel is left, which right, and what their things are called.
 module ek_wheel_side
+   use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, height_name, left_and_right, is_axle, single_side, prefix_of
+   public :: side_name, height_name, left_and_right, is_axle, single_side, prefix_of, design_track
 
 contains
 
@@ -32,6 +33,22 @@ contains
          wheels(merge(1, 2, suspension%wheels(k)%side < 0)) = k
       end do
    end subroutine left_and_right
+
+   !> The track of an axle: lateral distance of the contact points at design [m]. The one that every roll angle, roll moment and
+   !> Ackermann angle stands on, on the rig and in the columns.
+   pure real(wp) function design_track(suspension) result(track)
+      type(suspension_t), intent(in) :: suspension      !! an axle
+      real(wp) :: y(2)
+      integer :: wheels(2), k
+
+      call left_and_right(suspension, wheels)
+      do k = 1, 2
+         associate (wheel => suspension%wheels(wheels(k)))
+            y(k) = suspension%bodies(wheel%body)%origin(2) + wheel%contact(2)
+         end associate
+      end do
+      track = abs(y(2) - y(1))
+   end function design_track
 
    !> Whether a model is an axle: two wheels, one on either side.
    pure logical function is_axle(suspension)

@@ -1,10 +1,17 @@
 !> One thread for the linear algebra: matrices of this size gain nothing from more, and OpenBLAS's second
-!> thread, once woken, spins on a processor that another job of a batch queue could use.
+!> thread, once woken, spins on a processor that another job of a batch queue could use. See also src/ek_one_thread.f90.
 module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
+   use ek_kinds, only: i8
+   use ek_error, only: error_t
+   use ek_memory, only: ask_memory
    implicit none(type, external)
    private
    public :: use_one_thread
+
+   !> Bytes of the work space that OpenBLAS asks for with its first call, 128 MB and a little. It asks for ever where it
+   !> does not get them.
+   integer(i8), parameter :: work_space = 2_i8**27 + 2_i8**22
 
    abstract interface
       subroutine set_threads(count) bind(c)
@@ -26,13 +33,16 @@ module ek_threads
 
 contains
 
-   !> Tells OpenBLAS, if that is the library this process runs with; another has no such switch.
-   subroutine use_one_thread()
+   !> Tells OpenBLAS, if that is the library this process runs with; another has no such switch, and no such work space.
+   subroutine use_one_thread(error)
+      type(error_t), allocatable, intent(out) :: error        !! exit_file: too little memory for it
       type(c_funptr) :: address
       procedure(set_threads), pointer :: openblas_set_num_threads
 
       address = dlsym(c_null_ptr, 'openblas_set_num_threads'//c_null_char)
       if (.not. c_associated(address)) return
+      call ask_memory(work_space, 'the library for linear algebra', error)
+      if (allocated(error)) return
       call c_f_procpointer(address, openblas_set_num_threads)
       call openblas_set_num_threads(1_c_int)
    end subroutine use_one_thread

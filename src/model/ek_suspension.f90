@@ -75,6 +75,7 @@ module ek_suspension
       logical :: is_front = .true.
       real(wp) :: wheelbase = 0.0_wp      !! m
       real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
+      real(wp) :: mass = 0.0_wp           !! of the car [kg]; 0: not given
       real(wp) :: brake_share = 0.0_wp    !! of the braking force of the car that acts on the FRONT axle, 0 to 1
       real(wp) :: drive_share = 1.0_wp    !! of the driving force of the car that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given

@@ -8,10 +8,11 @@ module ek_chart
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
-   use ek_gnuplot, only: gnuplot_text, palette
+   use ek_gnuplot, only: palette
+   use ek_gnuplot_text, only: gnuplot_text, file_letters
    implicit none(type, external)
    private
-   public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate
+   public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
 
    integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at letters of 13
 
@@ -77,6 +78,14 @@ contains
       call move_alloc(grown, charts)
    end subroutine append_chart
 
+   !> The file of a chart: its name, which may come from a foreign table, as far as it is one for a file.
+   pure function picture_file(chart) result(name)
+      type(chart_t), intent(in) :: chart
+      character(:), allocatable :: name
+
+      name = file_letters(chart%name)//'.svg'
+   end function picture_file
+
    !> One script that draws every chart as <name>.svg in the folder where gnuplot runs.
    pure function charts_script(charts) result(text)
       type(chart_t), intent(in) :: charts(:)
@@ -85,6 +94,7 @@ contains
       integer :: k
 
       call script%line('# The charts of a page. Run gnuplot in this folder to draw them again.')
+      call script%line('reset')
       call script%line('set encoding utf8')
       call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
          " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
@@ -136,7 +146,7 @@ contains
       end do
       call script%line('EOD')
 
-      call script%line('set output '//gnuplot_text(chart%name//'.svg'))
+      call script%line('set output '//gnuplot_text(picture_file(chart)))
       call script%line('set label 1 '//gnuplot_text(chart%title)// &
          " at screen 0.02, screen 0.945 font 'sans-serif:Bold,15' textcolor rgb '#202020'")
       call script%line('set label 2 '//gnuplot_text(chart%y_label)// &

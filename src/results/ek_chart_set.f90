@@ -1,10 +1,11 @@
 !> The charts of one section of a page, each drawn as figures/<name>.svg in the folder of the page.
 module ek_chart_set
    use ek_file, only: join_path, remove_file
-   use ek_chart, only: chart_t
+   use ek_error, only: message_list_t
+   use ek_chart, only: chart_t, picture_file
    implicit none(type, external)
    private
-   public :: chart_set_t, gather_charts, remove_drawn
+   public :: chart_set_t, gather_charts, remove_drawn, pictures_of
 
    !> The charts of one test.
    type :: chart_set_t
@@ -31,7 +32,22 @@ contains
       end do
    end subroutine gather_charts
 
-   !> Removes what an earlier run has drawn of these charts: it must not slip into a page where gnuplot fails.
+   !> The files that the script of these charts draws. A chart without curves is not drawn; one name stands once.
+   subroutine pictures_of(charts, pictures)
+      type(chart_t), intent(in) :: charts(:)
+      type(message_list_t), intent(inout) :: pictures
+      integer :: k, n
+
+      do k = 1, size(charts)
+         if (size(charts(k)%traces) == 0) cycle
+         do n = 1, pictures%count()
+            if (pictures%line(n) == picture_file(charts(k))) exit
+         end do
+         if (n > pictures%count()) call pictures%add(picture_file(charts(k)))
+      end do
+   end subroutine pictures_of
+
+   !> Removes what an earlier run has drawn of these charts, for a page that is to have none.
    subroutine remove_drawn(sets, folder)
       type(chart_set_t), intent(in) :: sets(:)
       character(*), intent(in) :: folder        !! of the page
@@ -39,7 +55,7 @@ contains
 
       do k = 1, size(sets)
          do n = 1, size(sets(k)%charts)
-            call remove_file(join_path(folder, 'figures/'//sets(k)%charts(n)%name//'.svg'))
+            call remove_file(join_path(folder, 'figures/'//picture_file(sets(k)%charts(n))))
          end do
       end do
    end subroutine remove_drawn

@@ -2,51 +2,58 @@
 !>
 !> Numbers have 15 significant digits, `nan` where there is none.
 module ek_csv
-   use ek_kinds, only: wp, i8
+   use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, plural
-   use ek_file, only: write_whole, read_whole
+   use ek_buffer, only: buffer_t
+   use ek_file, only: read_whole, write_standard_output
+   use ek_writer, only: writer_t, begin_file
    use ek_decimal, only: put_decimal, get_decimal, longest_decimal
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: csv_text, write_csv, read_csv
+   public :: csv_text, csv_head, csv_row, write_csv, tell_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)   !! what Excel puts before "CSV UTF-8"
 
 contains
 
-   !> The table as text.
+   !> The table as text, for tests and benchmarks; a file is written row by row.
    pure function csv_text(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
-      character(:), allocatable :: head, buffer
-      character(max(size(table%values, 1)*(longest_decimal + 1), 1)) :: line
-      integer(i8) :: used            ! the states of a long sweep take more than 2^31 letters
-      integer :: row, k, filled
+      type(buffer_t) :: buffer
+      integer :: row
+
+      call buffer%add(csv_head(table))
+      do row = 1, size(table%values, 2)
+         call buffer%add(csv_row(table%values(:, row), table%is_whole))
+      end do
+      text = buffer%text()
+   end function csv_text
+
+   !> One row, with the end of its line.
+   pure function csv_row(values, is_whole) result(text)
+      real(wp), intent(in) :: values(:)
+      logical, intent(in) :: is_whole(:)        !! which are whole numbers
+      character(:), allocatable :: text
+      character(max(size(values)*(longest_decimal + 1), 1)) :: line
+      integer :: k, filled
       real(wp) :: value
 
-      head = head_text(table)
-      allocate (character(len(head) + size(table%values, 2)*len(line, i8)) :: buffer)
-      buffer(:len(head)) = head
-      used = len(head)
-      do row = 1, size(table%values, 2)
-         filled = 0
-         do k = 1, size(table%values, 1)
-            value = table%values(k, row)
-            if (table%is_whole(k)) value = whole(value)
-            call put_decimal(value, line, filled)
-            filled = filled + 1
-            line(filled:filled) = ','
-         end do
-         filled = max(filled, 1)     ! the last comma, where there is one
-         line(filled:filled) = line_end
-         buffer(used + 1:used + filled) = line(:filled)
-         used = used + filled
+      filled = 0
+      do k = 1, size(values)
+         value = values(k)
+         if (is_whole(k)) value = whole(value)
+         call put_decimal(value, line, filled)
+         filled = filled + 1
+         line(filled:filled) = ','
       end do
-      text = buffer(:used)
-   end function csv_text
+      filled = max(filled, 1)     ! the last comma, where there is one
+      line(filled:filled) = line_end
+      text = line(:filled)
+   end function csv_row
 
    !> The nearest whole number, where doubles have a fraction at all; nan stays nan.
    elemental real(wp) function whole(value)
@@ -57,7 +64,7 @@ contains
    end function whole
 
    !> The lines above the numbers.
-   pure function head_text(table) result(text)
+   pure function csv_head(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
       character(:), allocatable :: lines
@@ -78,13 +85,14 @@ contains
          text = text//trim(table%columns(k))
       end do
       text = text//line_end
-   end function head_text
+   end function csv_head
 
    !> Write the table; the file is there whole or not at all.
    subroutine write_csv(table, path, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error   !! exit_file
+      type(writer_t) :: writer
       integer :: k
 
       do k = 1, size(table%columns)
@@ -93,19 +101,45 @@ contains
             quoted(table%columns(k))//' holds a comma, a quote or a line end')
          return
       end do
-      call write_whole(path, csv_text(table), error)
+      call begin_file(writer, path, error)
+      if (allocated(error)) return
+      call writer%add(csv_head(table))
+      do k = 1, size(table%values, 2)
+         call writer%add(csv_row(table%values(:, k), table%is_whole))
+      end do
+      call writer%finish(error)
    end subroutine write_csv
 
+   !> The table to standard output, row by row.
+   subroutine tell_csv(table, error)
+      type(table_t), intent(in) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file; without words where nobody reads on
+      integer, parameter :: enough = 60000               ! letters at a time
+      type(buffer_t) :: buffer
+      integer :: k
+
+      call buffer%add(csv_head(table))
+      do k = 1, size(table%values, 2)
+         call buffer%add(csv_row(table%values(:, k), table%is_whole))
+         if (buffer%length() < enough) cycle
+         call write_standard_output(buffer%text(), error)
+         if (allocated(error)) return
+         call buffer%clear()
+      end do
+      call write_standard_output(buffer%text(), error)
+   end subroutine tell_csv
+
    !> Read a table back. Lines with # go to the header wherever they stand; empty lines are skipped.
-   subroutine read_csv(path, table, error)
+   subroutine read_csv(path, table, error, may_stream)
       character(*), intent(in) :: path
       type(table_t), intent(out) :: table
       type(error_t), allocatable, intent(out) :: error   !! exit_file: path:line: what is wrong
+      logical, intent(in), optional :: may_stream        !! see read_whole
       character(:), allocatable :: text, content
       integer :: first, last, line, rows
 
       table = new_table([character(1) ::], 0)
-      call read_whole(path, text, error)
+      call read_whole(path, text, error, may_stream)
       if (allocated(error)) return
       line = 0
       rows = -1                                          ! the names come first

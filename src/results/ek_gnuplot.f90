@@ -2,22 +2,19 @@
 !> its folder makes name.png and name.svg from the data files beside it.
 module ek_gnuplot
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_file
+   use ek_error, only: error_t, message_list_t
    use ek_text, only: str
-   use ek_file, only: write_whole, read_whole, remove_file, join_path, program_exists
+   use ek_file, only: write_whole, join_path
    use ek_figure, only: figure_t, panel_t
+   use ek_gnuplot_text, only: gnuplot_text, gnuplot_name, gnuplot_comment
+   use ek_drawing, only: run_gnuplot
    implicit none(type, external)
    private
-   public :: figure_script, write_figure, render_figures, run_gnuplot, gnuplot_text, shell_word, palette, script_name_t
+   public :: figure_script, write_figure, render_figures, gnuplot_text, palette
 
    !> Okabe and Ito's colours, which the colour-blind tell apart; the yellow is left out, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
       '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
-
-   !> Name of a script, with its extension.
-   type :: script_name_t
-      character(:), allocatable :: text
-   end type script_name_t
 
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! a longer legend stands on the right
@@ -42,63 +39,16 @@ contains
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message   !! '' when the pictures are there
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
-      type(script_name_t), allocatable :: scripts(:)
+      type(message_list_t) :: scripts, pictures
       integer :: k
 
-      allocate (scripts(size(figures)))
       do k = 1, size(figures)
-         scripts(k)%text = figures(k)%name//'.gp'
+         call scripts%add(figures(k)%name//'.gp')
+         call pictures%add(figures(k)%name//'.png')
+         call pictures%add(figures(k)%name//'.svg')
       end do
-      call run_gnuplot(scripts, folder, message, error)
+      call run_gnuplot(scripts, pictures, folder, message, error)
    end subroutine render_figures
-
-   !> Run gnuplot once, in a folder, over scripts that are there.
-   subroutine run_gnuplot(scripts, folder, message, error)
-      type(script_name_t), intent(in) :: scripts(:)
-      character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message   !! '' when the pictures are there, else why not
-      type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
-      character(:), allocatable :: command, log, said
-      type(error_t), allocatable :: unread
-      integer :: k, status, started
-
-      message = ''
-      if (size(scripts) == 0) return
-      if (.not. program_exists('gnuplot')) then
-         message = 'gnuplot is not installed: '//str(size(scripts))// &
-            ' scripts written, no pictures (later: gnuplot *.gp in '//folder//')'
-         return
-      end if
-      log = scripts(1)%text//'.log'
-      command = 'cd '//shell_word(folder)//' && exec gnuplot'
-      do k = 1, size(scripts)
-         command = command//' '//shell_word(scripts(k)%text)
-      end do
-      command = command//' >'//shell_word(log)//' 2>&1'
-      call execute_command_line(command, exitstat=status, cmdstat=started)
-      call read_whole(join_path(folder, log), said, unread)
-      call remove_file(join_path(folder, log))
-      if (status == 0 .and. started == 0) return
-      call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trim(said))
-   end subroutine run_gnuplot
-
-   !> A word that no shell looks into.
-   pure function shell_word(text) result(word)
-      character(*), intent(in) :: text
-      character(:), allocatable :: word
-      integer :: k
-
-      word = "'"
-      if (index(text, '-') == 1) word = "'./"
-      do k = 1, len(text)
-         if (text(k:k) == "'") then
-            word = word//"'\''"
-         else
-            word = word//text(k:k)
-         end if
-      end do
-      word = word//"'"
-   end function shell_word
 
    !> The script as text.
    pure function figure_script(figure) result(text)
@@ -114,12 +64,12 @@ contains
       right = 0.97_wp
       if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
 
-      call script%add('# '//figure%title)
+      call script%add(gnuplot_comment(figure%title))
       call script%add('#')
-      call script%add('#     gnuplot '//figure%name//'.gp')
+      call script%add(gnuplot_comment('    gnuplot '//figure%name//'.gp'))
       call script%add('#')
-      call script%add('# in this folder makes '//figure%name//'.png and .svg;')
-      call script%add("# gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.')
+      call script%add(gnuplot_comment('in this folder makes '//figure%name//'.png and .svg;'))
+      call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
       call script%add("if (!exists('formats')) formats = 'png svg'")
       call script%add('')
       call add_look(script)
@@ -294,22 +244,8 @@ contains
       if (index(name, '(') == 1) then
          text = name
       else
-         text = '"'//trim(name)//'"'
+         text = gnuplot_name(trim(name))
       end if
    end function field
-
-   !> Between single quotes, where gnuplot looks for nothing but a quote.
-   pure function gnuplot_text(text) result(literal)
-      character(*), intent(in) :: text
-      character(:), allocatable :: literal
-      integer :: k
-
-      literal = "'"
-      do k = 1, len(text)
-         literal = literal//text(k:k)
-         if (text(k:k) == "'") literal = literal//"'"
-      end do
-      literal = literal//"'"
-   end function gnuplot_text
 
 end module ek_gnuplot

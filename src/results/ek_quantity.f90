@@ -7,7 +7,7 @@ module ek_quantity
 
    !> A quantity as it is drawn: column without the wheel's name, title, unit and sign.
    type :: quantity_t
-      character(36) :: column = ''
+      character(48) :: column = ''
       character(34) :: title = ''
       character(60) :: label = ''
       real(wp) :: noise = 0.0_wp         !! unit of the column; a smaller span is drawn flat
@@ -50,7 +50,7 @@ module ek_quantity
       quantity_t('anti_lift_brake_percent', 'Anti-lift, braking', '%', 0.1_wp), &
       quantity_t('anti_squat_percent', 'Anti-squat', '%', 0.1_wp), &
       quantity_t('bump_steer_deg_per_m', 'Bump steer, local slope', 'deg/m    (+ to the left in bump)', 0.1_wp), &
-      quantity_t('roll_steer_deg_per_deg', 'Roll steer, local slope', 'deg/deg', 0.001_wp), &
+      quantity_t('roll_steer_deg_per_deg', 'Roll steer with tyres, local slope', 'deg/deg', 0.001_wp), &
       quantity_t('ackermann_percent', 'Ackermann', '%    (100: wheels roll about one point)', 0.1_wp), &
       quantity_t('ackermann_error_deg', 'Ackermann error', 'deg', 0.01_wp), &
       quantity_t('turning_circle_m', 'Turning circle', 'm', 0.1_wp), &
@@ -65,52 +65,55 @@ module ek_quantity
       quantity_t('total_track_mm', 'Total track', 'mm', 0.1_wp), &
       quantity_t('steering_ratio', 'Steering ratio', 'steering wheel over road wheel', 0.01_wp), &
       quantity_t('steering_wheel_deg', 'Steering wheel', 'deg    (+ left)', 0.1_wp), &
-      quantity_t('lateral_in_steer_deg_per_kn', 'Lateral compliance, steer', 'deg/kN    (in phase)', 1e-4_wp), &
-      quantity_t('lateral_in_camber_deg_per_kn', 'Lateral compliance, camber', 'deg/kN    (in phase)', 1e-4_wp), &
-      quantity_t('lateral_in_deflection_mm_per_kn', 'Lateral compliance, patch', 'mm/kN    (in phase)', 1e-3_wp)]
+      quantity_t('lateral_in_load_held_steer_deg_per_kn', 'Lateral compliance, steer', &
+      'deg/kN    (in phase, load held)', 1e-4_wp), &
+      quantity_t('lateral_in_load_held_camber_deg_per_kn', 'Lateral compliance, camber', &
+      'deg/kN    (in phase, load held)', 1e-4_wp), &
+      quantity_t('lateral_in_load_held_deflection_mm_per_kn', 'Lateral compliance, patch', &
+      'mm/kN    (in phase, load held)', 1e-3_wp)]
 
 contains
 
    !> The columns drawn for a kind of test, in order; the first ones matter most.
    pure function quantities_of(kind) result(columns)
       character(*), intent(in) :: kind
-      character(36), allocatable :: columns(:)
+      character(48), allocatable :: columns(:)
 
       select case (kind)
       case ('roll')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
             'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
             'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
       case ('steering')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
             'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
             'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
             'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
             'wall_to_wall_m', 'steering_rack_force_n']
       case ('lateral_force')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
             'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
       case ('aligning_torque')
-         columns = [character(36) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
       case ('braking', 'traction')
-         columns = [character(36) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
+         columns = [character(48) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
             'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
       case ('vertical_force')
-         columns = [character(36) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+         columns = [character(48) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
             'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
       case default
-         columns = [character(36) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
+         columns = [character(48) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
             'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
             'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
             'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
             'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
-            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_deflection_mm_per_kn', &
-            'lateral_in_steer_deg_per_kn', 'lateral_in_camber_deg_per_kn', 'side_view_angle_deg', &
+            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
+            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
             'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
-         if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(36) :: columns(:13), &
+         if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(48) :: columns(:13), &
             'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
-         if (kind == 'other') columns = [character(36) :: 'steer_deg', columns]
-         if (kind == 'table') columns = [character(36) :: 'wheel_travel_mm', 'steer_deg', columns]
+         if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
+         if (kind == 'table') columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
       end select
    end function quantities_of
 

@@ -9,7 +9,7 @@ module ek_scene_script
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
-   use ek_gnuplot, only: gnuplot_text
+   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    use ek_scene, only: scene_t, run_t, part_tyre, line_bump, line_rebound, parts, line_kinds
    implicit none(type, external)
    private
@@ -86,7 +86,8 @@ contains
 
    end subroutine fit_camera
 
-   !> A script that draws one scene as <name>.png and <name>.svg.
+   !> A script that draws one scene as <name>.png and <name>.svg. A name with a folder, '../x', is drawn there unless the
+   !> variable `to` names another place.
    pure function scene_script(scene, camera, name, title) result(text)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera
@@ -94,16 +95,18 @@ contains
       character(:), allocatable :: text
       type(buffer_t) :: script
 
-      call script%line('# '//title)
-      call script%line('# Run gnuplot in this folder to draw it again; to turn it: gnuplot -e "look=1" -p '//name//'.gp')
+      call script%line(gnuplot_comment(title))
+      call script%line(gnuplot_comment('Run gnuplot in this folder to draw it again; to turn it: gnuplot -e "look=1" -p '// &
+         name(index(name, '/', back=.true.) + 1:)//'.gp'))
+      call add_place(script, name)
       call add_look(script, camera)
       call add_blocks(script, scene)
       call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
          "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
-         gnuplot_text(name//'.svg')//' }')
+         place_of(name//'.svg')//' }')
       call add_splot(script, scene, .true.)
       call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
-         'linewidth 1.5 noenhanced; set output '//gnuplot_text(name//'.png')//'; replot; unset output }')
+         'linewidth 1.5 noenhanced; set output '//place_of(name//'.png')//'; replot; unset output }')
       text = script%text()
    end function scene_script
 
@@ -117,9 +120,10 @@ contains
       type(buffer_t) :: script
       integer :: k
 
-      call script%line('# '//title//': '//str(size(scenes))//' pictures, one after the other')
+      call script%line(gnuplot_comment(title//': '//str(size(scenes))//' pictures, one after the other'))
+      call add_place(script, name)
       call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
-      call script%line('set output '//gnuplot_text(name//'.gif'))
+      call script%line('set output '//place_of(name//'.gif'))
       call add_look(script, camera)
       do k = 1, size(scenes)
          call add_blocks(script, scenes(k))
@@ -130,6 +134,27 @@ contains
       call script%line('unset label 99')
       text = script%text()
    end function animation_script
+
+   !> Where a picture goes whose name has a folder.
+   pure subroutine add_place(script, name)
+      type(buffer_t), intent(inout) :: script
+      character(*), intent(in) :: name
+      integer :: slash
+
+      slash = index(name, '/', back=.true.)
+      if (slash > 0) call script%line("if (!exists('to')) to = "//gnuplot_text(name(:slash)))
+   end subroutine add_place
+
+   !> The picture of a name as gnuplot's expression.
+   pure function place_of(name) result(expression)
+      character(*), intent(in) :: name
+      character(:), allocatable :: expression
+      integer :: slash
+
+      slash = index(name, '/', back=.true.)
+      expression = gnuplot_text(name(slash + 1:))
+      if (slash > 0) expression = 'to.'//expression
+   end function place_of
 
    !> Equal axes without box, view, shading.
    pure subroutine add_look(script, camera)

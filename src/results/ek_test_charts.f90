@@ -22,7 +22,7 @@ contains
    pure subroutine test_charts(test, charts)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(out) :: charts(:)
-      character(36), allocatable :: columns(:)
+      character(48), allocatable :: columns(:)
       integer :: k
 
       allocate (charts(0))
@@ -33,10 +33,10 @@ contains
          call append_if_drawn(charts, quantity_chart(test, quantity_named(columns(k))))
       end do
       call append_if_drawn(charts, ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
-         'd(length)/d(wheel travel)    (− shortens in bump)'))
+         'd(length)/d(wheel travel)    (− shortens in bump)', 1.0e-3_wp))
       call append_if_drawn(charts, ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', &
-         'force, N    (+ compression)'))
-      call append_if_drawn(charts, ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m'))
+         'force, N    (+ compression)', 1.0_wp))
+      call append_if_drawn(charts, ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
       call append_if_drawn(charts, bushing_chart(test))
    end subroutine test_charts
 
@@ -77,14 +77,16 @@ contains
    end function quantity_chart
 
    !> All columns with an ending, named by what stands before it; quantities of wheels and joints apart.
-   pure type(chart_t) function ending_chart(test, name, ending, title, label) result(chart)
+   pure type(chart_t) function ending_chart(test, name, ending, title, label, noise) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, ending, title, label
+      real(wp), intent(in) :: noise              !! unit of the column; a smaller span is drawn flat
       character(name_length) :: stem
       integer :: k, place
 
       chart = chart_of(test, name, title, label)
       chart%has_key = .true.
+      chart%noise = noise
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(ending)
          if (place < 1 .or. size(chart%traces) >= most_curves) cycle
@@ -126,6 +128,7 @@ contains
 
       chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
+      chart%noise = 1.0_wp
       n = size(test%table%columns)
       allocate (names(n), places(3, n), peak(n), force(row_count(test%table), n))
       n = 0

@@ -1,6 +1,7 @@
 !> A sweep of one or two factors of a deck: the family of curves, and the responses of each design.
 module ek_factor_sweep
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
+   use ek_memory, only: ask_memory
    use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, set_value
@@ -13,6 +14,8 @@ module ek_factor_sweep
    use ek_study, only: study_t
    use ek_response, only: reading_t, prepare_reading, read_response
    use ek_subject, only: make_subject
+   use ek_csv, only: csv_head, csv_row
+   use ek_writer, only: writer_t
    implicit none(type, external)
    private
    public :: sweep_factors
@@ -20,19 +23,23 @@ module ek_factor_sweep
 contains
 
    !> Runs all designs. A design that cannot be built or solved is told in `troubles` and has no values.
-   subroutine sweep_factors(study, deck, curves, responses, troubles, error)
+   !>
+   !> The rows of a design are handed to the writers as soon as they are there; gnuplot wants an empty line after every curve,
+   !> and after every row of the grid that two factors make.
+   subroutine sweep_factors(study, deck, curves, responses, troubles, error, curve_writer, response_writer)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       type(table_t), intent(out) :: curves        !! design, factors, then the study's columns; one row a state
       type(table_t), intent(out) :: responses     !! design, factors, responses, converged; one row a design
       type(message_list_t), intent(out) :: troubles
       type(error_t), allocatable, intent(out) :: error   !! the study itself is wrong (a path, a column)
+      type(writer_t), intent(inout), optional :: curve_writer, response_writer
       type(table_t) :: table
       type(error_t), allocatable :: trouble
       type(reading_t), allocatable :: readings(:)
       real(wp), allocatable :: values(:), rows(:, :)
       character(:), allocatable :: label, unit
-      integer :: design, designs, first, second, i, j, f, n, used
+      integer :: design, designs, first, second, i, j, f, n, used, before
 
       n = size(study%factors)
       first = size(study%factors(1)%values)
@@ -59,18 +66,36 @@ contains
                   trim(label)//': '//trouble%message)
                if (allocated(error)) return
                call start_tables(study, readings, table, designs, curves, responses)
+               call ask_memory(16_i8*size(curves%columns)*designs*size(table%values, 2), &
+                  'a study of '//str(designs)//' designs', error)
+               if (allocated(error)) return
                deallocate (rows)
                allocate (rows(size(curves%columns), designs*size(table%values, 2)))
+               if (present(curve_writer)) call curve_writer%add(csv_head(curves))
+               if (present(response_writer)) call response_writer%add(csv_head(responses))
             end if
             responses%values(1, design) = design
             responses%values(2:n + 1, design) = values
             responses%values(size(responses%columns), design) = 0.0_wp
+            before = used
             if (allocated(trouble)) then
                call troubles%add(trim(label)//': '//trouble%message)
-               cycle
+            else
+               call take_curves(study, table, design, values, rows, used)
+               call take_responses(readings, table, n + 1, trim(label), responses%values(:, design), troubles)
             end if
-            call take_curves(study, table, design, values, rows, used)
-            call take_responses(readings, table, n + 1, trim(label), responses%values(:, design), troubles)
+            if (present(curve_writer)) then
+               if (before > 0 .and. used > before) call curve_writer%add(new_line('a'))
+               do f = before + 1, used
+                  call curve_writer%add(csv_row(rows(:, f), curves%is_whole))
+               end do
+               call curve_writer%flush()
+            end if
+            if (present(response_writer)) then
+               if (n == 2 .and. j == 1 .and. i > 1) call response_writer%add(new_line('a'))
+               call response_writer%add(csv_row(responses%values(:, design), responses%is_whole))
+               call response_writer%flush()
+            end if
          end do
       end do
       curves%values = rows(:, :used)

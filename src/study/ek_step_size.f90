@@ -18,7 +18,8 @@ module ek_step_size
    use ek_path, only: path_t, new_path, walk
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_table, only: table_t, new_table
-   use ek_csv, only: csv_text
+   use ek_csv, only: csv_head, csv_row
+   use ek_writer, only: writer_t
    use ek_study, only: study_t
    use ek_subject, only: make_subject
    implicit none(type, external)
@@ -31,21 +32,22 @@ module ek_step_size
 
 contains
 
-   !> The whole study as CSV text: column `method`, then those above, one row for each method and N.
-   subroutine step_size_text(study, deck, text, error)
+   !> The whole study as CSV text: column `method`, then those above, one row for each method and N. Each row is handed to
+   !> `writer` as soon as it is there.
+   subroutine step_size_text(study, deck, text, error, writer)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
+      type(writer_t), intent(inout), optional :: writer
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
       type(table_t) :: table
       type(attitude_t) :: exact, found
-      character(:), allocatable :: rows
       real(wp) :: closure, time
       logical :: is_reached
-      integer :: m, k, head
+      integer :: m, k
 
       call make_subject(deck, study%case, suspension, case, kkt, error)
       if (allocated(error)) return
@@ -80,19 +82,29 @@ contains
             call walk_once(suspension, case, kkt, found, closure, time, is_reached)
             table%values(1, k) = case%increments
             table%values(10, k) = merge(1.0_wp, 0.0_wp, is_reached)
-            if (.not. is_reached) cycle
-            table%values(2, k) = closure
-            table%values(3, k) = (found%centre(3) - exact%centre(3))/millimetre
-            table%values(4, k) = (found%toe - exact%toe)/degree
-            table%values(5, k) = (found%camber - exact%camber)/degree
-            table%values(6, k) = time
-            table%values(7:9, k) = [found%centre(3)/millimetre, found%toe/degree, found%camber/degree]
+            if (is_reached) then
+               table%values(2, k) = closure
+               table%values(3, k) = (found%centre(3) - exact%centre(3))/millimetre
+               table%values(4, k) = (found%toe - exact%toe)/degree
+               table%values(5, k) = (found%camber - exact%camber)/degree
+               table%values(6, k) = time
+               table%values(7:9, k) = [found%centre(3)/millimetre, found%toe/degree, found%camber/degree]
+            end if
+            if (len(text) == 0) call put('method,'//csv_head(table))
+            call put(trim(study%methods(m))//','//csv_row(table%values(:, k), table%is_whole))
          end do
-         rows = csv_text(table)
-         head = index(rows, new_line('a'))
-         if (m == 1) text = 'method,'//rows(:head)
-         text = text//prefixed(rows(head + 1:), trim(study%methods(m))//',')
       end do
+
+   contains
+
+      subroutine put(line)
+         character(*), intent(in) :: line
+         text = text//line
+         if (.not. present(writer)) return
+         call writer%add(line)
+         call writer%flush()
+      end subroutine put
+
    end subroutine step_size_text
 
    !> Walks a case to its end; attitude of the first wheel there, |Φ|, and the least time of a few walks.
@@ -126,21 +138,5 @@ contains
       call assemble(suspension, state, demand, residual_only, kkt)
       closure = norm2(kkt%values)
    end subroutine walk_once
-
-   !> Every line with a text in front.
-   pure function prefixed(lines, front) result(text)
-      character(*), intent(in) :: lines, front
-      character(:), allocatable :: text
-      integer :: from, length
-
-      text = ''
-      from = 1
-      do while (from <= len(lines))
-         length = index(lines(from:), new_line('a'))
-         if (length == 0) exit
-         text = text//front//lines(from:from + length - 1)
-         from = from + length
-      end do
-   end function prefixed
 
 end module ek_step_size

@@ -1,5 +1,5 @@
 # What the tests share: random poses, difference quotients, models of the reference solutions, readings of a state,
-# tables of a deck on the rig, plane linkages.
+# tables of a deck on the rig, plane linkages, a folder for files of a test, the program as its user runs it, its text against kept text.
 set(ek_laws_dir ${CMAKE_CURRENT_LIST_DIR})
 add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_random.f90
@@ -9,7 +9,11 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_reading.f90
   ${ek_laws_dir}/ek_trial.f90
   ${ek_laws_dir}/ek_rig_table.f90
-  ${ek_laws_dir}/ek_plane_linkage.f90)
+  ${ek_laws_dir}/ek_plane_linkage.f90
+  ${ek_laws_dir}/ek_scratch.f90
+  ${ek_laws_dir}/ek_program.f90
+  ${ek_laws_dir}/ek_reference_text.f90
+  ${ek_laws_dir}/ek_probe.f90)
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws
   INTERPROCEDURAL_OPTIMIZATION OFF)

@@ -12,6 +12,11 @@ shift
 log=$build/Testing/Temporary/LastTest.log
 results=$build/Testing/results.txt
 mkdir -p "$build/Testing/Temporary"
+# what ctest keeps is counted below: a second run in the same folder waits for the first
+if command -v flock >/dev/null; then
+  exec 9>"$build/Testing/lock"
+  flock 9
+fi
 rm -f "$log"
 { ctest --test-dir "$build" --output-on-failure "$@" 2>&1; echo "ctest status $?"; } | tee "$results" |
   grep -v '^ctest status [0-9]*$'

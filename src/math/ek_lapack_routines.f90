@@ -1,5 +1,7 @@
 !> Explicit interfaces to the LAPACK routines in use: argument mistakes are found by the compiler.
-module ek_lapack
+!>
+!> To be called through ek_lapack, which keeps floating-point traps out of the library.
+module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
@@ -119,4 +121,4 @@ module ek_lapack
       end subroutine dgelsd
    end interface
 
-end module ek_lapack
+end module ek_lapack_routines

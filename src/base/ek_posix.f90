@@ -1,0 +1,183 @@
+!> The functions of the C library that this program needs and Fortran does not offer, as they are.
+!>
+!> Functions of POSIX that take neither a structure nor a list of arguments of open length: no layout and no constant of a
+!> processor is needed. `__errno_location` is the name that glibc and musl give to errno. `flock` is not of POSIX, but
+!> of every Linux and BSD. What they are good for: ek_system, ek_writer, ek_process, ek_file.
+module ek_posix
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t
+   implicit none(type, external)
+   private
+   public :: c_fopen, c_fwrite, c_write, c_fflush, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir
+   public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
+      c_close
+   public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw
+   public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym
+
+   interface
+      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+         import :: c_ptr, c_char
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function c_fopen
+      integer(c_size_t) function c_fwrite(bytes, size, count, stream) bind(c, name='fwrite')
+         import :: c_ptr, c_char, c_size_t
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: size, count
+         type(c_ptr), value :: stream
+      end function c_fwrite
+      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
+         import :: c_int, c_char, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value :: count
+      end function c_write
+      integer(c_int) function c_fflush(stream) bind(c, name='fflush')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fflush
+      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fileno
+      integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_fsync
+      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fclose
+      integer(c_int) function c_rename(from, to) bind(c, name='rename')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function c_rename
+      integer(c_int) function c_symlink(target, path) bind(c, name='symlink')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: target(*), path(*)
+      end function c_symlink
+      integer(c_int) function c_remove(path) bind(c, name='remove')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_remove
+      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_mkdir
+      integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_rmdir
+      integer(c_int) function c_access(path, mode) bind(c, name='access')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_access
+      integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_isatty
+      integer(c_int) function c_close(descriptor) bind(c, name='close')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_close
+      integer(c_int) function c_dup(descriptor) bind(c, name='dup')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_dup
+      integer(c_int) function c_dup2(from, to) bind(c, name='dup2')
+         import :: c_int
+         integer(c_int), value :: from, to
+      end function c_dup2
+      integer(c_int) function c_flock(descriptor, operation) bind(c, name='flock')
+         import :: c_int
+         integer(c_int), value :: descriptor, operation
+      end function c_flock
+      type(c_ptr) function c_opendir(path) bind(c, name='opendir')
+         import :: c_ptr, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_opendir
+      type(c_ptr) function c_readdir(folder) bind(c, name='readdir')
+         import :: c_ptr
+         type(c_ptr), value :: folder
+      end function c_readdir
+      integer(c_int) function c_dirfd(folder) bind(c, name='dirfd')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: folder
+      end function c_dirfd
+      integer(c_int) function c_closedir(folder) bind(c, name='closedir')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: folder
+      end function c_closedir
+      integer(c_int) function c_fork() bind(c, name='fork')
+         import :: c_int
+      end function c_fork
+      integer(c_int) function c_execvp(file, words) bind(c, name='execvp')
+         import :: c_int, c_char, c_ptr
+         character(kind=c_char), intent(in) :: file(*)
+         type(c_ptr), intent(in) :: words(*)
+      end function c_execvp
+      subroutine c_exit_now(status) bind(c, name='_exit')
+         import :: c_int
+         integer(c_int), value :: status
+      end subroutine c_exit_now
+      integer(c_int) function c_chdir(path) bind(c, name='chdir')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_chdir
+      type(c_ptr) function c_getcwd_raw(letters, size) bind(c, name='getcwd')
+         import :: c_ptr, c_char, c_size_t
+         character(kind=c_char), intent(inout) :: letters(*)
+         integer(c_size_t), value :: size
+      end function c_getcwd_raw
+      integer(c_int) function c_setpgid(process, group) bind(c, name='setpgid')
+         import :: c_int
+         integer(c_int), value :: process, group
+      end function c_setpgid
+      integer(c_int) function c_alarm(seconds) bind(c, name='alarm')
+         import :: c_int
+         integer(c_int), value :: seconds
+      end function c_alarm
+      integer(c_int) function c_kill(process, number) bind(c, name='kill')
+         import :: c_int
+         integer(c_int), value :: process, number
+      end function c_kill
+      integer(c_int) function c_waitpid(process, status, options) bind(c, name='waitpid')
+         import :: c_int
+         integer(c_int), value :: process, options
+         integer(c_int), intent(inout) :: status
+      end function c_waitpid
+      integer(c_int) function c_poll(list, count, milliseconds) bind(c, name='poll')
+         import :: c_int, c_long, c_ptr
+         type(c_ptr), value :: list
+         integer(c_long), value :: count
+         integer(c_int), value :: milliseconds
+      end function c_poll
+      type(c_funptr) function c_signal(number, action) bind(c, name='signal')
+         import :: c_funptr, c_int
+         integer(c_int), value :: number
+         type(c_funptr), value :: action
+      end function c_signal
+      integer(c_int) function c_gethostname(letters, size) bind(c, name='gethostname')
+         import :: c_int, c_char, c_size_t
+         character(kind=c_char), intent(inout) :: letters(*)
+         integer(c_size_t), value :: size
+      end function c_gethostname
+      type(c_ptr) function c_errno() bind(c, name='__errno_location')
+         import :: c_ptr
+      end function c_errno
+      type(c_ptr) function c_strerror(number) bind(c, name='strerror')
+         import :: c_ptr, c_int
+         integer(c_int), value :: number
+      end function c_strerror
+      integer(c_size_t) function c_strlen(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+      end function c_strlen
+      type(c_funptr) function c_dlsym(handle, name) bind(c, name='dlsym')
+         import :: c_char, c_funptr, c_ptr
+         type(c_ptr), value :: handle
+         character(kind=c_char), intent(in) :: name(*)
+      end function c_dlsym
+   end interface
+
+end module ek_posix

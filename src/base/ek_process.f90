@@ -1,0 +1,135 @@
+!> Another program, run without a shell, in a folder of its own and not for ever.
+module ek_process
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_long, c_null_char, c_null_ptr, c_ptr, c_associated
+   use ek_kinds, only: wp
+   use ek_clock, only: seconds
+   use ek_error, only: message_list_t
+   use ek_posix, only: c_fopen, c_fileno, c_fclose, c_dup2, c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, &
+      c_kill, c_waitpid, c_poll
+   use ek_system, only: set_signal, system_reason, error_number
+   implicit none(type, external)
+   private
+   public :: run_program
+
+   integer, parameter :: sigkill = 9, sigpipe = 13, sigalrm = 14      !! the same on all systems
+
+contains
+
+   !> Runs a program, found in PATH, in `folder`; what it says goes to the file `log`, its standard input is empty.
+   !>
+   !> It and what it starts form a process group, which is killed when the time is up. Should this process itself be killed
+   !> meanwhile, an alarm ends the program soon after its time.
+   subroutine run_program(words, folder, log, limit, status, trouble)
+      type(message_list_t), intent(in) :: words               !! the program and its arguments
+      character(*), intent(in) :: folder, log                 !! log: a path seen from here
+      integer, intent(in) :: limit                            !! s
+      integer, intent(out) :: status                          !! exit status, 128 + number of a signal
+      character(:), allocatable, intent(out) :: trouble       !! why it could not be run to its end; '' where it was
+      character(kind=c_char), allocatable, target :: letters(:)
+      type(c_ptr), allocatable :: pointers(:)
+      type(c_ptr) :: said, nothing
+      character(:), allocatable :: place, program
+      integer(c_int) :: process
+      integer :: ignored
+
+      status = 127
+      trouble = ''
+      call argument_list(words, letters, pointers)
+      place = folder//c_null_char
+      program = words%line(1)//c_null_char
+      said = c_fopen(log//c_null_char, 'wbe'//c_null_char)
+      nothing = c_fopen('/dev/null'//c_null_char, 'rbe'//c_null_char)
+      if (.not. (c_associated(said) .and. c_associated(nothing))) then
+         trouble = 'cannot write '''//log//''': '//system_reason()
+      else
+         process = c_fork()
+         if (process == 0) then                                ! from here to execvp nothing but calls of the system
+            ignored = c_setpgid(0_c_int, 0_c_int)
+            call set_signal(sigpipe, is_ignored=.false.)
+            call set_signal(sigalrm, is_ignored=.false.)
+            ignored = c_alarm(int(limit + 5, c_int))
+            ignored = c_dup2(c_fileno(nothing), 0_c_int)
+            ignored = c_dup2(c_fileno(said), 1_c_int)
+            ignored = c_dup2(c_fileno(said), 2_c_int)
+            if (c_chdir(place) == 0) ignored = c_execvp(program, pointers)
+            call c_exit_now(127_c_int)
+         end if
+         if (process < 0) then
+            trouble = 'cannot start '//words%line(1)//': '//system_reason()
+         else
+            ignored = c_setpgid(process, process)              ! whoever comes first
+            call wait_for(process, limit, status, trouble)
+         end if
+      end if
+      if (c_associated(said)) ignored = c_fclose(said)
+      if (c_associated(nothing)) ignored = c_fclose(nothing)
+   end subroutine run_program
+
+   !> Waits for a process, and ends its group when the time is up.
+   subroutine wait_for(process, limit, status, trouble)
+      integer(c_int), intent(in) :: process
+      integer, intent(in) :: limit                            !! s
+      integer, intent(out) :: status
+      character(:), allocatable, intent(inout) :: trouble
+      integer(c_int), parameter :: at_once = 1, until_then = 0      ! WNOHANG
+      integer, parameter :: interrupted = 4                   ! EINTR
+      integer(c_int) :: word, found
+      integer :: nap, ignored
+      character(12) :: number
+      real(wp) :: deadline
+
+      status = 0                                              ! where another has taken its status, pictures are judged as they are
+      word = 0
+      nap = 1
+      deadline = seconds() + limit
+      do
+         found = c_waitpid(process, word, at_once)
+         if (found == process) exit
+         if (found < 0) then
+            if (error_number() == interrupted) cycle
+            return
+         end if
+         if (seconds() > deadline) then
+            ignored = c_kill(-process, int(sigkill, c_int))
+            do
+               found = c_waitpid(process, word, until_then)
+               if (found >= 0) exit
+               if (error_number() /= interrupted) exit
+            end do
+            write (number, '(i0)') limit
+            trouble = 'it did not end within '//trim(number)//' s and was stopped'
+            exit
+         end if
+         ignored = c_poll(c_null_ptr, 0_c_long, int(nap, c_int))
+         nap = min(2*nap, 20)                                  ! ms
+      end do
+      status = iand(ishft(int(word), -8), 255)
+      if (iand(int(word), 127) /= 0) status = 128 + iand(int(word), 127)
+   end subroutine wait_for
+
+   !> Words as C wants them.
+   subroutine argument_list(words, letters, pointers)
+      type(message_list_t), intent(in) :: words
+      character(kind=c_char), allocatable, target, intent(out) :: letters(:)
+      type(c_ptr), allocatable, intent(out) :: pointers(:)     !! into letters; a null at the end
+      character(:), allocatable :: word
+      integer :: k, j, used
+
+      used = 0
+      do k = 1, words%count()
+         used = used + len(words%line(k)) + 1
+      end do
+      allocate (letters(used), pointers(words%count() + 1))
+      used = 0
+      do k = 1, words%count()
+         word = words%line(k)//c_null_char
+         pointers(k) = c_loc(letters(used + 1))
+         do j = 1, len(word)
+            letters(used + j) = word(j:j)
+         end do
+         used = used + len(word)
+      end do
+      pointers(words%count() + 1) = c_null_ptr
+   end subroutine argument_list
+
+end module ek_process

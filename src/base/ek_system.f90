@@ -1,0 +1,268 @@
+!> What the system says: of files and folders, of failures, of this machine; and signals.
+!>
+!> Two things here are of Linux, each with a way out elsewhere: the place of the name in a `struct dirent` (where '.' is
+!> not found at it, a folder counts as empty), and the kind of a file, which comes from statx, the same on every
+!> processor (it is looked up when the program runs; where it is missing, kinds are unknown).
+module ek_system
+   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_intptr_t, c_null_char, c_null_ptr, c_funptr, &
+      c_null_funptr, c_ptr, c_size_t, c_associated, c_f_pointer, c_f_procpointer
+   use ek_kinds, only: i8
+   use ek_error, only: message_list_t
+   use ek_posix, only: c_opendir, c_readdir, c_closedir, c_flock, c_getcwd_raw, c_signal, c_gethostname, c_errno, &
+      c_strerror, c_strlen, c_dlsym
+   implicit none(type, external)
+   private
+   public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
+   public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, reason_of, system_reason, set_signal
+   public :: already_there, broken_pipe, not_for_this_kind
+
+   ! errno, the same on all systems
+   integer, parameter :: no_such_entry = 2, already_there = 17, no_folder = 20, not_for_this_kind = 22, broken_pipe = 32
+
+   integer, parameter :: unknown_file = -1, no_file = 0, regular_file = 1, folder_file = 2, device_file = 3, link_file = 4, &
+      other_file = 5                                !! other: a pipe with a name, a socket
+
+   !> What the system says of a path.
+   type :: facts_t
+      integer :: kind = unknown_file
+      integer(i8) :: inode = 0, device = 0          !! together: which file it is
+      integer(i8) :: changed = 0                    !! when it was written last [s since 1970]
+      integer(i8) :: owner = -1
+   end type facts_t
+
+   integer, parameter :: most_letters = 4096         !! of a path
+
+   abstract interface
+      integer(c_int) function statx_procedure(folder, path, flags, mask, facts) bind(c)
+         import :: c_int, c_char
+         implicit none(type, external)
+         integer(c_int), value :: folder, flags, mask
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: facts(*)
+      end function statx_procedure
+      integer(c_int) function random_procedure(bytes, count) bind(c)
+         import :: c_int, c_char, c_size_t
+         implicit none(type, external)
+         character(kind=c_char), intent(inout) :: bytes(*)
+         integer(c_size_t), value :: count
+      end function random_procedure
+   end interface
+
+contains
+
+   !> Kind, identity and age of a path; of a link itself where `follow` is false.
+   type(facts_t) function facts_of(path, follow) result(facts)
+      character(*), intent(in) :: path
+      logical, intent(in) :: follow
+      integer(c_int), parameter :: here = -100          ! AT_FDCWD
+      integer(c_int), parameter :: the_link = 256       ! AT_SYMLINK_NOFOLLOW
+      integer(c_int), parameter :: basic = 2047         ! STATX_BASIC_STATS
+      integer(i8), parameter :: kind_bits = 61440       ! S_IFMT, octal 170000
+      character(kind=c_char) :: buffer(256)             ! struct statx
+      procedure(statx_procedure), pointer :: statx
+      type(c_funptr) :: address
+
+      address = c_dlsym(c_null_ptr, 'statx'//c_null_char)
+      if (.not. c_associated(address)) return
+      call c_f_procpointer(address, statx)
+      buffer = c_null_char
+      if (statx(here, path//c_null_char, merge(0_c_int, the_link, follow), basic, buffer) /= 0) then
+         if (any(error_number() == [no_such_entry, no_folder])) facts%kind = no_file
+         return
+      end if
+      select case (iand(number_at(28, 2), kind_bits))
+      case (32768)
+         facts%kind = regular_file
+      case (16384)
+         facts%kind = folder_file
+      case (8192, 24576)
+         facts%kind = device_file
+      case (40960)
+         facts%kind = link_file
+      case default
+         facts%kind = other_file
+      end select
+      facts%owner = number_at(20, 4)
+      facts%inode = number_at(32, 8)
+      facts%changed = number_at(112, 8)
+      facts%device = number_at(136, 4)*2_i8**31 + number_at(140, 4)
+
+   contains
+
+      !> A whole number of the structure, the lowest byte first as on all processors in use.
+      integer(i8) function number_at(offset, bytes) result(number)
+         integer, intent(in) :: offset, bytes
+         integer :: k
+
+         number = 0
+         do k = bytes, 1, -1
+            number = ior(ishft(number, 8), int(iachar(buffer(offset + k)), i8))
+         end do
+      end function number_at
+
+   end function facts_of
+
+   !> The names in a folder, in the order of the system, without '.' and '..'; none where it cannot be read.
+   subroutine folder_names(path, names)
+      character(*), intent(in) :: path
+      type(message_list_t), intent(out) :: names
+      integer, parameter :: name_offset = 19            ! of d_name in struct dirent: Linux, 64 bits
+      integer, parameter :: most = 1024
+      type(c_ptr) :: folder, entry
+      character(kind=c_char), pointer :: letters(:)
+      character(most) :: name
+      integer :: k, ignored
+      logical :: is_understood
+
+      is_understood = .false.
+      folder = c_opendir(path//c_null_char)
+      if (.not. c_associated(folder)) return
+      do
+         entry = c_readdir(folder)
+         if (.not. c_associated(entry)) exit
+         call c_f_pointer(entry, letters, [name_offset + most])
+         do k = 1, most
+            if (letters(name_offset + k) == c_null_char) exit
+            name(k:k) = letters(name_offset + k)
+         end do
+         if (k == 2 .and. name(1:1) == '.') is_understood = .true.
+         if (k == 1 .or. k > most) cycle
+         if (name(:k - 1) == '.' .or. name(:k - 1) == '..') cycle
+         call names%add(name(:k - 1))
+      end do
+      ignored = c_closedir(folder)
+      if (.not. is_understood) names = message_list_t()
+   end subroutine folder_names
+
+   !> Whether this process alone now holds an open file or folder. The lock goes when the process ends, however it ends.
+   logical function try_lock(descriptor)
+      integer(c_int), intent(in) :: descriptor
+      integer(c_int), parameter :: alone_and_at_once = 6      ! LOCK_EX + LOCK_NB
+
+      try_lock = c_flock(descriptor, alone_and_at_once) == 0
+   end function try_lock
+
+   !> 16 letters that nobody can foresee. `attempt` keeps two of one moment apart where the system gives no random bytes.
+   function random_tag(attempt) result(tag)
+      integer, intent(in) :: attempt
+      character(16) :: tag
+      character(16), parameter :: digits = '0123456789abcdef'
+      character(kind=c_char) :: bytes(8)
+      procedure(random_procedure), pointer :: getentropy
+      type(c_funptr) :: address
+      integer(i8) :: ticks
+      integer :: k, value
+
+      address = c_dlsym(c_null_ptr, 'getentropy'//c_null_char)
+      bytes = c_null_char
+      k = -1
+      if (c_associated(address)) then
+         call c_f_procpointer(address, getentropy)
+         k = getentropy(bytes, 8_c_size_t)
+      end if
+      if (k /= 0) then
+         call system_clock(ticks)
+         ticks = ieor(ticks, ishft(int(attempt, i8), 40))
+         bytes = [(achar(int(iand(ishft(ticks, -8*k), 255_i8))), k=0, 7)]
+      end if
+      do k = 1, 8
+         value = iachar(bytes(k))
+         tag(2*k - 1:2*k - 1) = digits(value/16 + 1:value/16 + 1)
+         tag(2*k:2*k) = digits(modulo(value, 16) + 1:modulo(value, 16) + 1)
+      end do
+   end function random_tag
+
+   !> 8 letters that tell this running system from others that see the same folder: of its boot, else of its name.
+   !> Containers on one machine share it, as they share its locks.
+   function machine_tag() result(tag)
+      character(8) :: tag
+      character(64) :: text
+      character(kind=c_char) :: letters(65)
+      integer :: unit, status, k, filled
+
+      text = ''
+      open (newunit=unit, file='/proc/sys/kernel/random/boot_id', action='read', status='old', iostat=status)
+      if (status == 0) then
+         read (unit, '(a)', iostat=status) text
+         close (unit, iostat=k)
+      end if
+      if (status /= 0 .or. len_trim(text) < 8) then
+         letters = c_null_char
+         text = ''
+         if (c_gethostname(letters, 64_c_size_t) == 0) then
+            do k = 1, 64
+               if (letters(k) /= c_null_char) text(k:k) = letters(k)
+            end do
+         end if
+      end if
+      tag = '00000000'
+      filled = 0
+      do k = 1, len_trim(text)
+         if (filled == len(tag)) exit
+         if (verify(text(k:k), '0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ') > 0) cycle
+         filled = filled + 1
+         tag(filled:filled) = text(k:k)
+      end do
+   end function machine_tag
+
+   !> The working folder; '.' where it has no path.
+   function working_folder() result(path)
+      character(:), allocatable :: path
+      character(kind=c_char) :: letters(most_letters)
+      integer :: k
+
+      path = '.'
+      letters = c_null_char
+      if (.not. c_associated(c_getcwd_raw(letters, int(most_letters, c_size_t)))) return
+      path = ''
+      do k = 1, most_letters
+         if (letters(k) == c_null_char) exit
+         path = path//letters(k)
+      end do
+   end function working_folder
+
+   !> What a signal does: nothing (`is_ignored`), else what the system does by default.
+   subroutine set_signal(number, is_ignored)
+      integer, intent(in) :: number
+      logical, intent(in) :: is_ignored
+      type(c_funptr) :: action, ignored
+
+      action = c_null_funptr                                                        ! SIG_DFL
+      if (is_ignored) action = transfer(1_c_intptr_t, c_null_funptr)                ! SIG_IGN
+      ignored = c_signal(int(number, c_int), action)
+   end subroutine set_signal
+
+   !> The number of the last failure of the C library.
+   integer function error_number()
+      integer(c_int), pointer :: number
+
+      call c_f_pointer(c_errno(), number)
+      error_number = number
+   end function error_number
+
+   !> Why the last call of the C library failed, in its own words.
+   function system_reason() result(reason)
+      character(:), allocatable :: reason
+
+      reason = reason_of(error_number())
+   end function system_reason
+
+   !> The words of a number of error_number.
+   function reason_of(number) result(reason)
+      integer, intent(in) :: number
+      character(:), allocatable :: reason
+      character(kind=c_char), pointer :: letters(:)
+      type(c_ptr) :: text
+      integer :: k
+
+      text = c_strerror(int(number, c_int))
+      reason = 'unknown reason'
+      if (.not. c_associated(text)) return
+      call c_f_pointer(text, letters, [c_strlen(text)])
+      reason = repeat(' ', size(letters))
+      do k = 1, size(letters)
+         reason(k:k) = letters(k)
+      end do
+   end function reason_of
+
+end module ek_system

@@ -1,0 +1,214 @@
+!> Why a path ended, and which of its states a real suspension would leave.
+module ek_failure_words
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_units, only: millimetre
+   use ek_text, only: str, quoted, plural
+   use ek_measure, only: measure_value
+   use ek_spring, only: stop_spring, spring_tension
+   use ek_suspension, only: suspension_t, body_name
+   use ek_case, only: case_t
+   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_schedule, only: new_schedule, demand_at
+   use ek_kkt, only: kkt_t
+   use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_break, only: break_t, why_it_ends, lock, limit_point
+   use ek_path, only: path_t
+   use ek_reach, only: failure_t
+   use ek_sweep_table, only: factor_unit, nearly_singular
+   use ek_run_words, only: has_spring
+   implicit none(type, external)
+   private
+   public :: failure_words, stability_words
+
+   integer, parameter :: digits = 10      !! of the place where a path ends, which is found to 1e-9 of the range
+
+contains
+
+   !> Where a path ends, and what ends it: joints that lock, a load that has its maximum, a mechanism; stops in contact.
+   function failure_words(suspension, case, path, failure, kkt) result(text)
+      type(suspension_t), intent(in) :: suspension     !! on the rig
+      type(case_t), intent(in) :: case                 !! likewise
+      type(path_t), intent(in) :: path
+      type(failure_t), intent(in) :: failure
+      type(kkt_t), intent(inout) :: kkt                !! work space
+      character(:), allocatable :: text
+
+      text = 'case '//quoted(case%name)//': '
+      if (.not. path%is_settled) then
+         text = text//'no equilibrium under the constant loads'
+      else if (path%is_table) then
+         text = text//row_words(path, failure)
+      else if (failure%is_off_path) then
+         text = text//'method '//case%method//' has left the path from design: its states from '// &
+            place_words(suspension, case, path%value(failure%state))//' on are marked converged = 0; use more increments, or '// &
+            'method ''equilibrium'''
+         return
+      else
+         text = text//'no equilibrium at '//place_words(suspension, case, path%value(failure%state))//' (state '// &
+            str(failure%state - 1)//'); the last one is at '//place_words(suspension, case, failure%reached)
+      end if
+      text = text//reason_words(suspension, case, path, failure, kkt)
+   end function failure_words
+
+   !> What is singular at the last equilibrium; without a reason, what the last attempt moved and could not close.
+   function reason_words(suspension, case, path, failure, kkt) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(failure_t), intent(in) :: failure
+      type(kkt_t), intent(inout) :: kkt
+      character(:), allocatable :: text
+      type(break_t) :: found
+      type(diagnosis_t) :: diagnosis
+      type(state_t) :: state
+      type(demand_t) :: demand
+
+      text = ''
+      state = design_state(suspension)
+      if (allocated(failure%last)) then
+         call unpack_state(failure%last, state)
+         if (path%is_settled .and. .not. path%is_table) call demand_at(new_schedule(suspension, case), failure%reached, demand)
+         call why_it_ends(suspension, state, demand, kkt, found)
+         call diagnose(suspension, state, kkt, diagnosis)
+      end if
+      select case (found%reason)
+      case (lock)
+         text = '; there the joints '//joint_list(suspension, found%locks)//' lock: they cannot be assembled any further'
+      case (limit_point)
+         text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))//' gives way'
+         if (path%is_settled .and. is_loaded(case)) text = text//': drive the travel instead of the load'
+      case default
+         if (failure%is_singular) text = '; the matrix is singular there'
+         if (failure%body > 0) text = text//'; body '//quoted(body_name(suspension, failure%body))// &
+            ' moved most in the last attempt ('//str(failure%moved/millimetre, 3)//' mm)'
+         if (failure%row > 0) text = text//'; joint '// &
+            quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)//' is furthest from closing'
+      end select
+      text = text//stop_words(suspension, state)
+      if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) text = text//'; the deck has no spring'
+      if (found%reason == lock) return
+      if (.not. diagnosis%is_solvable()) text = text//new_line('a')//diagnosis%words()
+   end function reason_words
+
+   !> 'wheel travel = 12.5 mm'.
+   function place_words(suspension, case, value) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+
+      text = case%place_name//' = '//str(value/factor_unit(suspension, case), digits)
+      if (case%unit_name /= '-') text = text//' '//case%unit_name
+   end function place_words
+
+   !> Whether the case scales loads.
+   pure logical function is_loaded(case)
+      type(case_t), intent(in) :: case
+      integer :: k
+
+      is_loaded = len(case%load) > 0
+      if (.not. allocated(case%courses)) return
+      do k = 1, size(case%courses)
+         is_loaded = is_loaded .or. len(case%courses(k)%load) > 0
+      end do
+   end function is_loaded
+
+   !> 'a', 'b' and 'c'.
+   function joint_list(suspension, is_named) result(text)
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: is_named(:)
+      character(:), allocatable :: text
+      integer :: k, named
+
+      text = ''
+      named = 0
+      do k = 1, size(is_named)
+         if (.not. is_named(k)) cycle
+         named = named + 1
+         if (named > 1) text = text//trim(merge(' and', ',   ', named == count(is_named)))//' '
+         text = text//quoted(suspension%joints(k)%name)
+      end do
+   end function joint_list
+
+   !> Stops in contact, with what they carry.
+   function stop_words(suspension, state) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      character(:), allocatable :: text
+      real(wp) :: tension, slope
+      integer :: k
+
+      text = ''
+      do k = 1, size(suspension%springs)
+         associate (spring => suspension%springs(k))
+            if (spring%kind /= stop_spring) cycle
+            call spring_tension(spring, measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
+               state%poses(spring%measure%body_j + 1)), tension, slope)
+            if (abs(tension) > 0.0_wp) text = text//'; stop '//quoted(spring%name)//' is in contact ('// &
+               str(abs(tension), 4)//' N)'
+         end associate
+      end do
+   end function stop_words
+
+   !> 'row 3 of the table was not found; …', or 'rows 3, 4, 7 … of the table, 12 in all, were …'.
+   function row_words(path, failure) result(text)
+      type(path_t), intent(in) :: path
+      type(failure_t), intent(in) :: failure
+      character(:), allocatable :: text
+      integer, parameter :: most_named = 10
+      integer :: k, lost, row
+
+      text = ''
+      lost = 0
+      do k = 1, path%states
+         if (path%is_reached(k)) cycle
+         lost = lost + 1
+         if (lost > most_named) cycle
+         if (lost > 1) text = text//', '
+         text = text//str(nint(path%value(k)))
+      end do
+      if (lost == 1) then
+         text = 'row '//text//' of the table was not found'
+      else if (lost <= most_named) then
+         text = 'rows '//text//' of the table were not found'
+      else
+         text = 'rows '//text//' … of the table, '//str(lost)//' in all, were not found'
+      end if
+      row = nint(path%value(failure%state))
+      text = text//'; on the way to row '//str(row)//' from '
+      if (row == 1) then
+         text = text//'design'
+      else
+         text = text//'row '//str(row - 1)
+      end if
+      text = text//' the last equilibrium is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
+   end function row_words
+
+   !> A line each: states with a negative stiffness, bifurcations on the path, matrices that are nearly singular.
+   subroutine stability_words(suspension, case, path, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(message_list_t), intent(inout) :: words
+      integer :: unstable, first, k
+
+      first = minloc(path%pivot_ratio, dim=1, mask=path%is_reached)
+      if (first > 0) then
+         if (path%pivot_ratio(first) < nearly_singular) call words%add('the matrix is nearly singular (least over largest '// &
+            'pivot '//str(path%pivot_ratio(first), 2)//') at '//place_words(suspension, case, path%value(first))// &
+            ' (column near_singular); see elastokin check')
+      end if
+      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness to tell by
+      do k = 1, path%crossings
+         call words%add('bifurcation at '//place_words(suspension, case, path%crossing_place(k))// &
+            ': another branch of equilibria begins there; the results follow the one whose tangent is continuous')
+      end do
+      unstable = count(path%is_reached .and. .not. path%is_stable)
+      if (unstable == 0) return
+      first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
+      call words%add(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or buckled; '// &
+         'column stable), the first at '//place_words(suspension, case, path%value(first)))
+   end subroutine stability_words
+
+end module ek_failure_words

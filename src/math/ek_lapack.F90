@@ -1,0 +1,193 @@
+!> The LAPACK routines in use, with floating-point traps kept to our own code.
+!>
+!> In a build whose compiler traps invalid operations (EK_TRAPS, the debug preset) each routine is wrapped: no trap while the
+!> library computes. Vector kernels compute on lanes that nobody reads: the SSE3 dsymv of OpenBLAS, taken on a processor that it
+!> does not know, ends a program with traps by SIGFPE on sound numbers. Elsewhere the names are the routines themselves, at no cost.
+!>
+!> A wrapper changes the halting modes, and the processor restores them when it returns (Fortran 2018, 17.6). Flags that the
+!> library raised are cleared before, or they would trap as modes are restored.
+module ek_lapack
+#ifdef EK_TRAPS
+   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_invalid, ieee_divide_by_zero, ieee_overflow
+   use ek_kinds, only: wp
+   use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
+      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, lapack_dgeqp3 => dgeqp3, &
+      lapack_dgelsd => dgelsd
+#else
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3, dgelsd
+#endif
+   implicit none(type, external)
+   private
+   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3, dgelsd
+
+#ifdef EK_TRAPS
+contains
+
+   !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
+   pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, lda, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*)
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dsytrf
+
+   !> Solution with the factors of dsytrf.
+   pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(in) :: a(lda, *)
+      integer, intent(in) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dsytrs
+
+   !> Reciprocal condition number (1-norm) from the factors of dsytrf.
+   pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, lda
+      real(wp), intent(in) :: a(lda, *)
+      integer, intent(in) :: ipiv(*)
+      real(wp), intent(in) :: anorm
+      real(wp), intent(out) :: rcond
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: iwork(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dsycon
+
+   !> Factor and solve in one call: the unit of the benchmark.
+   pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dsysv
+
+   !> Factor (LU, partial pivoting) and solve a general system.
+   pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dgesv
+
+   !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
+   pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+      character, intent(in) :: jobz, uplo
+      integer, intent(in) :: n, lda, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      real(wp), intent(out) :: w(*)
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dsyev
+
+   !> Singular value decomposition.
+   pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+      character, intent(in) :: jobu, jobvt
+      integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      real(wp), intent(out) :: s(*), u(ldu, *), vt(ldvt, *)
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dgesvd
+
+   !> QR with column pivoting: reveals the rank.
+   pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
+      integer, intent(in) :: m, n, lda, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(inout) :: jpvt(*)
+      real(wp), intent(out) :: tau(*), work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dgeqp3
+
+   !> Least squares of least norm, any rank.
+   pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+      integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+      real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+      real(wp), intent(out) :: s(*)
+      real(wp), intent(in) :: rcond
+      integer, intent(out) :: rank
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: iwork(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
+      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call lapack_dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+      call ieee_set_flag(ieee_invalid, .false.)
+      call ieee_set_flag(ieee_divide_by_zero, .false.)
+      call ieee_set_flag(ieee_overflow, .false.)
+   end subroutine dgelsd
+#endif
+
+end module ek_lapack
