@@ -19,8 +19,8 @@ module ek_arc_survey
    integer, parameter, public :: gone_on = 4        !! too many steps
 
    integer, parameter, public :: most_limits = 16   !! that are told
+   integer, parameter, public :: most_steps = 20000 !! of one path
 
-   integer, parameter :: most_steps = 20000
    real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
    real(wp), parameter :: farthest = 3.0_wp         !! m: no suspension moves that far
    real(wp), parameter :: far_off = 100.0_wp        !! ranges

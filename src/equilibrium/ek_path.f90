@@ -47,8 +47,8 @@ module ek_path
       logical :: is_table = .false.               !! rows of a table, each a state of its own
       integer :: crossings = 0                    !! bifurcations that the path goes through
       real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
-      integer :: limits = 0                       !! limit points, of a path that is walked by its arc length
-      real(wp) :: limit_place(2*most_limits) = 0.0_wp       !! their places
+      integer :: limits = 0                       !! limit points, where the path is walked by its arc length; and their places
+      real(wp) :: limit_place(2*most_limits) = 0.0_wp
       integer :: limit_state(2*most_limits) = 0   !! index of the nearest state; 0: before the range begins
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
