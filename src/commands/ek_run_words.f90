@@ -181,7 +181,8 @@ contains
          if (.not. drift%is_known) then
             call add_line(lost, 'case '//quoted(case%name)//', method '//case%method// &
                ': no equilibrium was found near the state at factor '// &
-               str(path%value(k)/factor_unit(suspension, case))//'; the linear method has left the range that the suspension can reach')
+               str(path%value(k)/factor_unit(suspension, case))// &
+               '; the linear method has left the range that the suspension can reach')
          else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
             call warn('case '//quoted(case%name)//', method '//case%method//': at factor '// &
                str(path%value(k)/factor_unit(suspension, case))//' the state is off equilibrium by '// &

@@ -66,6 +66,11 @@ contains
       stride = max(1, (abs(end - first) + most_looks)/most_looks)
       sure = first - direction
       k = first
+      if (abs(place(first)) <= 0.0_wp) then       ! design itself
+         sure = first
+         if (end == first) return
+         k = first + sign(min(stride, abs(end - first)), direction)
+      end if
       do
          call reach(suspension, schedule, place(k), default_tolerance, predictor, branch, exact, kkt, iterations, lost)
          if (lost%state > 0) then
