@@ -27,7 +27,7 @@ module ek_arc
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, demand_rate, &
       motion_between, move_as_screw
    use ek_schedule, only: schedule_t, demand_at
-   use ek_kkt, only: kkt_t, assemble, assemble_rate, whole_tangent, residual_only
+   use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, whole_tangent, residual_only
    use ek_lapack, only: dgesv
    implicit none(type, external)
    private
@@ -53,6 +53,7 @@ module ek_arc
       real(wp) :: width = 0.0_wp                     !! of the segment; 0: there is none yet
       real(wp) :: step = first_step                  !! that is tried next
       real(wp) :: place_a = 0.0_wp, place_b = 0.0_wp
+      integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N
       real(wp), allocatable :: packed_a(:), packed_b(:)      !! states, see ek_state
       real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; place] per length
       real(wp), allocatable :: tangent_0(:)                  !! likewise where the walk began
@@ -117,6 +118,7 @@ contains
       self%tangent_a = 0.0_wp
       self%tangent_a(kkt%n + 1) = merge(self%range, -self%range, upward)
       call find_tangent(self, suspension, schedule, kkt, is_found)
+      self%negative_a = kkt%negative
       self%tangent_a = self%tangent
       self%tangent_0 = self%tangent
    end subroutine begin
@@ -135,6 +137,7 @@ contains
          self%packed_a = self%packed_b
          self%tangent_a = self%tangent_b
          self%place_a = self%place_b
+         self%negative_a = self%negative_b
       end if
       do
          call probe(self, suspension, schedule, self%step, kkt, is_found)
@@ -155,6 +158,7 @@ contains
       call pack_state(self%state, self%packed_b)
       self%place_b = self%place
       self%tangent_b = self%tangent
+      self%negative_b = kkt%negative
       self%width = self%step
       self%step = min(longest_step, self%step*min(4.0_wp, good_turn/max(turn, 0.1_wp*good_turn)))
 
@@ -205,7 +209,7 @@ contains
       end do
    end subroutine probe
 
-   !> The unit tangent at self%state, in self%tangent; its sense is that of the tangent at a.
+   !> The unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
    !>
    !> Where N is only the symmetric part of the true matrix the residual's own derivative along the tangent corrects it.
    subroutine find_tangent(self, suspension, schedule, kkt, is_found)
@@ -239,6 +243,7 @@ contains
          if (k > 0 .and. length <= exact) exit
       end do
       is_found = abs(self%tangent(kkt%n + 1)) < huge(length)      ! a number
+      call factorise(kkt)
 
    contains
 

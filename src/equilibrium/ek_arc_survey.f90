@@ -18,7 +18,7 @@ module ek_arc_survey
    integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
    integer, parameter, public :: gone_on = 4        !! too many steps
 
-   integer, parameter, public :: most_limits = 16   !! that are told
+   integer, parameter, public :: most_limits = 16   !! limit points, and bifurcations, that are told
    integer, parameter, public :: most_steps = 20000 !! of one path
 
    real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
@@ -35,6 +35,8 @@ module ek_arc_survey
       real(wp) :: last_place = 0.0_wp                            !! where the path was followed to
       integer :: limits = 0
       real(wp) :: limit_place(most_limits) = 0.0_wp, limit_length(most_limits) = 0.0_wp
+      integer :: crossings = 0
+      real(wp) :: crossing_place(most_limits) = 0.0_wp
    end type survey_t
 
 contains
@@ -72,6 +74,11 @@ contains
          place = arc%place_b
          has_top = arc%tangent_a(kkt%n + 1)*arc%tangent_b(kkt%n + 1) < 0.0_wp
          if (has_top) call find_limit(arc, suspension, schedule, kkt, top, place)
+         ! a limit point of a load changes the inertia by one, what else changes it is a bifurcation
+         if (arc%negative_a /= arc%negative_b .and. .not. has_top) then
+            found%crossings = min(found%crossings + 1, most_limits)
+            call find_crossing(arc, suspension, schedule, kkt, found%crossing_place(found%crossings))
+         end if
          call look_between(0.0_wp, arc%place_a, top, place)
          if (found%ending == arrived) return
          if (.not. has_top) cycle
@@ -184,6 +191,38 @@ contains
       ! what is left of the way is a bit of a parabola
       if (abs(slope)*(high - low) > abs(f)) place = place - 0.5_wp*arc%range*f**2/slope
    end subroutine find_limit
+
+   !> The place on the segment at hand where the inertia changes, by bisection.
+   subroutine find_crossing(arc, suspension, schedule, kkt, place)
+      type(arc_t), intent(inout) :: arc
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: place
+      integer, parameter :: most_probes = 20     ! 1e-6 of a step
+      real(wp) :: low, high, place_low, place_high, width
+      logical :: is_found
+      integer :: k
+
+      low = 0.0_wp
+      high = arc%width
+      place_low = arc%place_a
+      place_high = arc%place_b
+      do k = 1, most_probes
+         width = 0.5_wp*(low + high)
+         call probe(arc, suspension, schedule, width, kkt, is_found)
+         if (is_found) call find_tangent(arc, suspension, schedule, kkt, is_found)
+         if (.not. is_found) exit
+         if (kkt%negative == arc%negative_a) then
+            low = width
+            place_low = arc%place
+         else
+            high = width
+            place_high = arc%place
+         end if
+      end do
+      place = 0.5_wp*(place_low + place_high)
+   end subroutine find_crossing
 
    !> Where a place is met on a part of the segment at hand.
    subroutine find_place(arc, suspension, schedule, kkt, goal, from, place_from, to, place_to, width)

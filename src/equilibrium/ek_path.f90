@@ -12,7 +12,7 @@ module ek_path
    use ek_kkt, only: kkt_t
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
-   use ek_branch, only: branch_t, new_branch, leave, most_crossings
+   use ek_branch, only: branch_t, new_branch, leave, note_crossing, most_crossings
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
    use ek_arc_survey, only: survey_t, survey, go_to, length_at, tell_limits, most_limits, arrived
@@ -256,10 +256,8 @@ contains
          type(failure_t), intent(inout) :: failure
          integer :: k
 
-         if (is_along_arc) then
-            call walk_arc(first, last, direction, failure)
-            return
-         end if
+         if (is_along_arc) call walk_arc(first, last, direction, failure)
+         if (is_along_arc) return
          if (first == path%start) then
             call restart()
             call seed(first, -direction)
@@ -271,31 +269,30 @@ contains
          end do
       end subroutine walk_branch
 
-      !> States `first` to `last` at equal distances along the path. Where it does not come to the place of the last
-      !> one, the others are shared out over what there is.
+      !> States `first` to `last`, at equal distances along the path; the last is left out where the path does not come there.
       subroutine walk_arc(first, last, direction, failure)
          integer, intent(in) :: first, last, direction
          type(failure_t), intent(inout) :: failure
          type(survey_t) :: found
-         real(wp) :: far
          integer :: k, spent
          logical :: is_found
 
          if (first == last) return
-         far = path%value(last)
-         call survey(arc, suspension, schedule, path%settled, path%value(first), far, kkt, found)
+         call survey(arc, suspension, schedule, path%settled, path%value(first), path%value(last), kkt, found)
          call tell_limits(found, first, last, path%limits, path%limit_place, path%limit_state)
-         call begin(arc, suspension, schedule, path%settled, 0.0_wp, far > 0.0_wp, kkt, is_found)
+         do k = 1, found%crossings
+            call note_crossing(branch, found%crossing_place(k))
+         end do
+         call begin(arc, suspension, schedule, path%settled, 0.0_wp, path%value(last) > 0.0_wp, kkt, is_found)
          do k = first, last, direction
             if (k == path%start) cycle
             if (.not. is_found .or. (k == last .and. found%ending /= arrived)) exit
             spent = arc%factorisations
             call go_to(arc, suspension, schedule, length_at(found, k, first, last), kkt, is_found)
             if (.not. is_found) exit
-            if (k == last) arc%place = far          ! it is but for rounding
             state%poses(:) = arc%state%poses
             state%reaction(:) = arc%state%reaction
-            if (k /= first) path%value(k) = arc%place
+            if (k /= first .and. k /= last) path%value(k) = arc%place     ! those are but for rounding
             path%iterations(k) = arc%factorisations - spent + 1
             call keep(k)
          end do
