@@ -55,11 +55,6 @@ contains
          call fail(error, exit_deck, deck%file//': a step-size study compares a wheel, and the deck has none')
          return
       end if
-      if (case%follows_arc) then
-         call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' has follow = ''arc''; a step-size study goes '// &
-            'over the factor')
-         return
-      end if
       if (study%end == 'from') case%to = case%from
       if (.not. abs(case%to) > 0.0_wp) then
          call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' begins at the end that is studied; take the other')
