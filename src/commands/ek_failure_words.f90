@@ -11,8 +11,9 @@ module ek_failure_words
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
+   use ek_motion_words, only: motion_words
    use ek_diagnosis, only: diagnosis_t, diagnose
-   use ek_break, only: break_t, why_it_ends, lock, limit_point
+   use ek_break, only: break_t, why_it_ends, lock, limit_point, mechanism
    use ek_path, only: path_t
    use ek_reach, only: failure_t
    use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
@@ -104,8 +105,10 @@ contains
          text = '; there the joints '//joint_list(suspension, found%locks)//' lock: they cannot be assembled any further'
       case (limit_point)
          text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))//' gives way'
-         if (path%is_settled .and. is_loaded(case)) text = text// &
+         if (path%is_settled .and. is_loaded(case) .and. .not. case%follows_arc) text = text// &
             ': drive the travel instead of the load, or walk along the path (follow = ''arc'')'
+      case (mechanism)
+         text = '; the matrix is singular there: nothing holds body '//quoted(body_name(suspension, found%body))
       case default
          if (failure%is_singular) text = '; the matrix is singular there'
          if (failure%body > 0) text = text//'; body '//quoted(body_name(suspension, failure%body))// &
@@ -116,7 +119,11 @@ contains
       text = text//stop_words(suspension, state)
       if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) text = text//'; the deck has no spring'
       if (found%reason == lock) return
-      if (.not. diagnosis%is_solvable()) text = text//new_line('a')//diagnosis%words()
+      if (found%reason == mechanism) then
+         text = text//new_line('a')//'mechanism: '//motion_words(suspension, state, kkt, found%motion)
+      else if (.not. diagnosis%is_solvable()) then
+         text = text//new_line('a')//diagnosis%words()
+      end if
    end function reason_words
 
    !> 'wheel travel = 12.5 mm'.
@@ -164,6 +171,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       character(:), allocatable :: text
+      real(wp), parameter :: felt = 1.0e-3_wp     ! N
       real(wp) :: tension, slope
       integer :: k
 
@@ -173,7 +181,7 @@ contains
             if (spring%kind /= stop_spring) cycle
             call spring_tension(spring, measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
                state%poses(spring%measure%body_j + 1)), tension, slope)
-            if (abs(tension) > 0.0_wp) text = text//'; stop '//quoted(spring%name)//' is in contact ('// &
+            if (abs(tension) > felt) text = text//'; stop '//quoted(spring%name)//' is in contact ('// &
                str(abs(tension), 4)//' N)'
          end associate
       end do

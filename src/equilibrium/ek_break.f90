@@ -2,8 +2,8 @@
 !>
 !> Near the end of a path N is nearly singular, and so is one of two matrices, scaled as in ek_scale: Φq, whose least
 !> singular value goes to zero where the assembly of the joints closes (a lock), or Zᵀ T Z, Z a basis of the motions
-!> that the joints leave, whose least eigenvalue does where the load has its maximum (a limit point). Each is compared
-!> with itself at design.
+!> that the joints leave, whose least eigenvalue does where the load has its maximum (a limit point) or a body is let go
+!> (a mechanism: a slide leaves the stop that held it). Each is compared with itself at design.
 module ek_break
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -12,18 +12,20 @@ module ek_break
    use ek_lapack, only: dgesvd, dsyev
    implicit none(type, external)
    private
-   public :: break_t, why_it_ends, no_reason, lock, limit_point
+   public :: break_t, why_it_ends, no_reason, lock, limit_point, mechanism
 
-   integer, parameter :: no_reason = 0, lock = 1, limit_point = 2
+   integer, parameter :: no_reason = 0, lock = 1, limit_point = 2, mechanism = 3
 
    real(wp), parameter :: vanished = 1.0e-2_wp     !! of the value at design; at 1e-9 of the range from the end it is some 1e-4
+   real(wp), parameter :: gone = 1.0e-6_wp         !! likewise: not where a load has its maximum, but where nothing holds a body
    real(wp), parameter :: takes_part = 0.3_wp      !! of the largest part of a left singular vector: joints that are named
 
    !> What is singular.
    type :: break_t
       integer :: reason = no_reason
       logical, allocatable :: locks(:)      !! joints that hold each other, of a lock
-      integer :: body = 0                   !! that moves most without stiffness, of a limit point
+      integer :: body = 0                   !! that moves most without stiffness
+      real(wp), allocatable :: motion(:)    !! without stiffness, scaled unknowns; of a limit point or a mechanism
    end type break_t
 
 contains
@@ -48,7 +50,8 @@ contains
             if (abs(left(k)) > takes_part*maxval(abs(left))) found%locks(suspension%rows(k)%joint) = .true.
          end do
       else if (abs(stiffness(2)) < vanished*abs(stiffness(1))) then
-         found%reason = limit_point
+         found%reason = merge(mechanism, limit_point, abs(stiffness(2)) < gone*abs(stiffness(1)))
+         found%motion = motion
          most = 0.0_wp
          do k = 1, size(suspension%bodies)
             part = norm2(motion(6*k - 5:6*k))
