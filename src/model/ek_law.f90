@@ -8,10 +8,10 @@
 !>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
 module ek_law
    use ek_kinds, only: wp
-   use ek_curve, only: curve_t, look_up_curve
+   use ek_curve, only: curve_t, look_up_curve, has_corner
    implicit none(type, external)
    private
-   public :: law_t, look_up_law, deflection
+   public :: law_t, look_up_law, deflection, bends_between
 
    !> Units by the measure: m and N, or rad and N m.
    type :: law_t
@@ -61,5 +61,29 @@ contains
       real(wp), intent(in) :: value
       deflection = law%sign*(value - law%reference)
    end function deflection
+
+   !> Whether the slope of the law jumps, or nearly, between two values of the measure: a stop is met (the rounding of its
+   !> contact is short, and counts as a corner), or a corner of a curve.
+   pure logical function bends_between(law, from, to) result(bends)
+      type(law_t), intent(in) :: law
+      real(wp), intent(in) :: from, to
+      real(wp) :: e(2)
+
+      e = [deflection(law, from), deflection(law, to)]
+      bends = .false.
+      if (law%is_one_sided) bends = zone(e(1)) /= zone(e(2)) .or. zone(e(1)) == 1
+      if (law%has_curve .and. .not. bends) bends = has_corner(law%curve, e(1), e(2))
+
+   contains
+
+      !> Before contact, in its rounding, behind it.
+      pure integer function zone(e)
+         real(wp), intent(in) :: e
+         zone = 0
+         if (abs(e) <= 0.5_wp*law%rounding) zone = 1
+         if (e > 0.5_wp*law%rounding) zone = 2
+      end function zone
+
+   end function bends_between
 
 end module ek_law
