@@ -11,7 +11,8 @@ module ek_path
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
-   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
+   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment, &
+      check_increment
    use ek_branch, only: branch_t, new_branch, leave, note_crossing, most_crossings
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
@@ -374,33 +375,5 @@ contains
       span = 1.0_wp
       if (.not. path%is_table) span = maxval(abs(path%value)) + maxval(path%value) - minval(path%value)
    end function span
-
-   !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
-   subroutine check_increment(kkt, state_number, before, value, failure)
-      type(kkt_t), intent(in) :: kkt
-      integer, intent(in) :: state_number
-      real(wp), intent(in) :: before, value      !! place at either end of the increment
-      type(failure_t), intent(inout) :: failure
-      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, in one increment least of all
-      real(wp) :: moved
-      integer :: k
-
-      if (.not. kkt%is_singular) then
-         do k = 1, kkt%nq/6
-            moved = norm2(kkt%rhs(6*k - 5:6*k - 3))
-            if (moved <= failure%moved) cycle
-            failure%moved = moved
-            failure%body = k
-         end do
-         if (failure%moved <= far) then
-            failure%moved = 0.0_wp
-            return
-         end if
-      end if
-      failure%state = state_number
-      failure%is_singular = kkt%is_singular
-      failure%value = value
-      failure%reached = before
-   end subroutine check_increment
 
 end module ek_path
