@@ -39,7 +39,7 @@ module ek_arc
    real(wp), parameter :: least_step = 1.0e-9_wp      !! where no step is found the path has ended
    real(wp), parameter :: most_turn = 0.17_wp         !! rad, 10 degrees: between the tangents at the ends of a step
    real(wp), parameter :: good_turn = 0.1_wp          !! rad: what the next step is made for
-   real(wp), parameter :: most_of_corner = 1.3_wp     !! rad, 75 degrees: more would be another path
+   real(wp), parameter :: most_of_corner = 1.5_wp     !! rad, 86 degrees: more would be another path
    real(wp), parameter :: smooth = 1.0e-2_wp          !! of a step: what the trapezoidal rule may leave
    integer, parameter :: most_iterations = 10         !! Newton is quadratic: more would not help
 
@@ -183,7 +183,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
       type(demand_t) :: demand
-      real(wp) :: length, before
+      real(wp) :: length, longest, before
       integer :: iteration
 
       call unpack_state(self%packed_a, self%state)
@@ -191,6 +191,7 @@ contains
       self%rhs(:, 1) = width*self%tangent_a
       call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
       is_found = .false.
+      longest = max(merge(20.0_wp, 1.0_wp, width <= corner_step)*width, self%tolerance/self%size)
       before = huge(before)
       do iteration = 1, most_iterations
          call demand_at(schedule, self%place, demand)
@@ -200,8 +201,8 @@ contains
          if (.not. is_found) return
          length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          is_found = .false.
-         ! a correction as long as the step is no correction; nor is one longer than that before; nor one that is not a number
-         if (.not. length <= max(width, self%tolerance/self%size) .or. length > 2.0_wp*before) return
+         ! a correction as long as the step is no correction, but behind a corner; nor is one longer than that before; nor one that is not a number
+         if (.not. length <= longest .or. length > 2.0_wp*before) return
          call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
          is_found = length*self%size <= self%tolerance
          if (is_found) return
