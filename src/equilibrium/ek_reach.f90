@@ -27,6 +27,7 @@ module ek_reach
       real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method went on, but not along the path from design
+      integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0: it was none
       integer :: body = 0                  !! which moved most in the failed attempt
       real(wp) :: moved = 0.0_wp           !! how far [m]
       integer :: row = 0                   !! constraint furthest from its value
