@@ -9,21 +9,20 @@
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are assembled the same way round. Where Φq loses rank N does not
 !>   change its inertia: its determinant goes with the square of that of Φq.
 !>
-!> A law with a corner bends the path. Where a slope of a law has changed between a and b, or in a step that was halved
-!> often enough, d need only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is
+!> A law with a corner bends the path. Where a law has one between a and b, or in a step that was halved often enough, d need only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is
 !> asked for after new_branch.
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_measure, only: measure_value
-   use ek_spring, only: spring_tension
+   use ek_law, only: bends_between
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
    use ek_orientation, only: orientation_t, new_orientation, is_turned_over
    implicit none(type, external)
    private
-   public :: branch_t, new_branch, leave, largest_motion, compare, accept, note_crossing, go_along
+   public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, accept, note_crossing, go_along
    public :: same_branch, crossing, doubtful
 
    integer, parameter :: same_branch = 1   !! the step is sound
@@ -32,11 +31,12 @@ module ek_branch
 
    integer, parameter, public :: most_crossings = 8   !! that are told
 
-   real(wp), parameter :: smooth = 2.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
+   real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times what Newton's method leaves
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors made no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump over a gap leaves more, unless it is forty times wider
+   real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies that are asked for their direction
    real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
 
@@ -51,6 +51,7 @@ module ek_branch
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
       logical :: is_symmetric = .true.      !! no load leaves the tangent unsymmetric
       type(state_t) :: before, shifted
+      logical :: was_bent = .false.         !! the step that was compared last goes round a corner of a law
       logical :: knows_end = .false.        !! tangent_b is that of the state that was looked at last
       integer :: factorisations = 0         !! that the last comparison needed
       real(wp) :: least = 0.0_wp            !! shortest step that is tried before the path is said to end [place]
@@ -174,13 +175,14 @@ contains
       end if
       if (.not. is_explained) then
          verdict = doubtful
-      else if (negative_b /= self%negative .or. (rest > exact .and. is_turned_over(self%orientation, suspension, &
-         self%before, state_b, demand_a, demand_b, kkt))) then
+      else if (negative_b /= self%negative .or. ((rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) &
+         .and. is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt))) then
          verdict = crossing
       else
          verdict = same_branch
       end if
       kkt%negative = negative_b
+      self%was_bent = is_explained .and. rest > smooth
       self%knows_end = self%factorisations > 1 .or. missed <= fresh*largest_motion(self%motion, kkt%length)
 
    contains
@@ -359,14 +361,12 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> The slope of a law, a stop's or a curve's, is another at b than at a: it may have a corner in between.
+   !> A law has a corner between a and b: a stop is met, or a point of a curve where the slope jumps.
    pure logical function has_bent_law(suspension, a, b)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: a, b
-      real(wp), parameter :: other = 0.01_wp     ! of the slope
       type(bushing_view_t) :: from, to
-      real(wp) :: force, slope_a, slope_b
-      integer :: k, i, j
+      integer :: k, axis, i, j
 
       has_bent_law = .true.
       do k = 1, size(suspension%springs)
@@ -374,9 +374,8 @@ contains
             if (.not. spring%has_law) cycle
             i = spring%measure%body_i + 1
             j = spring%measure%body_j + 1
-            call spring_tension(spring, measure_value(spring%measure, a%poses(i), a%poses(j)), force, slope_a)
-            call spring_tension(spring, measure_value(spring%measure, b%poses(i), b%poses(j)), force, slope_b)
-            if (abs(slope_b - slope_a) > other*max(abs(slope_a), abs(slope_b))) return
+            if (bends_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
+               measure_value(spring%measure, b%poses(i), b%poses(j)))) return
          end associate
       end do
       do k = 1, size(suspension%bushings)
@@ -384,11 +383,32 @@ contains
             if (.not. bushing%has_curves) cycle
             call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
             call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
-            if (maxval(abs(to%stiffness_t - from%stiffness_t)) > other*maxval(abs(from%stiffness_t))) return
-            if (maxval(abs(to%stiffness_r - from%stiffness_r)) > other*maxval(abs(from%stiffness_r))) return
+            do axis = 1, 3
+               if (bushing%laws(axis)%has_curve) then
+                  if (bends_between(bushing%laws(axis), dot_product(bushing%axes(:, axis), from%gap), &
+                     dot_product(bushing%axes(:, axis), to%gap))) return
+               end if
+               if (bushing%laws(axis + 3)%has_curve) then
+                  if (bends_between(bushing%laws(axis + 3), dot_product(bushing%axes(:, axis), from%turn%theta), &
+                     dot_product(bushing%axes(:, axis), to%turn%theta))) return
+               end if
+            end do
          end associate
       end do
       has_bent_law = .false.
    end function has_bent_law
+
+   !> Whether the joints turn over in a step that was foreseen, which `compare` has not seen.
+   logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
+      type(branch_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      real(wp), contiguous, intent(in) :: packed_a(:)
+      type(demand_t), intent(in) :: demand_a, demand_b
+      type(state_t), intent(in) :: state_b
+      type(kkt_t), intent(inout) :: kkt
+
+      call unpack_state(packed_a, self%before)
+      is_overturning = is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)
+   end function is_overturning
 
 end module ek_branch

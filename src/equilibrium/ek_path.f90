@@ -9,7 +9,7 @@ module ek_path
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, demand_at
-   use ek_kkt, only: kkt_t
+   use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
    use ek_branch, only: branch_t, new_branch, leave, most_crossings
@@ -39,7 +39,7 @@ module ek_path
       logical, allocatable :: is_reached(:)
       logical, allocatable :: is_stable(:)        !! no negative stiffness
       integer, allocatable :: iterations(:)       !! factorisations spent on a state
-      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
+      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate; where that is tiny, the true one
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
       logical :: is_table = .false.               !! rows of a table, each a state of its own
@@ -192,10 +192,18 @@ contains
       !> Stores the state at hand as state k.
       subroutine keep(k)
          integer, intent(in) :: k
+         real(wp), parameter :: suspect = 1.0e-12_wp
+         real(wp) :: rcond
+
          call pack_state(state, path%packed(:, k))
          path%is_reached(k) = .true.
          path%is_stable(k) = kkt%negative == kkt%nc
          path%pivot_ratio(k) = kkt%pivot_ratio
+         if (kkt%pivot_ratio < suspect .and. case%method /= 'recursive') then
+            ! a small pivot may be one of a well-conditioned matrix
+            call condition(suspension, state, demand, kkt, rcond)
+            path%pivot_ratio(k) = max(path%pivot_ratio(k), rcond)
+         end if
          done = done + 1
          if (present(progress)) then
             if (mod(done, 1000) == 0) call progress(done, path%states)

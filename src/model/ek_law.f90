@@ -8,10 +8,10 @@
 !>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
 module ek_law
    use ek_kinds, only: wp
-   use ek_curve, only: curve_t, look_up_curve
+   use ek_curve, only: curve_t, look_up_curve, has_corner
    implicit none(type, external)
    private
-   public :: law_t, look_up_law, deflection
+   public :: law_t, look_up_law, deflection, bends_between
 
    !> Units by the measure: m and N, or rad and N m.
    type :: law_t
@@ -61,5 +61,19 @@ contains
       real(wp), intent(in) :: value
       deflection = law%sign*(value - law%reference)
    end function deflection
+
+   !> Whether the slope of the law jumps, or nearly, between two values of the measure: a stop is met, or is in contact
+   !> (rubber that is steep from one state to the next counts as a corner), or a corner of a curve.
+   pure logical function bends_between(law, from, to) result(bends)
+      type(law_t), intent(in) :: law
+      real(wp), intent(in) :: from, to
+      real(wp) :: e(2)
+
+      e = [deflection(law, from), deflection(law, to)]
+      bends = .false.
+      if (law%is_one_sided) bends = any(e > -0.5_wp*law%rounding)
+      if (law%has_curve .and. .not. bends) bends = has_corner(law%curve, e(1), e(2))
+
+   end function bends_between
 
 end module ek_law
