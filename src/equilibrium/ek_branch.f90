@@ -19,7 +19,7 @@ module ek_branch
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
-   use ek_lapack, only: dgesv
+   use ek_orientation, only: orientation_t, new_orientation, is_turned_over
    implicit none(type, external)
    private
    public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, accept, note_crossing, go_along
@@ -49,9 +49,7 @@ module ek_branch
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a less that of the state before; 0: not known
-      real(wp), allocatable :: rows_a(:, :), rows_b(:, :), product(:, :), unit(:, :)   !! scaled Φq of the rows that hold for certain
-      integer, allocatable :: held(:), pivots(:)
-      integer, allocatable :: touching(:, :), count(:)     !! held rows that touch a body, and how many
+      type(orientation_t) :: orientation
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
       logical :: is_symmetric = .true.      !! no load leaves the tangent unsymmetric
       type(state_t) :: before, shifted
@@ -70,27 +68,12 @@ contains
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
-      integer :: k, n, body
+      integer :: k
 
-      self%held = pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp)
-      n = size(self%held)
+      self%orientation = new_orientation(suspension)
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), source=0.0_wp)
-      allocate (self%rows_a(suspension%unknowns(), n), self%rows_b(suspension%unknowns(), n), self%product(n, n), &
-         self%unit(n, 1), source=0.0_wp)
-      allocate (self%pivots(n), source=0)
-      allocate (self%touching(n, size(suspension%bodies)), self%count(size(suspension%bodies)), source=0)
-      do body = 1, size(suspension%bodies)
-         do k = 1, n
-            associate (row => suspension%rows(self%held(k)))
-               if (.not. any(suspension%terms(row%first:row%first + row%terms - 1)%measure%body_i == body .or. &
-                  suspension%terms(row%first:row%first + row%terms - 1)%measure%body_j == body)) cycle
-            end associate
-            self%count(body) = self%count(body) + 1
-            self%touching(self%count(body), body) = k
-         end do
-      end do
       allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
          self%defect(suspension%unknowns() + suspension%constraints()), source=0.0_wp)
       self%before = design_state(suspension)
@@ -130,7 +113,7 @@ contains
    !> Compares both ends of a step. The factors of N at b, or near, must be at hand in kkt.
    !>
    !> Tried with these factors and a tangent of a that may be old; where that does not explain the step, with fresh ones.
-   !> After it self%tangent_b and rows_b are those of b; `accept` makes them those of the newest state.
+   !> After it self%tangent_b is that of b; `accept` makes it that of the newest state.
    subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
       is_short, missed, kkt, verdict)
       type(branch_t), intent(inout) :: self
@@ -198,7 +181,7 @@ contains
       if (.not. is_explained) then
          verdict = doubtful
       else if (negative_b /= self%negative .or. ((rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) &
-         .and. is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt))) then
+         .and. is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt))) then
          verdict = crossing
       else
          verdict = same_branch
@@ -415,7 +398,7 @@ contains
       end do
    end function sharpest_bend
 
-   !> The same of a step that was foreseen, which `compare` has not seen.
+   !> Whether the joints turn over in a step that was foreseen, which `compare` has not seen.
    logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -425,66 +408,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       call unpack_state(packed_a, self%before)
-      is_overturning = is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt)
+      is_overturning = is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)
    end function is_overturning
-
-   !> det(Φq(a) Φq(b)ᵀ) < 0.
-   logical function is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt)
-      type(branch_t), intent(inout) :: self      !! with state a in `before`
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state_b
-      type(demand_t), intent(in) :: demand_a, demand_b
-      type(kkt_t), intent(inout) :: kkt
-      integer :: i, j, k, l, body, n, info
-
-      call assemble(suspension, self%before, demand_a, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_a)
-      call assemble(suspension, state_b, demand_b, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_b)
-      is_turned_over = .false.
-      n = size(self%held)
-      if (n == 0) return
-      self%product = 0.0_wp
-      do body = 1, size(self%count)
-         do j = 1, self%count(body)
-            l = self%touching(j, body)
-            do i = 1, self%count(body)
-               k = self%touching(i, body)
-               self%product(k, l) = self%product(k, l) &
-                  + dot_product(self%rows_a(6*body - 5:6*body, k), self%rows_b(6*body - 5:6*body, l))
-            end do
-         end do
-      end do
-      ! for the LU factors; without a right-hand side OpenBLAS would not make them
-      self%unit = 0.0_wp
-      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
-      if (info /= 0) return
-      do k = 1, n
-         if (self%product(k, k) < 0.0_wp) is_turned_over = .not. is_turned_over
-         if (self%pivots(k) /= k) is_turned_over = .not. is_turned_over
-      end do
-   end function is_turned_over
-
-   !> Φq from the gradients of the last assembly, scaled; of the rows that hold for certain.
-   pure subroutine gather_rows(self, suspension, kkt, rows)
-      type(branch_t), intent(in) :: self
-      type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt
-      real(wp), intent(inout) :: rows(:, :)      !! (unknown, row)
-      integer :: k, t, i, j
-
-      rows = 0.0_wp
-      do k = 1, size(self%held)
-         associate (row => suspension%rows(self%held(k)))
-            do t = row%first, row%first + row%terms - 1
-               i = 6*(suspension%terms(t)%measure%body_i - 1)
-               j = 6*(suspension%terms(t)%measure%body_j - 1)
-               if (i >= 0) rows(i + 1:i + 6, k) = rows(i + 1:i + 6, k) + kkt%gradients(1:6, t)
-               if (j >= 0) rows(j + 1:j + 6, k) = rows(j + 1:j + 6, k) + kkt%gradients(7:12, t)
-            end do
-         end associate
-         rows(:, k) = rows(:, k)*(kkt%scale(kkt%nq + self%held(k))*kkt%scale(:kkt%nq))
-      end do
-   end subroutine gather_rows
 
 end module ek_branch
