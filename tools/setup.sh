@@ -31,7 +31,7 @@ has_lapack() { # whether a program that calls LAPACK links
   folder=$(mktemp -d)
   printf 'external dsytrf\ncall dsytrf\nend\n' >"$folder/probe.f90"
   for libraries in -lopenblas '-llapack -lblas'; do
-    # shellcheck disable=SC2086  # two words
+    # shellcheck disable=SC2086  # two arguments
     if "${FC:-gfortran}" -o "$folder/probe" "$folder/probe.f90" $libraries 2>/dev/null; then status=0; break; fi
   done
   rm -rf "$folder"
