@@ -2,8 +2,9 @@
 # check_language.sh [FILE...]: finds wording that a native English-speaking engineer would not use, and prints
 # file:line, the wording, and the wording to use instead. Status 1 if it finds any.
 #
-# Without arguments it checks every tracked document, deck, script and source file outside tests/. In Fortran it checks
-# comments and strings only, not identifiers. It does not see wording that is split over two lines. A line may contain one of the phrases of `allowed` below; each has a reason.
+# Without arguments it checks every tracked document, and the decks, studies, scripts and sources outside tests/. In Fortran it
+# checks comments and strings only, not identifiers. It does not see wording that is split over two lines. A line may
+# contain the phrases of `allowed` below; each has a reason.
 set -uo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 export LC_ALL=C.UTF-8
