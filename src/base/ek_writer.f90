@@ -9,6 +9,9 @@
 !> unlocked file of this machine therefore belongs to a dead run, and `remove_stale` removes it. Locks of other machines
 !> may be invisible here: their files count as dead when nothing was written to them for a day.
 !>
+!> Files that can be redrawn (pictures, scripts of charts) are renamed atomically too, but without waiting for the disk:
+!> writing the many pictures of a report to the disk would take longer than drawing them. After a power cut they may be empty.
+!>
 !> A part is the temporary file of a long run: `<path>.<machine>-<random>.part`. If the run is killed it remains, with
 !> everything that was flushed, until a later run finishes the same file.
 module ek_writer
@@ -40,6 +43,7 @@ module ek_writer
       character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written directly
       character(:), allocatable :: reason               !! of the first failure; '' if there was none
       logical :: is_part = .false., is_empty = .true.
+      logical :: is_awaited = .true.                    !! wait until the file is on the disk before it is renamed
       type(buffer_t) :: rows                            !! of a part, since the last flush: they are written together
    contains
       procedure :: add => writer_add
@@ -58,13 +62,15 @@ module ek_writer
 contains
 
    !> Begin the file `path`. Until it is finished, the name refers to the older file or to none.
-   subroutine begin_file(writer, path, error)
+   subroutine begin_file(writer, path, error, can_be_redrawn)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
+      logical, intent(in), optional :: can_be_redrawn        !! if .true., do not wait for the disk; default .false.
       type(facts_t) :: facts
 
       call start(writer, path)
+      if (present(can_be_redrawn)) writer%is_awaited = .not. can_be_redrawn
       facts = facts_of(path, follow=.true.)
       if (c_access(path//'/.'//c_null_char, may_exist) == 0) then
          writer%reason = 'it is a folder'
@@ -183,8 +189,8 @@ contains
       if (c_fflush(self%stream) /= 0) self%reason = system_reason()
    end subroutine writer_flush
 
-   !> Writes every byte to the disk, then renames the file. After a failure there is no new file; the rows of a part that
-   !> were written remain, and the message gives their path.
+   !> Writes every byte to the disk (unless the file can be redrawn), then renames the file. After a failure there is no new
+   !> file; the rows of a part that were written remain, and the message gives their path.
    subroutine writer_finish(self, error)
       class(writer_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -192,7 +198,7 @@ contains
 
       if (.not. c_associated(self%stream)) return
       call self%flush()
-      if (len(self%reason) == 0) then
+      if (len(self%reason) == 0 .and. self%is_awaited) then
          if (c_fsync(c_fileno(self%stream)) /= 0 .and. len(self%temporary) > 0) then
             if (error_number() /= not_for_this_kind) self%reason = system_reason()    ! not every file system knows fsync
          end if
@@ -203,7 +209,7 @@ contains
       if (len(self%reason) == 0) then
          if (c_fclose(self%stream) /= 0 .and. len(self%temporary) == 0) self%reason = system_reason()
          self%stream = c_null_ptr
-         if (len(self%temporary) > 0) call keep_name(folder_of(self%path))
+         if (len(self%temporary) > 0 .and. self%is_awaited) call keep_name(folder_of(self%path))
       end if
       if (len(self%reason) == 0) then
          if (self%is_part) call remove_parts(self%path)
@@ -235,18 +241,11 @@ contains
       if (allocated(self%temporary)) path = self%temporary
    end function writer_temporary_name
 
-   !> Moves a complete file to its final path on the same disk: flushes it, then renames it.
+   !> Moves a complete picture to its final path on the same disk, atomically, without waiting for the disk.
    subroutine move_file(from, to, error)
       character(*), intent(in) :: from, to
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      type(c_ptr) :: stream
-      integer :: ignored
 
-      stream = c_fopen(from//c_null_char, 'r+be'//c_null_char)
-      if (c_associated(stream)) then
-         ignored = c_fsync(c_fileno(stream))
-         ignored = c_fclose(stream)
-      end if
       if (c_access(to//'/.'//c_null_char, may_exist) == 0) then
          call fail(error, exit_file, "cannot write '"//to//"': it is a folder")
       else if (c_rename(from//c_null_char, to//c_null_char) /= 0) then

@@ -264,10 +264,11 @@ contains
          free(:, k) = free(:, k)*kkt%scale(:kkt%nq)
       end do
 
-      ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest
+      ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
+      ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
       allocate (x(nx), y(ny), projector(kkt%nq, kkt%nq))
       call complement(free, projector)
-      call least_norm(matmul(projector, weighted), -matmul(projector, load), x)
+      call least_norm(matmul(projector, weighted), -matmul(projector, load), x, norm2(weighted))
       remainder = -load - matmul(weighted, x)
       call least_norm(free, remainder, y)
       remainder = remainder - matmul(free, y)
@@ -336,10 +337,13 @@ contains
       end do
    end subroutine complement
 
-   !> Minimum-norm least squares (LAPACK dgelsd); singular values below 1e-11 are neglected.
-   subroutine least_norm(a, b, x)
+   !> Minimum-norm least squares (LAPACK dgelsd); singular values below 1e-11 of the largest, or of `whole`, are neglected.
+   subroutine least_norm(a, b, x, whole)
       real(wp), intent(in) :: a(:, :), b(:)
       real(wp), intent(out) :: x(:)
+      real(wp), intent(in), optional :: whole        !! norm of the unprojected matrix: its rounding must not count as rank
+      real(wp), parameter :: threshold = 1.0e-11_wp
+      real(wp) :: share
       real(wp) :: copy(size(a, 1), size(a, 2)), rhs(max(size(a, 1), size(a, 2)))
       real(wp) :: singular(max(1, min(size(a, 1), size(a, 2)))), query(1)
       real(wp), allocatable :: work(:)
@@ -348,12 +352,17 @@ contains
 
       x = 0.0_wp
       if (size(a) == 0) return
+      share = threshold
+      if (present(whole)) then
+         if (norm2(a) <= threshold*whole) return     ! dgelsd does not accept a share of 1 or more
+         share = threshold*whole/norm2(a)
+      end if
       copy = a
       rhs = 0.0_wp
       rhs(:size(b)) = b
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, 1.0e-11_wp, rank, query, -1, iwork, info)
+      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, query, -1, iwork, info)
       allocate (work(int(query(1))))
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, 1.0e-11_wp, rank, work, size(work), &
+      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, work, size(work), &
          iwork, info)
       x = rhs(:size(x))
    end subroutine least_norm

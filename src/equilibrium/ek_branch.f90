@@ -16,11 +16,11 @@ module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_measure, only: measure_value
-   use ek_law, only: bends_between
+   use ek_law, only: bend_between, no_bend, steep, corner
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
-   use ek_lapack, only: dgesv
+   use ek_orientation, only: orientation_t, new_orientation, is_turned_over
    implicit none(type, external)
    private
    public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, accept, note_crossing, go_along
@@ -35,6 +35,8 @@ module ek_branch
    real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: allowed error of the trapezoidal rule
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times the error of Newton's method
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
+   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise if the rubber of a stop is steep
+   real(wp), parameter :: widest_corner = 1.25e8_wp   !! of the least step (1/8 of the range): no corner is accepted in longer steps
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
@@ -48,9 +50,7 @@ module ek_branch
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
-      real(wp), allocatable :: rows_a(:, :), rows_b(:, :), product(:, :), unit(:, :)   !! scaled Φq of the rigid rows
-      integer, allocatable :: held(:), pivots(:)
-      integer, allocatable :: touching(:, :), count(:)     !! held rows that touch a body, and how many
+      type(orientation_t) :: orientation
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
       logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: before, shifted
@@ -69,27 +69,12 @@ contains
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
-      integer :: k, n, body
+      integer :: k
 
-      self%held = pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp)
-      n = size(self%held)
+      self%orientation = new_orientation(suspension)
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), source=0.0_wp)
-      allocate (self%rows_a(suspension%unknowns(), n), self%rows_b(suspension%unknowns(), n), self%product(n, n), &
-         self%unit(n, 1), source=0.0_wp)
-      allocate (self%pivots(n), source=0)
-      allocate (self%touching(n, size(suspension%bodies)), self%count(size(suspension%bodies)), source=0)
-      do body = 1, size(suspension%bodies)
-         do k = 1, n
-            associate (row => suspension%rows(self%held(k)))
-               if (.not. any(suspension%terms(row%first:row%first + row%terms - 1)%measure%body_i == body .or. &
-                  suspension%terms(row%first:row%first + row%terms - 1)%measure%body_j == body)) cycle
-            end associate
-            self%count(body) = self%count(body) + 1
-            self%touching(self%count(body), body) = k
-         end do
-      end do
       allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
          self%defect(suspension%unknowns() + suspension%constraints()), source=0.0_wp)
       self%before = design_state(suspension)
@@ -129,7 +114,7 @@ contains
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
-   !> return self%tangent_b and rows_b belong to b; `accept` makes them those of the newest state.
+   !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
    subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
       is_short, missed, kkt, verdict)
       type(branch_t), intent(inout) :: self
@@ -146,8 +131,9 @@ contains
       integer, intent(out) :: verdict
       type(demand_t) :: rate
       integer :: negative_b
-      real(wp) :: rest
-      logical :: is_explained, can_bend
+      real(wp) :: rest, allowed
+      integer :: bend
+      logical :: is_explained
 
       rate = demand_rate(demand_a, demand_b, width)
       negative_b = kkt%negative
@@ -168,17 +154,19 @@ contains
          if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
       is_explained = rest <= smooth
-      can_bend = .false.
+      allowed = 0.0_wp
       if (.not. is_explained) then
-         can_bend = is_short .or. has_bent_law(suspension, self%before, state_b)
-         if (can_bend .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
+         bend = sharpest_bend(suspension, self%before, state_b)
+         if (bend == steep) allowed = slight
+         if (is_short .or. (bend == corner .and. abs(width) <= widest_corner*self%least)) allowed = huge(allowed)
+         if (rest <= allowed .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
             is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. (is_explained .or. self%has_tangent)) then
          call at_beginning()
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (can_bend .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
+         if (rest <= allowed .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
@@ -189,12 +177,12 @@ contains
          self%factorisations = self%factorisations + 1
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (.not. is_explained .and. can_bend) is_explained = is_bend(self, width, kkt%length)
+         if (.not. is_explained .and. rest <= allowed) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          verdict = doubtful
       else if (negative_b /= self%negative .or. ((rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) &
-         .and. is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt))) then
+         .and. is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt))) then
          verdict = crossing
       else
          verdict = same_branch
@@ -379,21 +367,21 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> Whether a law has a corner between a and b: contact of a stop, or a point of a curve where the slope jumps.
-   pure logical function has_bent_law(suspension, a, b)
+   !> The sharpest bend of a law between a and b.
+   pure integer function sharpest_bend(suspension, a, b) result(bend)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: a, b
       type(bushing_view_t) :: from, to
       integer :: k, axis, i, j
 
-      has_bent_law = .true.
+      bend = no_bend
       do k = 1, size(suspension%springs)
          associate (spring => suspension%springs(k))
             if (.not. spring%has_law) cycle
             i = spring%measure%body_i + 1
             j = spring%measure%body_j + 1
-            if (bends_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
-               measure_value(spring%measure, b%poses(i), b%poses(j)))) return
+            bend = max(bend, bend_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
+               measure_value(spring%measure, b%poses(i), b%poses(j))))
          end associate
       end do
       do k = 1, size(suspension%bushings)
@@ -402,21 +390,16 @@ contains
             call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
             call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
             do axis = 1, 3
-               if (bushing%laws(axis)%has_curve) then
-                  if (bends_between(bushing%laws(axis), dot_product(bushing%axes(:, axis), from%gap), &
-                     dot_product(bushing%axes(:, axis), to%gap))) return
-               end if
-               if (bushing%laws(axis + 3)%has_curve) then
-                  if (bends_between(bushing%laws(axis + 3), dot_product(bushing%axes(:, axis), from%turn%theta), &
-                     dot_product(bushing%axes(:, axis), to%turn%theta))) return
-               end if
+               if (bushing%laws(axis)%has_curve) bend = max(bend, bend_between(bushing%laws(axis), &
+                  dot_product(bushing%axes(:, axis), from%gap), dot_product(bushing%axes(:, axis), to%gap)))
+               if (bushing%laws(axis + 3)%has_curve) bend = max(bend, bend_between(bushing%laws(axis + 3), &
+                  dot_product(bushing%axes(:, axis), from%turn%theta), dot_product(bushing%axes(:, axis), to%turn%theta)))
             end do
          end associate
       end do
-      has_bent_law = .false.
-   end function has_bent_law
+   end function sharpest_bend
 
-   !> The same for a predicted step that was not passed to `compare`.
+   !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`.
    logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -426,66 +409,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       call unpack_state(packed_a, self%before)
-      is_overturning = is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt)
+      is_overturning = is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)
    end function is_overturning
-
-   !> Whether det(Φq(a) Φq(b)ᵀ) < 0.
-   logical function is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt)
-      type(branch_t), intent(inout) :: self      !! with state a in `before`
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state_b
-      type(demand_t), intent(in) :: demand_a, demand_b
-      type(kkt_t), intent(inout) :: kkt
-      integer :: i, j, k, l, body, n, info
-
-      call assemble(suspension, self%before, demand_a, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_a)
-      call assemble(suspension, state_b, demand_b, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_b)
-      is_turned_over = .false.
-      n = size(self%held)
-      if (n == 0) return
-      self%product = 0.0_wp
-      do body = 1, size(self%count)
-         do j = 1, self%count(body)
-            l = self%touching(j, body)
-            do i = 1, self%count(body)
-               k = self%touching(i, body)
-               self%product(k, l) = self%product(k, l) &
-                  + dot_product(self%rows_a(6*body - 5:6*body, k), self%rows_b(6*body - 5:6*body, l))
-            end do
-         end do
-      end do
-      ! for the LU factors; without a right-hand side OpenBLAS would not compute them
-      self%unit = 0.0_wp
-      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
-      if (info /= 0) return
-      do k = 1, n
-         if (self%product(k, k) < 0.0_wp) is_turned_over = .not. is_turned_over
-         if (self%pivots(k) /= k) is_turned_over = .not. is_turned_over
-      end do
-   end function is_turned_over
-
-   !> Scaled Φq of the rigid rows, from the gradients of the last assembly.
-   pure subroutine gather_rows(self, suspension, kkt, rows)
-      type(branch_t), intent(in) :: self
-      type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt
-      real(wp), intent(inout) :: rows(:, :)      !! (unknown, row)
-      integer :: k, t, i, j
-
-      rows = 0.0_wp
-      do k = 1, size(self%held)
-         associate (row => suspension%rows(self%held(k)))
-            do t = row%first, row%first + row%terms - 1
-               i = 6*(suspension%terms(t)%measure%body_i - 1)
-               j = 6*(suspension%terms(t)%measure%body_j - 1)
-               if (i >= 0) rows(i + 1:i + 6, k) = rows(i + 1:i + 6, k) + kkt%gradients(1:6, t)
-               if (j >= 0) rows(j + 1:j + 6, k) = rows(j + 1:j + 6, k) + kkt%gradients(7:12, t)
-            end do
-         end associate
-         rows(:, k) = rows(:, k)*(kkt%scale(kkt%nq + self%held(k))*kkt%scale(:kkt%nq))
-      end do
-   end subroutine gather_rows
 
 end module ek_branch
