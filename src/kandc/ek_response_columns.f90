@@ -86,11 +86,11 @@ contains
 
       do held = load_held, height_held
          do k = in_phase, merge(anti_phase, in_phase, is_pair)
-            call put_lateral('lateral_'//trim(phases(k)), is%lateral(k, held))
+            call put_lateral('lateral_'//phases(k), is%lateral(k, held))
             call put_lateral('lateral_'//trim(phases(k))//'trail_', is%lateral_trail(k, held))
-            call put_known(self, stem('aligning_'//trim(phases(k)))//'steer_deg_per_100nm', &
+            call put_known(self, stem('aligning_'//phases(k))//'steer_deg_per_100nm', &
                is%aligning(k, held)%steer/deg_per_100nm)
-            call put_known(self, stem('aligning_'//trim(phases(k)))//'camber_deg_per_100nm', &
+            call put_known(self, stem('aligning_'//phases(k))//'camber_deg_per_100nm', &
                is%aligning(k, held)%camber/deg_per_100nm)
          end do
          call put_longitudinal(stem('braking_'), is%braking(held), is%braking(held)%patch(1))
@@ -114,7 +114,8 @@ contains
       function stem(load) result(text)
          character(*), intent(in) :: load
          character(:), allocatable :: text
-         text = prefix//load//trim(conditions(held))
+         text = ''
+         if (self%is_naming) text = prefix//trim(load)//trim(conditions(held))     ! in every state it would cost as much as a number
       end function stem
 
       subroutine put_lateral(load, response)
