@@ -9,14 +9,15 @@
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are assembled the same way round. Where Φq loses rank N does not
 !>   change its inertia: its determinant goes with the square of that of Φq.
 !>
-!> A law with a corner bends the path. Where a law has one between a and b, or in a step that was halved often enough, d need only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is
-!> asked for after new_branch.
+!> A law with a corner bends the path. Where a law has one between a and b, or in a step that was halved often enough, d need
+!> only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is asked for after new_branch.
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
-   use ek_bent_law, only: has_bent_law
+   use ek_law, only: steep, corner
+   use ek_bent_law, only: sharpest_bend
    use ek_orientation, only: orientation_t, new_orientation, is_turned_over
    implicit none(type, external)
    private
@@ -32,6 +33,9 @@ module ek_branch
    real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times what Newton's method leaves
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
+   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise where the rubber of a stop is steep
+   !> Of the least step, an eighth of the range: longer steps are cut before a corner is believed
+   real(wp), parameter :: widest_corner = 1.25e8_wp
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors made no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump over a gap leaves more, unless it is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
@@ -126,8 +130,9 @@ contains
       integer, intent(out) :: verdict
       type(demand_t) :: rate
       integer :: negative_b
-      real(wp) :: rest
-      logical :: is_explained, can_bend
+      real(wp) :: rest, allowed
+      integer :: bend
+      logical :: is_explained
 
       rate = demand_rate(demand_a, demand_b, width)
       negative_b = kkt%negative
@@ -148,17 +153,19 @@ contains
          if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
       is_explained = rest <= smooth
-      can_bend = .false.
+      allowed = 0.0_wp
       if (.not. is_explained) then
-         can_bend = is_short .or. has_bent_law(suspension, self%before, state_b)
-         if (can_bend .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
+         bend = sharpest_bend(suspension, self%before, state_b)
+         if (bend == steep) allowed = slight
+         if (is_short .or. (bend == corner .and. abs(width) <= widest_corner*self%least)) allowed = huge(allowed)
+         if (rest <= allowed .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
             is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. (is_explained .or. self%has_tangent)) then
          call at_beginning()
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (can_bend .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
+         if (rest <= allowed .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
@@ -169,7 +176,7 @@ contains
          self%factorisations = self%factorisations + 1
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (.not. is_explained .and. can_bend) is_explained = is_bend(self, width, kkt%length)
+         if (.not. is_explained .and. rest <= allowed) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          verdict = doubtful

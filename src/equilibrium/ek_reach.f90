@@ -15,6 +15,7 @@ module ek_reach
    public :: failure_t, reach, settle
 
    integer, parameter :: bend_halvings = 5            !! behind so many a corner of a law is taken for what it is
+   real(wp), parameter :: shortest_bend = 1.0e6_wp    !! of the least step: the longest that may go round an unknown corner
    real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a guess that near has seen the path coming
    real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
    integer, parameter :: most_attempts = 400          !! of one increment
@@ -26,6 +27,7 @@ module ek_reach
       real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method went on, but not along the path from design
+      integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0: it was none
       integer :: body = 0                  !! which moved most in the failed attempt
       real(wp) :: moved = 0.0_wp           !! how far [m]
       integer :: row = 0                   !! constraint furthest from its value
@@ -110,7 +112,7 @@ contains
       beyond = 0.0_wp
       points = predictor%trusted
       step = goal - here
-      bend = abs(step)*0.5_wp**bend_halvings
+      bend = min(abs(step)*0.5_wp**bend_halvings, shortest_bend*branch%least)
       do attempt = 1, most_attempts
          place = here + step
          if (abs(step) >= abs(goal - here)) place = goal

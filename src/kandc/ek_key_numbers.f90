@@ -5,7 +5,7 @@ module ek_key_numbers
    use ek_kinds, only: wp
    use ek_table, only: column_index
    use ek_quantity, only: without_phase
-   use ek_test_result, only: test_result_t, design_row, converged_rows
+   use ek_test_result, only: test_result_t, design_row, unfolded_rows
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
    use ek_key_number, only: key_number_t, nothing
@@ -319,7 +319,7 @@ contains
          if (row > 0) value = test%table%values(place, row)
          return
       end if
-      is_good = converged_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
+      is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
       if (.not. any(is_good)) return
       if (how == 'largest') value = maxval(test%table%values(place, :), mask=is_good)
       if (how == 'least') value = minval(test%table%values(place, :), mask=is_good)

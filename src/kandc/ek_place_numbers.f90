@@ -4,7 +4,7 @@ module ek_place_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_table, only: column_index
-   use ek_test_result, only: test_result_t, design_row, converged_rows
+   use ek_test_result, only: test_result_t, design_row, unfolded_rows
    use ek_key_number, only: key_number_t, nothing
    implicit none(type, external)
    private
@@ -159,7 +159,7 @@ contains
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place
       logical :: is_good(size(test%table%values, 2))
-      is_good = converged_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
+      is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
    end function is_good
 
    !> 'left_' or 'right_' of a name of that side, else ''.

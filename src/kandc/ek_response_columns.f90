@@ -115,7 +115,8 @@ contains
          character(*), intent(in) :: load
          character(:), allocatable :: text
          text = ''
-         if (self%is_naming) text = prefix//trim(load)//trim(conditions(held))     ! in every state it would cost as much as a number
+         ! in every state it would cost as much as a number
+         if (self%is_naming) text = prefix//trim(load)//trim(conditions(held))
       end function stem
 
       subroutine put_lateral(load, response)
