@@ -52,8 +52,7 @@ contains
       text = text//reason_words(suspension, case, path, failure, kkt)
    end function failure_words
 
-   !> The singularity at the last equilibrium; if none is found, the body that the last attempt moved most and the joint
-   !> furthest from closing.
+   !> What is singular at the last equilibrium; without a reason, what the last attempt moved and could not close.
    function reason_words(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -194,7 +193,7 @@ contains
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_words
 
-   !> One message each on: states with a negative stiffness, bifurcations on the path, nearly singular matrices.
+   !> A line each: states with a negative stiffness, bifurcations on the path, matrices that are nearly singular.
    subroutine stability_words(suspension, case, path, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -208,7 +207,7 @@ contains
             'pivot '//str(path%pivot_ratio(first), 2)//') at '//place_words(suspension, case, path%value(first))// &
             ' (column near_singular); see elastokin check')
       end if
-      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness and shows no instability
+      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness to tell by
       do k = 1, path%crossings
          call words%add('bifurcation at '//place_words(suspension, case, path%crossing_place(k))// &
             ': another branch of equilibria begins there; the results follow the one whose tangent is continuous')

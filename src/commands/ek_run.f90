@@ -321,7 +321,7 @@ contains
       if (len(case%test) > 0) then
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
       else if (len(case%load) > 0) then
-         call table%header%add('factor: of load '//quoted(case%load))
+         call table%header%add('factor: multiplier of load '//quoted(case%load))
       else
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//']')
       end if

@@ -38,7 +38,7 @@ module ek_gradient_definition
       definition_t('half-track change', 'track_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', '+ patch moves outward'//in_bump), &
       definition_t('wheelbase change', 'wheelbase_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
       '+ patch moves rearward'//in_bump), &
-      definition_t('wheel rate', 'vertical_force_n', 'wheel_travel_mm', 1.0_wp, 'N/mm', '+ load grows'//in_bump), &
+      definition_t('wheel rate', 'vertical_force_n', 'wheel_travel_mm', 1.0_wp, 'N/mm', '+ load increases'//in_bump), &
       definition_t('roll-centre height change', 'roll_centre_height_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
       '+ rises over the ground'//in_bump)]
 
@@ -52,8 +52,8 @@ module ek_gradient_definition
       '+ top moves outward relative to the road'//left_up), &
       definition_t('wheel roll caster', 'caster_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
       '+ top of the axis moves rearward'//left_up), &
-      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', '+ grows'//left_up), &
-      definition_t('roll rate', 'roll_moment_nm', 'axle_roll_deg', 1.0_wp, 'N m/deg', '+ resists')]
+      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', '+ increases'//left_up), &
+      definition_t('roll rate', 'roll_moment_nm', 'axle_roll_deg', 1.0_wp, 'N m/deg', '+ restoring')]
 
    type(definition_t), parameter :: lateral_list(*) = [ &
       definition_t('lateral force steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', &
@@ -91,9 +91,9 @@ module ek_gradient_definition
       definition_t('steer caster', 'caster_deg', 'factor', 1.0_wp, 'deg/mm', &
       '+ top moves rearward, inner wheel', is_own=.true.), &
       definition_t('scrub radius change', 'scrub_radius_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, inner wheel', is_own=.true.), &
+      '+ increases, inner wheel', is_own=.true.), &
       definition_t('caster trail change', 'caster_trail_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, inner wheel', is_own=.true.), &
+      '+ increases, inner wheel', is_own=.true.), &
       definition_t('wheel lift in steer', 'wheel_travel_mm', 'factor', 1.0_wp, 'mm/mm', &
       '+ wheel moves up, inner wheel', is_own=.true.)]
 

@@ -146,9 +146,9 @@ module ek_key_numbers
       'rotation of the carrier about y'), &
       source_t(held, 'jacking, in phase', 'lateral_in_jacking_n_per_kn', 'design', '', '', 'N/kN', &
       '+ the ground pushes up under a force to the right'), &
-      source_t(elastic, 'caster', 'instant_caster_deg', 'design', '', '', 'deg', '+ top rearward', 'n'), &
+      source_t(elastic, 'caster', 'instant_caster_deg', 'design', '', '', 'deg', '+ leans rearward at the top', 'n'), &
       source_t(elastic, 'kingpin inclination', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
-      '+ top inward', 'n'), &
+      '+ leans inward at the top', 'n'), &
       source_t(elastic, 'scrub radius', 'instant_scrub_radius_mm', 'design', '', '', 'mm', '+ inboard of the patch', 'n'), &
       source_t(elastic, 'caster trail', 'instant_caster_trail_mm', 'design', '', '', 'mm', '+ ahead of the patch', 'n')]
 
@@ -164,8 +164,8 @@ module ek_key_numbers
       source_t(steer, 'steering ratio', 'steering_ratio', 'design', '', '', '–', 'steering wheel over road wheel'), &
       source_t(steer, 'steer per steering input', 'steer per steering input', 'gradient', 'steering', '', '', ''), &
       source_t(steer, 'steer per steering wheel', 'steer per steering wheel', 'gradient', 'steering', '', '', ''), &
-      source_t(steer, 'maximum steer, left', 'steer_deg', 'largest', 'steering', '', 'deg', 'over the test'), &
-      source_t(steer, 'maximum steer, right', 'steer_deg', 'least', 'steering', '', 'deg', 'over the test'), &
+      source_t(steer, 'maximum steer to the left', 'steer_deg', 'largest', 'steering', '', 'deg', 'over the test'), &
+      source_t(steer, 'maximum steer to the right', 'steer_deg', 'least', 'steering', '', 'deg', 'over the test'), &
       source_t(steer, 'maximum Ackermann', 'ackermann_percent', 'largest', 'steering', '', '%', 'over the test'), &
       source_t(steer, 'minimum turning circle', 'turning_circle_m', 'least', 'steering', '', 'm', 'over the test'), &
       source_t(steer, 'minimum turning circle, curb to curb', 'curb_to_curb_m', 'least', 'steering', '', 'm', 'over the test'), &

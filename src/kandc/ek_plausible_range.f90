@@ -69,7 +69,7 @@ module ek_plausible_range
       range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'give the gas force at design'), &
       range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'give the increase of the gas force per compression'), &
       range_t('clearance', length, 0.5_wp, 250.0_wp, .true., 'give the distance from design to contact'), &
-      range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'such a long transition belongs into the curve'), &
+      range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'such a long transition belongs in the curve'), &
       range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'give the force per penetration'), &
       range_t('bushing rate kt', rate, 5.0_wp, 1.0e6_wp, .true., 'not in the range of rubber; for a rigid link use a joint'), &
       range_t('bushing rate kr', turn_rate, 2.0_wp, 5.0e7_wp, .true., 'not in the range of rubber; for a rigid link use a joint'), &

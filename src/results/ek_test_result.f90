@@ -191,7 +191,7 @@ contains
       where (is_good) is_good = table%values(place, :) > 0.5_wp
    end function converged_rows
 
-   !> The row of the design state, with `factor` = 0; 0 if there is no converged one.
+   !> The row of the design state, where `factor` is 0; 0 when there is none that was found.
    pure integer function design_row(table) result(row)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
