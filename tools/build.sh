@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# build.sh [PRESET [TARGET [CMAKE-ARGUMENT...]]]: set up, configure, compile; into build/PRESET.
+# build.sh [PRESET [TARGET [CMAKE-ARGUMENT...]]]: sets up, configures and compiles into build/PRESET.
 #
-# PRESET: release (without arguments), debug or asan, see CMakePresets.json. TARGET: what to compile,
-# all without one. What CMake and the compiler say goes to build/PRESET/build.log, and its end is shown when they fail.
-# EK_BUILD names another folder, so that one preset can be built with different arguments.
+# PRESET: release (default), debug or asan, see CMakePresets.json. TARGET: the target to compile, default all.
+# The output of CMake and the compiler goes to build/PRESET/build.log; its end is printed when they fail.
+# EK_BUILD sets another folder, so that one preset can be built with different arguments.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,13 +18,13 @@ mkdir -p "$folder"
 log=$folder/build.log
 if ! cmake --preset "$preset" -B "$folder" "$@" >"$log" 2>&1; then
   tail -n 40 "$log" >&2
-  echo "build: CMake failed; all it said is in $log" >&2
+  echo "build: CMake failed; its output is in $log" >&2
   exit 1
 fi
 grep '^-- Unit tests:' "$log" | sed 's/^-- //' || true
-# --keep-going: what can be compiled is compiled, so that its tests run
+# --keep-going: compile as much as possible, so that those tests run
 if ! cmake --build "$folder" --parallel "$jobs" --target "$target" -- --keep-going --output-sync=target >>"$log" 2>&1; then
   grep -A 6 -E '^[^ ]+:[0-9]+:[0-9]+:|Error' "$log" | tail -n 60 >&2
-  echo "build: compilation failed; all it said is in $log" >&2
+  echo "build: compilation failed; the complete output is in $log" >&2
   exit 1
 fi

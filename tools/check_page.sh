@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# check_page.sh PAGE.html...: opens each page in headless Chromium, as wide as a desk and as narrow as a phone. Status 1 when a
-# page writes to the console, asks for anything but itself, holds a script, has an id twice, or is wider than a phone.
+# check_page.sh PAGE.html...: opens each page in headless Chromium, at desktop and at phone width. Status 1 if a
+# page writes to the console, requests anything but itself, contains a script or a duplicate id, or is wider than a phone.
 #
-# Nothing goes out to the network: names are not resolved.
+# No network access: names are not resolved.
 set -uo pipefail
 
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || {
@@ -14,11 +14,11 @@ trap 'rm -rf "$work"' EXIT
 wrong=0
 phone=390     # CSS pixels across
 
-# what a page asks for, by the traffic annotations of blink_resource_loader and navigation_url_loader; the
-# browser itself has others, for its updates and accounts
+# requests of a page, recognised by the traffic annotations of blink_resource_loader and navigation_url_loader; the
+# browser itself uses others, for its updates and accounts
 by_page='"traffic_annotation":(101845102|63171670),"url":"(https?|wss?|ftp)://[^"]*"'
 
-look() { # look ADDRESS [OPTION...]: the page as it is after loading on standard output; $work/log.txt, $work/net.json
+load() { # load ADDRESS [OPTION...]: the loaded page on standard output; $work/log.txt, $work/net.json
   local address=$1
   shift
   timeout 120 "$browser" --headless --no-sandbox --disable-gpu --disable-background-networking --disable-component-update \
@@ -30,14 +30,14 @@ look() { # look ADDRESS [OPTION...]: the page as it is after loading on standard
 requests() { grep -oE "$by_page" "$work/net.json" | grep -oE '"url".*' | sort -u | head -5; }
 console() { grep -o 'CONSOLE.*' "$work/log.txt" | head -3; }
 
-# a page that does what no page may: a browser that does not tell of it cannot be used here
+# a page with forbidden requests: a browser that does not log them cannot be used here
 cat >"$work/probe.html" <<'END'
 <!DOCTYPE html><html><body><img src="http://image.invalid/x.png"><iframe src="http://frame.invalid/"></iframe>
 <script>console.error('probe')</script></body></html>
 END
-look "file://$work/probe.html" >"$work/dom.html"
+load "file://$work/probe.html" >"$work/dom.html"
 if [ "$(requests | wc -l)" -ne 2 ] || [ -z "$(console)" ]; then
-  echo "this browser does not tell what a page asks for or says: $("$browser" --version 2>/dev/null)" >&2
+  echo "this browser does not log the requests and console messages of a page: $("$browser" --version 2>/dev/null)" >&2
   requests >&2
   console >&2
   exit 1
@@ -45,34 +45,34 @@ fi
 
 for page in "$@"; do
   path=$(realpath "$page")
-  look "file://$path" >"$work/dom.html"
+  load "file://$path" >"$work/dom.html"
   bad=
-  grep -q '</html>' "$work/dom.html" || bad+=" it did not open;"
+  grep -q '</html>' "$work/dom.html" || bad+=" did not open;"
   said=$(console)
   [ -n "$said" ] && bad+=" $said;"
   asked=$(requests)
-  [ -n "$asked" ] && bad+=" it asks for $asked;"
-  grep -qi '<script' "$work/dom.html" && bad+=" it holds a script;"
+  [ -n "$asked" ] && bad+=" requests $asked;"
+  grep -qi '<script' "$work/dom.html" && bad+=" contains a script;"
   twice=$(grep -oE " id=[\"'][^\"']*" "$work/dom.html" | sort | uniq -d | head -3)
-  [ -n "$twice" ] && bad+=" ids are there twice:$twice;"
+  [ -n "$twice" ] && bad+=" duplicate ids:$twice;"
 
   cat >"$work/phone.html" <<END
 <!DOCTYPE html><html><head><title>not loaded</title></head><body><iframe id="f" width="$phone" height="800" src="file://$path"></iframe>
 <script>f.onload = () => { document.title = 'needs ' + f.contentDocument.documentElement.scrollWidth + ' pixels' }</script></body></html>
 END
-  look "file://$work/phone.html" --allow-file-access-from-files --virtual-time-budget=20000 >"$work/dom.html"
+  load "file://$work/phone.html" --allow-file-access-from-files --virtual-time-budget=20000 >"$work/dom.html"
   needs=$(sed -n 's/.*<title>needs \([0-9]*\) pixels<.title>.*/\1/p' "$work/dom.html")
   if [ -z "$needs" ]; then
-    bad+=" its width on a phone could not be measured;"
+    bad+=" width on a phone could not be measured;"
   elif [ "$needs" -gt "$phone" ]; then
-    bad+=" on a phone $phone pixels wide it needs $needs;"
+    bad+=" needs $needs pixels on a phone $phone pixels wide;"
   fi
 
   if [ -n "$bad" ]; then
     echo "$page:$bad"
     wrong=1
   else
-    echo "$page: opens wide and on a phone, nothing on the console, no request"
+    echo "$page: opens at desktop and phone width, no console message, no request"
   fi
 done
 exit $wrong

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # demo.sh: from a fresh clone to the report of an axle and the paper's figures.
 #
-# Sets up, compiles, puts the McPherson front axle on the rig and writes its report; then sweeps the McPherson strut over
-# its stroke by all three methods, runs the study of the number of increments, and draws toe, camber, lateral
-# movement and the error over the number of increments, as in
+# Sets up, compiles, runs the McPherson front axle on the rig and writes its report; then sweeps the McPherson strut over
+# its stroke with all three methods, runs the study of the number of increments, and draws toe, camber, lateral
+# movement, and the error over the number of increments, as in
 #
 #     J. S. Kang, Elastokinematic analysis of a suspension system with linear recursive formula,
 #     International Journal of Automotive Technology 6(4), 2005
 #
-# Results and pictures: out/demo. What is up to date is not made again.
+# Results and pictures: out/demo. Files that are up to date are not made again.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-export LC_ALL=C.UTF-8     # a decimal point in every number, and no complaint of gnuplot about letters
+export LC_ALL=C.UTF-8     # a decimal point in every number, and no gnuplot warning about characters
 
 elastokin=build/release/bin/elastokin
 deck=input/mcpherson/mcpherson.nml
@@ -21,7 +21,7 @@ page=out/demo/report/report.html
 study=studies/step_size/out/step_size.csv
 paper=studies/paper
 
-is_current() { # is_current MADE FROM...: MADE exists and is newer than everything it was made from
+is_current() { # is_current MADE FROM...: MADE exists and is newer than all FROM
   local made=$1 from
   shift
   [ -s "$made" ] || return 1
@@ -61,9 +61,9 @@ done
 echo
 awk -f $paper/key_numbers.awk out/demo/{recursive,corrected,equilibrium}/$sweep
 echo
-echo "Report of the McPherson front axle, to be opened in a browser:"
+echo "Report of the McPherson front axle (open it in a browser):"
 echo "  $page"
-echo "The paper's figures (.svg beside each):"
+echo "The paper's figures (also as .svg):"
 for picture in "${pictures[@]}"; do echo "  out/demo/$picture.png"; done
 echo "Tables:"
 for method in recursive corrected equilibrium; do echo "  out/demo/$method/$sweep"; done

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# setup.sh [PACKAGE...]: what it takes to build elastokin and draw its figures.
+# setup.sh [PACKAGE...]: installs what is missing to build elastokin and draw its figures.
 #
-# Looks for gfortran 12 or newer, CMake 3.25 or newer, make, a LAPACK, and gnuplot with a font. What is
-# missing is installed with apt-get, as root or through a sudo that asks for no password; where neither
-# is possible, the command to type is printed and the status is 1. Further Debian or Ubuntu packages may be named.
-# Quick when nothing is missing. FC chooses another compiler than gfortran.
+# Checks for gfortran 12 or newer, CMake 3.25 or newer, make, a LAPACK, and gnuplot with a font. Missing packages
+# are installed with apt-get, as root or through sudo without a password; if neither
+# is possible, the command is printed and the status is 1. PACKAGE: further Debian or Ubuntu packages.
+# Quick when nothing is missing. FC selects another compiler than gfortran.
 set -euo pipefail
 
 missing=()
@@ -26,31 +26,31 @@ has_cmake() {
   command -v cmake >/dev/null && at_least 3.25 "$(cmake --version | awk 'NR == 1 {print $3}')"
 }
 
-has_lapack() { # a program that calls LAPACK links
+has_lapack() { # whether a program that calls LAPACK links
   local folder status=1 libraries
   folder=$(mktemp -d)
   printf 'external dsytrf\ncall dsytrf\nend\n' >"$folder/probe.f90"
   for libraries in -lopenblas '-llapack -lblas'; do
-    # shellcheck disable=SC2086  # two words
+    # shellcheck disable=SC2086  # two arguments
     if "${FC:-gfortran}" -o "$folder/probe" "$folder/probe.f90" $libraries 2>/dev/null; then status=0; break; fi
   done
   rm -rf "$folder"
   return $status
 }
 
-has_font() { # a plain sans-serif; without it gnuplot draws with whatever there is, or with boxes
+has_font() { # a sans-serif font; without it gnuplot uses another font, or draws boxes
   [ -n "$(find -L /usr/share/fonts /usr/local/share/fonts "${HOME:-/nonexistent}/.fonts" \
     "${HOME:-/nonexistent}/.local/share/fonts" \( -iname '*sans*.[ot]tf' -o -iname '*arial*.ttf' \) -print -quit 2>/dev/null)" ]
 }
 
-look_around() {
+check_all() {
   missing=()
   reasons=()
   has_compiler || lacks gfortran 'gfortran 12 or newer'
   has_cmake || lacks cmake 'CMake 3.25 or newer'
   command -v make >/dev/null || lacks make make
   if ! has_compiler || ! has_lapack; then
-    # with a compiler still to come, a LAPACK that is there already is installed again at no cost
+    # without a compiler LAPACK cannot be tested; installing it again costs nothing
     lacks libopenblas-dev LAPACK
   fi
   command -v gnuplot >/dev/null || lacks gnuplot-nox gnuplot
@@ -66,12 +66,12 @@ explain() {
   for k in "${!missing[@]}"; do echo "setup: missing: ${reasons[k]}" >&2; done
 }
 
-look_around "$@"
+check_all "$@"
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 if ! command -v apt-get >/dev/null; then
   explain
-  echo "setup: no apt-get here; install these by other means and run this again" >&2
+  echo "setup: apt-get is not available; install these packages by other means and run this again" >&2
   exit 1
 fi
 
@@ -81,7 +81,7 @@ if [ "$(id -u)" -ne 0 ]; then
     as_root=(sudo -n)
   else
     explain
-    echo "setup: root is needed to install them. Please run" >&2
+    echo "setup: root is required to install them. Please run" >&2
     echo "    sudo apt-get update && sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
     exit 1
   fi
@@ -93,7 +93,7 @@ apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock
 install() { apt install -y --no-install-recommends "${missing[@]}"; }
 
 echo "setup: installing ${missing[*]}"
-# package lists that are absent or out of date are fetched, and only then
+# package lists are fetched only if they are absent or out of date
 if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! install; then
   if ! apt update || ! install; then
     tail -n 20 "$log" >&2
@@ -102,7 +102,7 @@ if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! install; then
   fi
 fi
 
-look_around "$@"
+check_all "$@"
 if [ ${#missing[@]} -gt 0 ]; then
   explain
   echo "setup: still missing after apt-get: is this release older than Debian 12 or Ubuntu 24.04?" >&2

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# test.sh [PRESET [CMAKE-ARGUMENT...]]: set up, compile, run every test; the last line is `N passed, N failed`.
+# test.sh [PRESET [CMAKE-ARGUMENT...]]: sets up, compiles, runs every test; the last line is `N passed, N failed`.
 #
-# PRESET: release (without arguments), debug or asan. Status 0 when every test passed.
+# PRESET: release (default), debug or asan. Status 0 if every test passed.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 
@@ -12,7 +12,7 @@ jobs=${EK_JOBS:-$(nproc)}
 
 built=0
 tools/build.sh "$preset" all "$@" || built=$?
-# a test that was not built counts as failed; without a build folder there is none to count
+# a test that was not built counts as failed; without a build folder there are no tests to count
 if [ ! -f "$folder/CTestTestfile.cmake" ]; then
   echo "0 passed, 1 failed"
   exit 1

@@ -21,13 +21,14 @@ module ek_file
 contains
 
    !> Write `text` as the content of `path`, in one step for every reader. A device (`/dev/stdout`) is written directly.
-   subroutine write_whole(path, text, error)
+   subroutine write_whole(path, text, error, can_be_redrawn)
       character(*), intent(in) :: path
       character(*), intent(in) :: text                       !! bytes, written as they are
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
+      logical, intent(in), optional :: can_be_redrawn        !! then the disk is not waited for (ek_writer)
       type(writer_t) :: writer
 
-      call begin_file(writer, path, error)
+      call begin_file(writer, path, error, can_be_redrawn)
       if (allocated(error)) return
       call writer%add(text)
       call writer%finish(error)

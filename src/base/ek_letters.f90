@@ -2,7 +2,7 @@
 module ek_letters
    implicit none(type, external)
    private
-   public :: visible, bad_byte, as_utf8, is_wide, with_line_ends, save_as_utf8
+   public :: visible, bad_byte, as_utf8, is_wide, with_line_ends, line_count, save_as_utf8
 
    !> What to do with a file for which is_wide is true.
    character(*), parameter :: save_as_utf8 = &
@@ -105,6 +105,17 @@ contains
       end do
       plain = plain(:used)
    end function with_line_ends
+
+   !> How many lines a text has, the last one counted though it may be empty.
+   pure integer function line_count(text) result(lines)
+      character(*), intent(in) :: text
+      integer :: k
+
+      lines = 1
+      do k = 1, len(text)
+         if (text(k:k) == new_line('a')) lines = lines + 1
+      end do
+   end function line_count
 
    !> The character at byte k: its number and how many bytes it takes; length 0 where this is no UTF-8.
    pure subroutine decode(text, k, code, length)

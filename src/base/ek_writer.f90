@@ -9,6 +9,9 @@
 !> without a lock, of this machine, is of a dead run, and `remove_stale` takes it away. Of another machine, whose locks
 !> may not be seen here, one is dead when nothing was written to it for a day.
 !>
+!> What can be drawn again (a picture, a chart's script) takes its name in one step too, but is not waited for: the many
+!> pictures of a report would take longer to reach the disk than to be drawn. After a power cut they may be empty.
+!>
 !> A part is for what is long in the making: `<path>.<machine>-<random>.part`. It stays when the run is killed, with all that was
 !> flushed, and goes when a later run finishes the same file.
 module ek_writer
@@ -40,6 +43,7 @@ module ek_writer
       character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written in place
       character(:), allocatable :: reason               !! of the first failure; '' while all is well
       logical :: is_part = .false., is_empty = .true.
+      logical :: is_awaited = .true.                    !! on the disk before it takes its name
       type(buffer_t) :: rows                            !! of a part, since the last flush: they go out together
    contains
       procedure :: add => writer_add
@@ -58,13 +62,15 @@ module ek_writer
 contains
 
    !> Begin the file `path`. Nothing is there under this name, or what was there before, until it is finished.
-   subroutine begin_file(writer, path, error)
+   subroutine begin_file(writer, path, error, can_be_redrawn)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
+      logical, intent(in), optional :: can_be_redrawn        !! then it is not waited for; else, and by default, it is
       type(facts_t) :: facts
 
       call start(writer, path)
+      if (present(can_be_redrawn)) writer%is_awaited = .not. can_be_redrawn
       facts = facts_of(path, follow=.true.)
       if (c_access(path//'/.'//c_null_char, may_exist) == 0) then
          writer%reason = 'it is a folder'
@@ -183,8 +189,8 @@ contains
       if (c_fflush(self%stream) /= 0) self%reason = system_reason()
    end subroutine writer_flush
 
-   !> Every byte to the disk; then the file takes its name. Where something failed there is no new file; of a part the
-   !> rows that are out stay, and are named.
+   !> Every byte to the disk (unless it can be redrawn); then the file takes its name. Where something failed there is no new
+   !> file; of a part the rows that are out stay, and are named.
    subroutine writer_finish(self, error)
       class(writer_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -192,7 +198,7 @@ contains
 
       if (.not. c_associated(self%stream)) return
       call self%flush()
-      if (len(self%reason) == 0) then
+      if (len(self%reason) == 0 .and. self%is_awaited) then
          if (c_fsync(c_fileno(self%stream)) /= 0 .and. len(self%temporary) > 0) then
             if (error_number() /= not_for_this_kind) self%reason = system_reason()    ! not every file system knows fsync
          end if
@@ -203,7 +209,7 @@ contains
       if (len(self%reason) == 0) then
          if (c_fclose(self%stream) /= 0 .and. len(self%temporary) == 0) self%reason = system_reason()
          self%stream = c_null_ptr
-         if (len(self%temporary) > 0) call keep_name(folder_of(self%path))
+         if (len(self%temporary) > 0 .and. self%is_awaited) call keep_name(folder_of(self%path))
       end if
       if (len(self%reason) == 0) then
          if (self%is_part) call remove_parts(self%path)
@@ -236,18 +242,11 @@ contains
       if (allocated(self%temporary)) path = self%temporary
    end function writer_temporary_name
 
-   !> Gives a whole file of the same disk its place: to the disk first, then the name.
+   !> Gives a whole picture of the same disk its place, in one step. It can be drawn again, and is not waited for.
    subroutine move_file(from, to, error)
       character(*), intent(in) :: from, to
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      type(c_ptr) :: stream
-      integer :: ignored
 
-      stream = c_fopen(from//c_null_char, 'r+be'//c_null_char)
-      if (c_associated(stream)) then
-         ignored = c_fsync(c_fileno(stream))
-         ignored = c_fclose(stream)
-      end if
       if (c_access(to//'/.'//c_null_char, may_exist) == 0) then
          call fail(error, exit_file, "cannot write '"//to//"': it is a folder")
       else if (c_rename(from//c_null_char, to//c_null_char) /= 0) then

@@ -66,6 +66,7 @@ contains
       if (allocated(error)) return
       kkt = new_kkt(suspension)
       case%method = 'equilibrium'
+      case%follows_arc = .false.       ! the methods are compared over the factor
       call sweep(suspension, case, path, kkt)
       if (any(path%failure%state > 0)) then
          call fail(error, exit_convergence, 'case '//quoted(case%name)//' does not converge at every state and cannot be timed')

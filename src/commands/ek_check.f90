@@ -181,6 +181,7 @@ contains
          text = 'drive '//quoted(case%drive)
       end if
       text = text//', '//plural(case%increments, 'increment', 'increments')//', '//case%method
+      if (case%follows_arc) text = text//' along the arc'
       if (diagnosis%is_solvable()) then
          text = text//': can be solved, 1/condition '//str(diagnosis%rcond, 2)
       else

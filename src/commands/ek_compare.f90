@@ -285,7 +285,7 @@ contains
       if (arguments%no_plots) call remove_drawn(sets, folder)
       call gather_charts(sets, charts)
       if (arguments%no_plots .or. size(charts) == 0) return
-      call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error)
+      call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return
       call scripts%add('compare.gp')
       call pictures_of(charts, pictures)

@@ -16,6 +16,7 @@ module ek_failure_words
    use ek_break, only: break_t, why_it_ends, lock, limit_point, mechanism
    use ek_path, only: path_t
    use ek_reach, only: failure_t
+   use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
    use ek_sweep_table, only: factor_unit, nearly_singular
    use ek_run_words, only: has_spring
    implicit none(type, external)
@@ -40,6 +41,9 @@ contains
          text = text//'no equilibrium under the constant loads'
       else if (path%is_table) then
          text = text//row_words(path, failure)
+      else if (failure%ending /= arrived) then
+         text = text//arc_words(suspension, case, path, failure)
+         if (failure%ending /= stuck) return
       else if (failure%is_off_path) then
          text = text//'method '//case%method//' has left the path from design: its states from '// &
             place_words(suspension, case, path%value(failure%state))//' on are marked converged = 0; use more increments, or '// &
@@ -51,6 +55,29 @@ contains
       end if
       text = text//reason_words(suspension, case, path, failure, kkt)
    end function failure_words
+
+   !> Of a path that is walked by its arc length: that it does not come to its end, and where it goes instead.
+   function arc_words(suspension, case, path, failure) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(failure_t), intent(in) :: failure
+      character(:), allocatable :: text
+
+      text = 'the path does not come to '//place_words(suspension, case, path%value(failure%state))//' (state '// &
+         str(failure%state - 1)//'): '
+      select case (failure%ending)
+      case (stuck)
+         text = text//'it ends at '//place_words(suspension, case, failure%reached)
+      case (gone_round)
+         text = text//'it is closed and comes back to design; the other states are shared out over one round of it'
+      case (gone_far)
+         text = text//'it was followed to '//place_words(suspension, case, failure%reached)//', where a body, or the place, '// &
+            'is further from design than any suspension goes'
+      case default
+         text = text//'it was given up at '//place_words(suspension, case, failure%reached)//', after '//str(most_steps)//' steps'
+      end select
+   end function arc_words
 
    !> What is singular at the last equilibrium; without a reason, what the last attempt moved and could not close.
    function reason_words(suspension, case, path, failure, kkt) result(text)
@@ -78,7 +105,8 @@ contains
          text = '; there the joints '//joint_list(suspension, found%locks)//' lock: they cannot be assembled any further'
       case (limit_point)
          text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))//' gives way'
-         if (path%is_settled .and. is_loaded(case)) text = text//': drive the travel instead of the load'
+         if (path%is_settled .and. is_loaded(case) .and. .not. case%follows_arc) text = text// &
+            ': drive the travel instead of the load, or walk along the path (follow = ''arc'')'
       case (mechanism)
          text = '; the matrix is singular there: nothing holds body '//quoted(body_name(suspension, found%body))
       case default
@@ -193,7 +221,7 @@ contains
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_words
 
-   !> A line each: states with a negative stiffness, bifurcations on the path, matrices that are nearly singular.
+   !> A line each: states with a negative stiffness, limit points and bifurcations on the path, matrices that are nearly singular.
    subroutine stability_words(suspension, case, path, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -208,6 +236,10 @@ contains
             ' (column near_singular); see elastokin check')
       end if
       if (case%method == 'recursive') return     ! its matrix has no geometric stiffness to tell by
+      do k = 1, path%limits
+         if (path%limit_state(k) > 0) call words%add('limit point at '//place_words(suspension, case, path%limit_place(k))// &
+            ' (near state '//str(path%limit_state(k) - 1)//'): there the path turns back')
+      end do
       do k = 1, path%crossings
          call words%add('bifurcation at '//place_words(suspension, case, path%crossing_place(k))// &
             ': another branch of equilibria begins there; the results follow the one whose tangent is continuous')

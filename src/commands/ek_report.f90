@@ -40,7 +40,7 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)
+      type(case_t), allocatable :: cases(:), chosen(:)
       type(planned_test_t), allocatable :: planned(:)
       type(test_result_t), allocatable :: tests(:)
       type(film_t), allocatable :: films(:)
@@ -56,35 +56,13 @@ contains
       logical :: has_pictures, has_animation
       integer :: k, failed, code
 
-      call chosen_windows(arguments, windows, error)
-      if (allocated(error)) return
-      call load_deck(arguments, suspension, cases, checksum, error)
-      if (allocated(error)) return
-      call report_cases(suspension, cases, all_cases)
-      call chosen_cases(arguments, all_cases, chosen, error)
-      if (allocated(error)) return
-      folder = arguments%out
-      if (len(folder) == 0) folder = 'out'
-      call examine_cases(suspension, chosen, found)
-      if (found%none_solvable()) then
-         call fail(error, exit_model, unsolvable_words(arguments%file, found))
-         return
-      end if
-      call make_folder(folder, error)
-      if (allocated(error)) return
-      call make_folder(join_path(folder, 'figures'), error)
+      call begin_report(arguments, windows, suspension, cases, chosen, checksum, folder, found, error)
       if (allocated(error)) return
       call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call say_preloads(arguments, suspension)
       call planned_tests(suspension, chosen, planned)
-      call patch_words(suspension, warnings)
-      call spring_words(suspension, planned%case, warnings)
-      do k = 1, warnings%count()
-         call warn(warnings%line(k))
-      end do
-      call warn_of_balance(suspension, warnings)
-      call warn_of_remarks(suspension, cases, warnings)
+      call warn_of_all(suspension, cases, planned, warnings)
       call remove_file(join_path(folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(folder, contents_file))
 
@@ -156,6 +134,53 @@ contains
          call move_alloc(unheard, error)
       end if
    end subroutine report
+
+   !> Reads the deck, examines the chosen cases, and makes the folders; an error if no case can be solved.
+   subroutine begin_report(arguments, windows, suspension, cases, chosen, checksum, folder, found, error)
+      type(arguments_t), intent(in) :: arguments
+      type(windows_t), intent(out) :: windows
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), allocatable, intent(out) :: cases(:), chosen(:)      !! all of the deck; those of this report
+      character(:), allocatable, intent(out) :: checksum, folder
+      type(examination_t), intent(out) :: found
+      type(error_t), allocatable, intent(out) :: error
+      type(case_t), allocatable :: all_cases(:)
+
+      call chosen_windows(arguments, windows, error)
+      if (allocated(error)) return
+      call load_deck(arguments, suspension, cases, checksum, error)
+      if (allocated(error)) return
+      call report_cases(suspension, cases, all_cases)
+      call chosen_cases(arguments, all_cases, chosen, error)
+      if (allocated(error)) return
+      folder = arguments%out
+      if (len(folder) == 0) folder = 'out'
+      call examine_cases(suspension, chosen, found)
+      if (found%none_solvable()) then
+         call fail(error, exit_model, unsolvable_words(arguments%file, found))
+         return
+      end if
+      call make_folder(folder, error)
+      if (allocated(error)) return
+      call make_folder(join_path(folder, 'figures'), error)
+   end subroutine begin_report
+
+   !> Warnings on a model before any test is run, to standard error and for the page.
+   subroutine warn_of_all(suspension, cases, planned, warnings)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(planned_test_t), intent(in) :: planned(:)
+      type(message_list_t), intent(inout) :: warnings
+      integer :: k
+
+      call patch_words(suspension, warnings)
+      call spring_words(suspension, planned%case, warnings)
+      do k = 1, warnings%count()
+         call warn(warnings%line(k))
+      end do
+      call warn_of_balance(suspension, warnings)
+      call warn_of_remarks(suspension, cases, warnings)
+   end subroutine warn_of_all
 
    !> compliance.csv: the compliance matrix at every state of a test.
    subroutine write_matrix(table, folder, unheard, error)

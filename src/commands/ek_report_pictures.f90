@@ -58,7 +58,7 @@ contains
          return
       end if
       call gather_charts(sets, charts)
-      call write_whole(join_path(folder, 'figures/charts.gp'), charts_script(charts), error)
+      call write_whole(join_path(folder, 'figures/charts.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return
       call write_picture(suspension, tests, films, folder, camera, error)
       if (allocated(error)) return
@@ -110,7 +110,7 @@ contains
       end if
       call fit_camera(camera, scenes, 3.0_wp, 2.0_wp, footer=0.11_wp)
       call write_whole(join_path(folder, 'figures/picture.gp'), scene_script(scenes(1), camera, '../picture', &
-         suspension%name//': design, and the ends of its travel'), error)
+         suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
    !> There and back through the travel, then through the steering.
@@ -154,7 +154,7 @@ contains
       fitted = camera
       call fit_camera(fitted, scenes, 4.0_wp, 3.0_wp, footer=0.06_wp)
       call write_whole(join_path(folder, 'figures/animation.gp'), animation_script(scenes, captions, fitted, '../animation', &
-         suspension%name), error)
+         suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
 
    !> The test of the first of the wanted kinds with more than one state; 0 if there is none.

@@ -62,7 +62,7 @@ contains
          tests(k)%case%has_all = .true.
          if (len(cases(k)%test) > 0) then
             tests(k)%kind = cases(k)%test
-            tests(k)%title = test_title(cases(k))
+            tests(k)%title = test_title(cases(k), size(suspension%wheels))
             tests(k)%is_anti = cases(k)%is_anti
          else
             call kind_of_case(suspension, cases(k), tests(k)%kind, tests(k)%factor_size)

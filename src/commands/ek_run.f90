@@ -317,7 +317,7 @@ contains
       character(*), intent(in) :: checksum
 
       call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
-         ', tolerance '//str(case%tolerance/millimetre)//' mm')
+         trim(merge(', follow arc', '            ', case%follows_arc))//', tolerance '//str(case%tolerance/millimetre)//' mm')
       if (len(case%test) > 0) then
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
       else if (len(case%load) > 0) then

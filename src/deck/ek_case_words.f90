@@ -13,7 +13,7 @@ module ek_case_words
 
    !> What one &case says, in the deck's words and units.
    type :: words_t
-      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities
+      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities, follow
       character(note_length) :: file, target
       real(wp) :: from, to, offset, tolerance
       integer :: increments
@@ -26,13 +26,13 @@ contains
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k               !! record of the case
       type(draft_t), intent(inout) :: draft
-      type(words_t), intent(out) :: words    !! `test` and `vertical` in small letters
-      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities
+      type(words_t), intent(out) :: words    !! `test`, `vertical` and `follow` in small letters
+      character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities, follow
       character(note_length) :: file, target
       real(wp) :: from, to, tolerance, offset
       integer :: increments, status
       namelist /case/ name, load, drive, wheel, from, to, increments, method, tolerance, test, vertical, phase, offset, &
-         file, target, quantities
+         file, target, quantities, follow
       type(case_t) :: usual
 
       name = ''
@@ -40,6 +40,7 @@ contains
       drive = ''
       wheel = ''
       method = 'equilibrium'
+      follow = 'factor'
       test = ''
       vertical = ''
       phase = 'in'
@@ -56,7 +57,7 @@ contains
       if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
       words = words_t(name=name, load=load, drive=drive, wheel=wheel, method=method, test=lower(test), vertical=lower(vertical), &
          phase=phase, quantities=quantities, file=file, target=target, from=from, to=to, offset=offset, tolerance=tolerance, &
-         increments=increments)
+         increments=increments, follow=lower(follow))
    end subroutine read_words
 
    !> Looks for the driver joint that a case names; complains where there is none.

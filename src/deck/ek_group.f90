@@ -202,6 +202,7 @@ module ek_group
       key_t(case_group, 'to', number, 1, 1, .false.), &
       key_t(case_group, 'increments', whole, 1, 1, .false.), &
       key_t(case_group, 'method', word, 1, 1, .false.), &
+      key_t(case_group, 'follow', word, 1, 1, .false.), &
       key_t(case_group, 'tolerance', number, 1, 1, .false.), &
       key_t(study_group, 'name', word, 1, 1, .true.), &
       key_t(study_group, 'note', prose, 1, 1, .false.), &

@@ -3,7 +3,7 @@ module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_units, only: millimetre
-   use ek_case, only: case_t, method_names, most_increments
+   use ek_case, only: case_t, method_names, follow_names, most_increments
    use ek_twin, only: right_twin
    use ek_record, only: value_t, own_name
    use ek_namelist, only: value_fault
@@ -72,6 +72,7 @@ contains
          call choice(draft, deck, k, 'quantities', trim(words%quantities), [character(5) :: 'basic', 'all'], c)
          cases(used)%has_all = c == 2
          call read_target()
+         call read_follow()
 
          cases(used)%name = trim(words%name)
          cases(used)%where = where_of(deck, k)
@@ -112,6 +113,23 @@ contains
                quoted(words%method))
          end if
       end subroutine read_target
+
+      !> follow = 'arc': an equilibrium at every state, and no place is met but once.
+      subroutine read_follow()
+         integer :: c
+
+         call choice(draft, deck, k, 'follow', trim(words%follow), follow_names, c)
+         cases(used)%follows_arc = c == 2
+         if (c /= 2) return
+         if (words%test == 'table') then
+            call complain(draft, deck, k, 'follow', "follow = 'arc' has no place in test 'table': each of its rows is a state")
+         else if (words%target /= '') then
+            call complain(draft, deck, k, 'follow', "follow = 'arc' cannot be with a target: a path that turns back "// &
+               'meets the same factor more than once')
+         end if
+         if (lower(words%method) /= 'equilibrium') call complain(draft, deck, k, 'follow', &
+            "follow = 'arc': only method 'equilibrium' can walk along it, found "//quoted(words%method))
+      end subroutine read_follow
 
    end subroutine read_cases
 

@@ -78,7 +78,7 @@ contains
             call complain(draft, deck, k, 'sprung_mass', 'sprung_mass must be above 0 kg, found '//str(sprung_mass))
          this%sprung_mass = 0.0_wp
          if (has_key(deck, k, 'sprung_mass')) this%sprung_mass = sprung_mass
-         call find_spin()
+         call find_spin(draft, deck, k, spin_vector, toe, camber, side, this)
          this%has_steer_axis = has_key(deck, k, 'steer_axis')
          do j = 1, 2
             call find_point(draft, deck, k, 'steer_axis', trim(steer_axis(j)), this%steer_axis(:, j), is_there(j))
@@ -102,35 +102,42 @@ contains
             ' lies on the other side (y points '//trim(merge('left ', 'right', draft%is_iso))//')')
       end subroutine check_side
 
-      subroutine find_spin()
-         real(wp) :: delta, gamma, w(3)
-
-         delta = toe*draft%units%angle
-         gamma = camber*draft%units%angle
-         w = [-cos(gamma)*sin(delta), this%side*cos(gamma)*cos(delta), -sin(gamma)]
-         if (has_key(deck, k, 'spin_vector')) then
-            if (has_key(deck, k, 'toe') .or. has_key(deck, k, 'camber')) call complain(draft, deck, k, 'spin_vector', &
-               'give either spin_vector or toe and camber, not both')
-            w = to_internal(draft, spin_vector)
-            if (.not. draft%cards(k)%is_good) return
-            if (.not. norm2(w) > 0.0_wp) then
-               call complain(draft, deck, k, 'spin_vector', 'spin_vector has no length')
-               return
-            else if (.not. this%side*w(2) > 0.0_wp) then
-               call complain(draft, deck, k, 'spin_vector', 'spin_vector must point outboard, to the '//trim(side)// &
-                  ' (y points '//trim(merge('left ', 'right', draft%is_iso))//')')
-            end if
-            w = unit_vector(w)
-         end if
-         this%spin = w
-         this%toe = delta
-         this%camber = gamma
-         if (has_key(deck, k, 'spin_vector')) then
-            this%toe = atan2(-w(1), this%side*w(2))
-            this%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
-         end if
-      end subroutine find_spin
-
    end subroutine read_wheels
+
+   !> The axis of spin, from spin_vector or from toe and camber.
+   subroutine find_spin(draft, deck, k, spin_vector, toe, camber, side, this)
+      type(draft_t), intent(inout) :: draft
+      type(deck_t), intent(in) :: deck
+      integer, intent(in) :: k                         !! record
+      real(wp), intent(in) :: spin_vector(3), toe, camber      !! as the deck has them; of a key that is not given, its default
+      character(*), intent(in) :: side
+      type(wheel_t), intent(inout) :: this             !! side → spin, toe, camber
+      real(wp) :: delta, gamma, w(3)
+
+      delta = toe*draft%units%angle
+      gamma = camber*draft%units%angle
+      w = [-cos(gamma)*sin(delta), this%side*cos(gamma)*cos(delta), -sin(gamma)]
+      if (has_key(deck, k, 'spin_vector')) then
+         if (has_key(deck, k, 'toe') .or. has_key(deck, k, 'camber')) call complain(draft, deck, k, 'spin_vector', &
+            'give either spin_vector or toe and camber, not both')
+         w = to_internal(draft, spin_vector)
+         if (.not. draft%cards(k)%is_good) return
+         if (.not. norm2(w) > 0.0_wp) then
+            call complain(draft, deck, k, 'spin_vector', 'spin_vector has no length')
+            return
+         else if (.not. this%side*w(2) > 0.0_wp) then
+            call complain(draft, deck, k, 'spin_vector', 'spin_vector must point outboard, to the '//trim(side)// &
+               ' (y points '//trim(merge('left ', 'right', draft%is_iso))//')')
+         end if
+         w = unit_vector(w)
+      end if
+      this%spin = w
+      this%toe = delta
+      this%camber = gamma
+      if (has_key(deck, k, 'spin_vector')) then
+         this%toe = atan2(-w(1), this%side*w(2))
+         this%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
+      end if
+   end subroutine find_spin
 
 end module ek_reader_wheels

@@ -263,10 +263,11 @@ contains
          free(:, k) = free(:, k)*kkt%scale(:kkt%nq)
       end do
 
-      ! what springs and joints can take for nothing is projected out; the rest is the bushings'
+      ! what springs and joints can take for nothing is projected out; the rest is the bushings'. Where they can take everything,
+      ! what is left of `weighted` is rounding, which is no stiffness.
       allocate (x(nx), y(ny), projector(kkt%nq, kkt%nq))
       call complement(free, projector)
-      call least_norm(matmul(projector, weighted), -matmul(projector, load), x)
+      call least_norm(matmul(projector, weighted), -matmul(projector, load), x, norm2(weighted))
       remainder = -load - matmul(weighted, x)
       call least_norm(free, remainder, y)
       remainder = remainder - matmul(free, y)
@@ -335,10 +336,14 @@ contains
       end do
    end subroutine complement
 
-   !> Least squares of least norm (LAPACK dgelsd), singular values below 1e-11 dropped.
-   subroutine least_norm(a, b, x)
+   !> Least squares of least norm (LAPACK dgelsd); singular values are dropped that are below 1e-11 of the largest, or of
+   !> `whole`.
+   subroutine least_norm(a, b, x, whole)
       real(wp), intent(in) :: a(:, :), b(:)
       real(wp), intent(out) :: x(:)
+      real(wp), intent(in), optional :: whole        !! norm of what `a` is a projection of: by its rounding no rank is told
+      real(wp), parameter :: threshold = 1.0e-11_wp
+      real(wp) :: share
       real(wp) :: copy(size(a, 1), size(a, 2)), rhs(max(size(a, 1), size(a, 2)))
       real(wp) :: singular(max(1, min(size(a, 1), size(a, 2)))), query(1)
       real(wp), allocatable :: work(:)
@@ -347,12 +352,17 @@ contains
 
       x = 0.0_wp
       if (size(a) == 0) return
+      share = threshold
+      if (present(whole)) then
+         if (norm2(a) <= threshold*whole) return     ! dgelsd does not take a share of 1 or more
+         share = threshold*whole/norm2(a)
+      end if
       copy = a
       rhs = 0.0_wp
       rhs(:size(b)) = b
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, 1.0e-11_wp, rank, query, -1, iwork, info)
+      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, query, -1, iwork, info)
       allocate (work(int(query(1))))
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, 1.0e-11_wp, rank, work, size(work), &
+      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, work, size(work), &
          iwork, info)
       x = rhs(:size(x))
    end subroutine least_norm

@@ -9,21 +9,20 @@
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are assembled the same way round. Where Φq loses rank N does not
 !>   change its inertia: its determinant goes with the square of that of Φq.
 !>
-!> A law with a corner bends the path. Where a slope of a law has changed between a and b, or in a step that was halved
-!> often enough, d need only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is
+!> A law with a corner bends the path. Where a law has one between a and b, or in a step that was halved often enough, d need only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is
 !> asked for after new_branch.
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_measure, only: measure_value
-   use ek_spring, only: spring_tension
+   use ek_law, only: bend_between, no_bend, steep, corner
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
-   use ek_lapack, only: dgesv
+   use ek_orientation, only: orientation_t, new_orientation, is_turned_over
    implicit none(type, external)
    private
-   public :: branch_t, new_branch, leave, largest_motion, compare, accept, note_crossing, go_along
+   public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, accept, note_crossing, go_along
    public :: same_branch, crossing, doubtful
 
    integer, parameter :: same_branch = 1   !! the step is sound
@@ -32,11 +31,14 @@ module ek_branch
 
    integer, parameter, public :: most_crossings = 8   !! that are told
 
-   real(wp), parameter :: smooth = 2.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
+   real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times what Newton's method leaves
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
+   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise where the rubber of a stop is steep
+   real(wp), parameter :: widest_corner = 1.25e8_wp   !! of the least step, an eighth of the range: longer steps are cut before a corner is believed
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors made no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump over a gap leaves more, unless it is forty times wider
+   real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies that are asked for their direction
    real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
 
@@ -47,12 +49,11 @@ module ek_branch
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a less that of the state before; 0: not known
-      real(wp), allocatable :: rows_a(:, :), rows_b(:, :), product(:, :), unit(:, :)   !! scaled Φq of the rows that hold for certain
-      integer, allocatable :: held(:), pivots(:)
-      integer, allocatable :: touching(:, :), count(:)     !! held rows that touch a body, and how many
+      type(orientation_t) :: orientation
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
       logical :: is_symmetric = .true.      !! no load leaves the tangent unsymmetric
       type(state_t) :: before, shifted
+      logical :: was_bent = .false.         !! the step that was compared last goes round a corner of a law
       logical :: knows_end = .false.        !! tangent_b is that of the state that was looked at last
       integer :: factorisations = 0         !! that the last comparison needed
       real(wp) :: least = 0.0_wp            !! shortest step that is tried before the path is said to end [place]
@@ -67,27 +68,12 @@ contains
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
-      integer :: k, n, body
+      integer :: k
 
-      self%held = pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp)
-      n = size(self%held)
+      self%orientation = new_orientation(suspension)
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), source=0.0_wp)
-      allocate (self%rows_a(suspension%unknowns(), n), self%rows_b(suspension%unknowns(), n), self%product(n, n), &
-         self%unit(n, 1), source=0.0_wp)
-      allocate (self%pivots(n), source=0)
-      allocate (self%touching(n, size(suspension%bodies)), self%count(size(suspension%bodies)), source=0)
-      do body = 1, size(suspension%bodies)
-         do k = 1, n
-            associate (row => suspension%rows(self%held(k)))
-               if (.not. any(suspension%terms(row%first:row%first + row%terms - 1)%measure%body_i == body .or. &
-                  suspension%terms(row%first:row%first + row%terms - 1)%measure%body_j == body)) cycle
-            end associate
-            self%count(body) = self%count(body) + 1
-            self%touching(self%count(body), body) = k
-         end do
-      end do
       allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
          self%defect(suspension%unknowns() + suspension%constraints()), source=0.0_wp)
       self%before = design_state(suspension)
@@ -127,7 +113,7 @@ contains
    !> Compares both ends of a step. The factors of N at b, or near, must be at hand in kkt.
    !>
    !> Tried with these factors and a tangent of a that may be old; where that does not explain the step, with fresh ones.
-   !> After it self%tangent_b and rows_b are those of b; `accept` makes them those of the newest state.
+   !> After it self%tangent_b is that of b; `accept` makes it that of the newest state.
    subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
       is_short, missed, kkt, verdict)
       type(branch_t), intent(inout) :: self
@@ -144,8 +130,9 @@ contains
       integer, intent(out) :: verdict
       type(demand_t) :: rate
       integer :: negative_b
-      real(wp) :: rest
-      logical :: is_explained, can_bend
+      real(wp) :: rest, allowed
+      integer :: bend
+      logical :: is_explained
 
       rate = demand_rate(demand_a, demand_b, width)
       negative_b = kkt%negative
@@ -166,17 +153,19 @@ contains
          if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
       is_explained = rest <= smooth
-      can_bend = .false.
+      allowed = 0.0_wp
       if (.not. is_explained) then
-         can_bend = is_short .or. has_bent_law(suspension, self%before, state_b)
-         if (can_bend .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
+         bend = sharpest_bend(suspension, self%before, state_b)
+         if (bend == steep) allowed = slight
+         if (is_short .or. (bend == corner .and. abs(width) <= widest_corner*self%least)) allowed = huge(allowed)
+         if (rest <= allowed .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
             is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. (is_explained .or. self%has_tangent)) then
          call at_beginning()
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (can_bend .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
+         if (rest <= allowed .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
@@ -187,17 +176,18 @@ contains
          self%factorisations = self%factorisations + 1
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
          is_explained = rest <= smooth
-         if (.not. is_explained .and. can_bend) is_explained = is_bend(self, width, kkt%length)
+         if (.not. is_explained .and. rest <= allowed) is_explained = is_bend(self, width, kkt%length)
       end if
       if (.not. is_explained) then
          verdict = doubtful
-      else if (negative_b /= self%negative .or. (rest > exact .and. is_turned_over(self, suspension, state_b, demand_a, &
-         demand_b, kkt))) then
+      else if (negative_b /= self%negative .or. ((rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) &
+         .and. is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt))) then
          verdict = crossing
       else
          verdict = same_branch
       end if
       kkt%negative = negative_b
+      self%was_bent = is_explained .and. rest > smooth
       self%knows_end = self%factorisations > 1 .or. missed <= fresh*largest_motion(self%motion, kkt%length)
 
    contains
@@ -376,24 +366,21 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> The slope of a law, a stop's or a curve's, is another at b than at a: it may have a corner in between.
-   pure logical function has_bent_law(suspension, a, b)
+   !> The sharpest bend of a law between a and b.
+   pure integer function sharpest_bend(suspension, a, b) result(bend)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: a, b
-      real(wp), parameter :: other = 0.01_wp     ! of the slope
       type(bushing_view_t) :: from, to
-      real(wp) :: force, slope_a, slope_b
-      integer :: k, i, j
+      integer :: k, axis, i, j
 
-      has_bent_law = .true.
+      bend = no_bend
       do k = 1, size(suspension%springs)
          associate (spring => suspension%springs(k))
             if (.not. spring%has_law) cycle
             i = spring%measure%body_i + 1
             j = spring%measure%body_j + 1
-            call spring_tension(spring, measure_value(spring%measure, a%poses(i), a%poses(j)), force, slope_a)
-            call spring_tension(spring, measure_value(spring%measure, b%poses(i), b%poses(j)), force, slope_b)
-            if (abs(slope_b - slope_a) > other*max(abs(slope_a), abs(slope_b))) return
+            bend = max(bend, bend_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
+               measure_value(spring%measure, b%poses(i), b%poses(j))))
          end associate
       end do
       do k = 1, size(suspension%bushings)
@@ -401,70 +388,27 @@ contains
             if (.not. bushing%has_curves) cycle
             call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
             call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
-            if (maxval(abs(to%stiffness_t - from%stiffness_t)) > other*maxval(abs(from%stiffness_t))) return
-            if (maxval(abs(to%stiffness_r - from%stiffness_r)) > other*maxval(abs(from%stiffness_r))) return
+            do axis = 1, 3
+               if (bushing%laws(axis)%has_curve) bend = max(bend, bend_between(bushing%laws(axis), &
+                  dot_product(bushing%axes(:, axis), from%gap), dot_product(bushing%axes(:, axis), to%gap)))
+               if (bushing%laws(axis + 3)%has_curve) bend = max(bend, bend_between(bushing%laws(axis + 3), &
+                  dot_product(bushing%axes(:, axis), from%turn%theta), dot_product(bushing%axes(:, axis), to%turn%theta)))
+            end do
          end associate
       end do
-      has_bent_law = .false.
-   end function has_bent_law
+   end function sharpest_bend
 
-   !> det(Φq(a) Φq(b)ᵀ) < 0.
-   logical function is_turned_over(self, suspension, state_b, demand_a, demand_b, kkt)
-      type(branch_t), intent(inout) :: self      !! with state a in `before`
+   !> Whether the joints turn over in a step that was foreseen, which `compare` has not seen.
+   logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
+      type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state_b
+      real(wp), contiguous, intent(in) :: packed_a(:)
       type(demand_t), intent(in) :: demand_a, demand_b
+      type(state_t), intent(in) :: state_b
       type(kkt_t), intent(inout) :: kkt
-      integer :: i, j, k, l, body, n, info
 
-      call assemble(suspension, self%before, demand_a, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_a)
-      call assemble(suspension, state_b, demand_b, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_b)
-      is_turned_over = .false.
-      n = size(self%held)
-      if (n == 0) return
-      self%product = 0.0_wp
-      do body = 1, size(self%count)
-         do j = 1, self%count(body)
-            l = self%touching(j, body)
-            do i = 1, self%count(body)
-               k = self%touching(i, body)
-               self%product(k, l) = self%product(k, l) &
-                  + dot_product(self%rows_a(6*body - 5:6*body, k), self%rows_b(6*body - 5:6*body, l))
-            end do
-         end do
-      end do
-      ! for the LU factors; without a right-hand side OpenBLAS would not make them
-      self%unit = 0.0_wp
-      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
-      if (info /= 0) return
-      do k = 1, n
-         if (self%product(k, k) < 0.0_wp) is_turned_over = .not. is_turned_over
-         if (self%pivots(k) /= k) is_turned_over = .not. is_turned_over
-      end do
-   end function is_turned_over
-
-   !> Φq from the gradients of the last assembly, scaled; of the rows that hold for certain.
-   pure subroutine gather_rows(self, suspension, kkt, rows)
-      type(branch_t), intent(in) :: self
-      type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt
-      real(wp), intent(inout) :: rows(:, :)      !! (unknown, row)
-      integer :: k, t, i, j
-
-      rows = 0.0_wp
-      do k = 1, size(self%held)
-         associate (row => suspension%rows(self%held(k)))
-            do t = row%first, row%first + row%terms - 1
-               i = 6*(suspension%terms(t)%measure%body_i - 1)
-               j = 6*(suspension%terms(t)%measure%body_j - 1)
-               if (i >= 0) rows(i + 1:i + 6, k) = rows(i + 1:i + 6, k) + kkt%gradients(1:6, t)
-               if (j >= 0) rows(j + 1:j + 6, k) = rows(j + 1:j + 6, k) + kkt%gradients(7:12, t)
-            end do
-         end associate
-         rows(:, k) = rows(:, k)*(kkt%scale(kkt%nq + self%held(k))*kkt%scale(:kkt%nq))
-      end do
-   end subroutine gather_rows
+      call unpack_state(packed_a, self%before)
+      is_overturning = is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)
+   end function is_overturning
 
 end module ek_branch

@@ -9,11 +9,14 @@ module ek_path
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, demand_at
-   use ek_kkt, only: kkt_t
+   use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
-   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment
-   use ek_branch, only: branch_t, new_branch, leave, most_crossings
+   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment, &
+      check_increment
+   use ek_branch, only: branch_t, new_branch, leave, note_crossing, most_crossings
    use ek_confirm, only: confirm
+   use ek_arc, only: arc_t, new_arc, begin
+   use ek_arc_survey, only: survey_t, survey, go_to, length_at, tell_limits, most_limits, arrived
    use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
    implicit none(type, external)
    private
@@ -39,12 +42,15 @@ module ek_path
       logical, allocatable :: is_reached(:)
       logical, allocatable :: is_stable(:)        !! no negative stiffness
       integer, allocatable :: iterations(:)       !! factorisations spent on a state
-      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate
+      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate; where that is tiny, the true one
       real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
       logical :: is_table = .false.               !! rows of a table, each a state of its own
       integer :: crossings = 0                    !! bifurcations that the path goes through
       real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
+      integer :: limits = 0                       !! limit points, where the path is walked by its arc length; and their places
+      real(wp) :: limit_place(2*most_limits) = 0.0_wp
+      integer :: limit_state(2*most_limits) = 0   !! index of the nearest state; 0: before the range begins
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
@@ -146,7 +152,9 @@ contains
       type(predictor_t) :: predictor
       type(branch_t) :: branch
       type(schedule_t) :: schedule
+      type(arc_t) :: arc
       type(demand_t) :: demand
+      logical :: is_along_arc
       real(wp) :: here                   ! the place of `state`
       integer :: done, settled_negative
 
@@ -155,6 +163,9 @@ contains
       call demand_at(schedule, here, demand)
       predictor = new_predictor(size(path%settled))
       branch = new_branch(suspension)
+      is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
+      if (is_along_arc) arc = new_arc(suspension, kkt%length, maxval(abs(path%value)), case%tolerance)
+      path%limits = 0
       branch%least = least_step*span(path)
       branch%width = crossing_step*span(path)
       settled_negative = -1
@@ -192,10 +203,18 @@ contains
       !> Stores the state at hand as state k.
       subroutine keep(k)
          integer, intent(in) :: k
+         real(wp), parameter :: suspect = 1.0e-12_wp
+         real(wp) :: rcond
+
          call pack_state(state, path%packed(:, k))
          path%is_reached(k) = .true.
          path%is_stable(k) = kkt%negative == kkt%nc
          path%pivot_ratio(k) = kkt%pivot_ratio
+         if (kkt%pivot_ratio < suspect .and. case%method /= 'recursive') then
+            ! a small pivot may be one of a well-conditioned matrix
+            call condition(suspension, state, demand, kkt, rcond)
+            path%pivot_ratio(k) = max(path%pivot_ratio(k), rcond)
+         end if
          done = done + 1
          if (present(progress)) then
             if (mod(done, 1000) == 0) call progress(done, path%states)
@@ -208,6 +227,7 @@ contains
          integer :: step, steps
          real(wp) :: size_of_one
 
+         if (is_along_arc) return      ! walk_arc goes there itself
          size_of_one = abs(path%value(2) - path%value(1))
          steps = max(1, nint(abs(path%value(k))/size_of_one))
          call restart()
@@ -245,6 +265,8 @@ contains
          type(failure_t), intent(inout) :: failure
          integer :: k
 
+         if (is_along_arc) call walk_arc(first, last, direction, failure)
+         if (is_along_arc) return
          if (first == path%start) then
             call restart()
             call seed(first, -direction)
@@ -255,6 +277,41 @@ contains
             call keep(k)
          end do
       end subroutine walk_branch
+
+      !> States `first` to `last`, at equal distances along the path; the last is left out where the path does not come there.
+      subroutine walk_arc(first, last, direction, failure)
+         integer, intent(in) :: first, last, direction
+         type(failure_t), intent(inout) :: failure
+         type(survey_t) :: found
+         integer :: k, spent
+         logical :: is_found
+
+         if (first == last) return
+         call survey(arc, suspension, schedule, path%settled, path%value(first), path%value(last), kkt, found)
+         call tell_limits(found, first, last, path%limits, path%limit_place, path%limit_state)
+         do k = 1, found%crossings
+            call note_crossing(branch, found%crossing_place(k))
+         end do
+         call begin(arc, suspension, schedule, path%settled, 0.0_wp, path%value(last) > 0.0_wp, kkt, is_found)
+         do k = first, last, direction
+            if (k == path%start) cycle
+            if (.not. is_found .or. (k == last .and. found%ending /= arrived)) exit
+            spent = arc%factorisations
+            call go_to(arc, suspension, schedule, length_at(found, k, first, last), kkt, is_found)
+            if (.not. is_found) exit
+            state%poses(:) = arc%state%poses
+            state%reaction(:) = arc%state%reaction
+            if (k /= first .and. k /= last) path%value(k) = arc%place     ! those are but for rounding
+            path%iterations(k) = arc%factorisations - spent + 1
+            call keep(k)
+         end do
+         if (k == last + direction) return
+         failure%state = k
+         failure%ending = found%ending
+         failure%value = found%last_place
+         failure%reached = found%last_place
+         failure%last = arc%packed_a
+      end subroutine walk_arc
 
       !> Back to the settled state, at the place where nothing is asked for.
       subroutine restart()
@@ -318,33 +375,5 @@ contains
       span = 1.0_wp
       if (.not. path%is_table) span = maxval(abs(path%value)) + maxval(path%value) - minval(path%value)
    end function span
-
-   !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
-   subroutine check_increment(kkt, state_number, before, value, failure)
-      type(kkt_t), intent(in) :: kkt
-      integer, intent(in) :: state_number
-      real(wp), intent(in) :: before, value      !! place at either end of the increment
-      type(failure_t), intent(inout) :: failure
-      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, in one increment least of all
-      real(wp) :: moved
-      integer :: k
-
-      if (.not. kkt%is_singular) then
-         do k = 1, kkt%nq/6
-            moved = norm2(kkt%rhs(6*k - 5:6*k - 3))
-            if (moved <= failure%moved) cycle
-            failure%moved = moved
-            failure%body = k
-         end do
-         if (failure%moved <= far) then
-            failure%moved = 0.0_wp
-            return
-         end if
-      end if
-      failure%state = state_number
-      failure%is_singular = kkt%is_singular
-      failure%value = value
-      failure%reached = before
-   end subroutine check_increment
 
 end module ek_path

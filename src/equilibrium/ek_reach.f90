@@ -8,14 +8,16 @@ module ek_reach
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge, depth
-   use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, &
+   use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, is_overturning, long, &
       same_branch, crossing, doubtful
    implicit none(type, external)
    private
    public :: failure_t, reach, settle
 
    integer, parameter :: bend_halvings = 5            !! behind so many a corner of a law is taken for what it is
+   real(wp), parameter :: shortest_bend = 1.0e6_wp    !! of the least step: the longest that may go round an unknown corner
    real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a guess that near has seen the path coming
+   real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
    integer, parameter :: most_attempts = 400          !! of one increment
 
    !> Where and how a sweep stopped.
@@ -25,6 +27,7 @@ module ek_reach
       real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method went on, but not along the path from design
+      integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0: it was none
       integer :: body = 0                  !! which moved most in the failed attempt
       real(wp) :: moved = 0.0_wp           !! how far [m]
       integer :: row = 0                   !! constraint furthest from its value
@@ -97,14 +100,19 @@ contains
       real(wp) :: here, place, step, bend
       real(wp) :: before      ! place of the newest state less that of the one before it
       integer :: points, attempt, verdict, older
-      logical :: was_compared
+      real(wp) :: beyond      ! the nearest place known behind a bifurcation
+      logical :: was_compared, here_is_goal, is_long, knows_beyond, is_last_try
 
       here = predictor%abscissa(predictor%newest)
       call demand_of(here, here_demand)
       iterations = 0
+      here_is_goal = .false.
+      knows_beyond = .false.
+      is_last_try = .false.
+      beyond = 0.0_wp
       points = predictor%trusted
       step = goal - here
-      bend = abs(step)*0.5_wp**bend_halvings
+      bend = min(abs(step)*0.5_wp**bend_halvings, shortest_bend*branch%least)
       do attempt = 1, most_attempts
          place = here + step
          if (abs(step) >= abs(goal - here)) place = goal
@@ -122,7 +130,9 @@ contains
          verdict = doubtful
          if (outcome%is_converged) then
             verdict = same_branch
-            was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length)
+            was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length, is_long)
+            if (is_long .and. .not. was_compared) was_compared = is_overturning(branch, suspension, &
+               predictor%packed(:, predictor%newest), here_demand, state, demand, kkt)
             if (was_compared) then
                older = modulo(predictor%newest - 2, depth) + 1
                before = 0.0_wp
@@ -133,8 +143,10 @@ contains
                iterations = iterations + branch%factorisations
                kkt%pivot_ratio = outcome%pivot_ratio
                if (verdict == crossing) then
-                  if (abs(place - here) > branch%width) then
+                  if (abs(place - here) > branch%width .and. .not. is_last_try) then
                      verdict = doubtful
+                     knows_beyond = .true.
+                     beyond = place
                   else
                      call note_crossing(branch, 0.5_wp*(here + place))
                      verdict = same_branch
@@ -145,19 +157,60 @@ contains
          if (verdict == same_branch) then
             call accept(branch, outcome%negative, was_compared)
             call store(predictor, place, state, outcome%factorisations == 1)
+            ! no polynomial goes round a corner
+            if (was_compared .and. branch%was_bent) predictor%trusted = min(predictor%trusted, 2)
             here = place
             here_demand = demand
             if (abs(goal - here) <= 0.0_wp) return
             step = 2.0_wp*step
+            if (is_last_try) knows_beyond = .false.
+            is_last_try = .false.
          else
             points = min(points, 2)     ! a bold guess may itself be the trouble
             step = 0.5_wp*(place - here)
-            if (abs(step) < branch%least) exit
+            if (abs(step) < branch%least) then
+               if (abs(goal - here) <= branch%width .and. .not. is_settling) call step_over()
+               if (here_is_goal) return
+               ! so near to a bifurcation the tangents say nothing: take the step across it that they explained last
+               if (is_last_try .or. .not. knows_beyond) exit
+               if ((beyond - here)*(goal - here) <= 0.0_wp .or. abs(beyond - here) > widest*branch%width) exit
+               is_last_try = .true.
+               step = beyond - here
+            end if
          end if
       end do
       call blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
 
    contains
+
+      !> The goal itself is a bifurcation: N is singular there. The path is taken up again just behind it, and the state is what
+      !> lies between; the width is so small that the path is straight.
+      subroutine step_over()
+         real(wp) :: share
+
+         place = goal + sign(branch%width, goal - here)
+         call demand_of(place, demand)
+         call predict(predictor, place, 2)
+         call unpack_state(predictor%guess, state)
+         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
+         iterations = iterations + outcome%factorisations
+         if (.not. outcome%is_converged) return
+         older = modulo(predictor%newest - 2, depth) + 1
+         before = 0.0_wp
+         if (predictor%count > 1) before = here - predictor%abscissa(older)
+         call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
+            predictor%packed(:, older), before, state, .true., outcome%first, kkt, verdict)
+         iterations = iterations + branch%factorisations
+         if (verdict == doubtful) return
+         if (verdict == crossing) call note_crossing(branch, goal)
+         call accept(branch, outcome%negative, .true.)
+         call pack_state(state, predictor%guess)
+         share = (goal - here)/(place - here)
+         predictor%guess = (1.0_wp - share)*predictor%packed(:, predictor%newest) + share*predictor%guess
+         call unpack_state(predictor%guess, state)
+         call store(predictor, goal, state, .false.)
+         here_is_goal = .true.
+      end subroutine step_over
 
       subroutine demand_of(place, demand)
          real(wp), intent(in) :: place
@@ -173,11 +226,12 @@ contains
    end subroutine follow
 
    !> The guess from earlier states came near enough, and the inertia is what it was: nothing has happened on the way.
-   pure logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length)
+   logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length, is_long)
       type(predictor_t), intent(in) :: predictor     !! with the guess
       type(state_t), intent(in) :: state             !! where Newton's method went from it
       integer, intent(in) :: negative, negative_before
       real(wp), intent(in) :: tolerance, length      !! m
+      logical, intent(out) :: is_long                !! it may yet have passed over a narrow gap of the assembly
       real(wp) :: moved, missed
       integer :: k, at
 
@@ -193,6 +247,7 @@ contains
          end associate
          at = at + 7
       end do
+      is_long = moved > (long*length)**2
       if (moved <= (10.0_wp*tolerance)**2) then
          is_foreseen = negative == negative_before .or. negative_before < 0
       else

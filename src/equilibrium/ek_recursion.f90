@@ -4,9 +4,10 @@ module ek_recursion
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, demand_rate, move, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, material_only
+   use ek_reach, only: failure_t
    implicit none(type, external)
    private
-   public :: carry_t, start_recursion, recursive_increment, corrected_increment
+   public :: carry_t, start_recursion, recursive_increment, corrected_increment, check_increment
 
    !> What the recursion hands from increment to increment: Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹ [N, N m].
    type :: carry_t
@@ -98,5 +99,33 @@ contains
          end do
       end do
    end subroutine gather
+
+   !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
+   subroutine check_increment(kkt, state_number, before, value, failure)
+      type(kkt_t), intent(in) :: kkt
+      integer, intent(in) :: state_number
+      real(wp), intent(in) :: before, value      !! place at either end of the increment
+      type(failure_t), intent(inout) :: failure
+      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, in one increment least of all
+      real(wp) :: moved
+      integer :: k
+
+      if (.not. kkt%is_singular) then
+         do k = 1, kkt%nq/6
+            moved = norm2(kkt%rhs(6*k - 5:6*k - 3))
+            if (moved <= failure%moved) cycle
+            failure%moved = moved
+            failure%body = k
+         end do
+         if (failure%moved <= far) then
+            failure%moved = 0.0_wp
+            return
+         end if
+      end if
+      failure%state = state_number
+      failure%is_singular = kkt%is_singular
+      failure%value = value
+      failure%reached = before
+   end subroutine check_increment
 
 end module ek_recursion

@@ -21,8 +21,9 @@ contains
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm
-      real(wp), intent(out) :: stiffness    !! k [N/m]; 1 where nothing is elastic
+      real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil where nothing is elastic
       real(wp) :: sum_log, least, tension, slope, rates(6)
+      real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil, for a model that nothing elastic holds
       integer :: k, count, axis
 
       least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
@@ -48,21 +49,43 @@ contains
          if (suspension%springs(k)%kind /= axial_spring .and. suspension%springs(k)%kind /= measure_spring) cycle
          if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and bars hold no wheel at design
          call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
-         if (slope <= 0.0_wp) cycle
-         sum_log = sum_log + log(slope)
-         count = count + 1
+         call include_rate(slope)
       end do
       do k = 1, size(suspension%bushings)
          rates = design_rates(suspension%bushings(k))
          do axis = 1, 3
-            if (rates(axis) <= 0.0_wp) cycle
-            sum_log = sum_log + log(rates(axis))
-            count = count + 1
+            call include_rate(rates(axis))
          end do
       end do
-      stiffness = exp(sum_log/max(count, 1))
+      if (count == 0) call include_angles()
+      stiffness = usual
+      if (count > 0) stiffness = exp(sum_log/count)
 
    contains
+
+      !> A model that nothing but torsion springs and rubber in rotation holds.
+      subroutine include_angles()
+         integer :: k, axis
+
+         do k = 1, size(suspension%springs)
+            if (.not. is_of_angle(suspension%springs(k)%measure%kind)) cycle
+            call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
+            call include_rate(slope/length**2)
+         end do
+         do k = 1, size(suspension%bushings)
+            rates = design_rates(suspension%bushings(k))
+            do axis = 4, 6
+               call include_rate(rates(axis)/length**2)
+            end do
+         end do
+      end subroutine include_angles
+
+      subroutine include_rate(rate)
+         real(wp), intent(in) :: rate      !! N/m
+         if (rate <= 0.0_wp) return
+         sum_log = sum_log + log(rate)
+         count = count + 1
+      end subroutine include_rate
 
       subroutine include(arm)
          real(wp), intent(in) :: arm(3)

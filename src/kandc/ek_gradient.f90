@@ -17,7 +17,7 @@ module ek_gradient
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_table, only: row_count, column_index, name_length
-   use ek_test_result, only: test_result_t, converged_rows, wheel_column
+   use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
    use ek_gradient_definition, only: definition_t, definitions_of
    use ek_gradient_window, only: windows_t, window_of
    implicit none(type, external)
@@ -111,7 +111,7 @@ contains
       call window_of(test%kind, definition%over, windows, gradient%window_half, unit)
       gradient%window = '±'//str(gradient%window_half)//' '//trim(unit)
 
-      is_good = converged_rows(test%table)
+      is_good = unfolded_rows(test%table)
       x = pack(test%table%values(over, :), is_good)
       y = pack(test%table%values(place, :), is_good)
       if (definition%over == 'factor') then

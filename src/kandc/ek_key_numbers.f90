@@ -1,13 +1,14 @@
 !> The key numbers of a report, from all its tests: attitude at design, rates, ride and roll, compliance,
 !> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted.
 module ek_key_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_table, only: column_index
-   use ek_test_result, only: test_result_t, design_row, converged_rows
+   use ek_quantity, only: without_phase
+   use ek_test_result, only: test_result_t, design_row, unfolded_rows
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
-   use ek_key_number, only: key_number_t
+   use ek_key_number, only: key_number_t, nothing
    use ek_place_numbers, only: place_numbers
    implicit none(type, external)
    private
@@ -146,11 +147,14 @@ module ek_key_numbers
       'rotation of the carrier about y'), &
       source_t(held, 'jacking, in phase', 'lateral_in_jacking_n_per_kn', 'design', '', '', 'N/kN', &
       '+ the ground pushes up under a force to the right'), &
-      source_t(elastic, 'caster', 'instant_caster_deg', 'design', '', '', 'deg', '+ leans rearward at the top', 'n'), &
-      source_t(elastic, 'kingpin inclination', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
+      source_t(elastic, 'caster, elastic axis', 'instant_caster_deg', 'design', '', '', 'deg', &
+      '+ leans rearward at the top', 'n'), &
+      source_t(elastic, 'kingpin inclination, elastic axis', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
       '+ leans inward at the top', 'n'), &
-      source_t(elastic, 'scrub radius', 'instant_scrub_radius_mm', 'design', '', '', 'mm', '+ inboard of the patch', 'n'), &
-      source_t(elastic, 'caster trail', 'instant_caster_trail_mm', 'design', '', '', 'mm', '+ ahead of the patch', 'n')]
+      source_t(elastic, 'scrub radius, elastic axis', 'instant_scrub_radius_mm', 'design', '', '', 'mm', &
+      '+ inboard of the patch', 'n'), &
+      source_t(elastic, 'caster trail, elastic axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &
+      '+ ahead of the patch', 'n')]
 
    type(source_t), parameter :: last_list(*) = [ &
       source_t(anti, 'anti-dive', 'anti_dive_percent', 'design', '', '', '%', 'braking, front'), &
@@ -182,15 +186,17 @@ contains
       type(gradient_t), intent(in) :: gradients(:)
       type(key_number_t), allocatable, intent(out) :: numbers(:)
       type(key_number_t) :: number
-      logical :: is_steered
+      logical :: is_steered, is_pair
       integer :: used, k
 
       allocate (numbers(size(attitude_list) + size(rates_list) + size(ride_list) + size(comply_list) + &
          size(held_list) + size(last_list)))
       used = 0
       is_steered = .false.
+      is_pair = .false.
       do k = 1, size(tests)
          is_steered = is_steered .or. column_index(tests(k)%table, 'steering_ratio') > 0
+         if (allocated(tests(k)%prefixes)) is_pair = is_pair .or. size(tests(k)%prefixes) > 1
       end do
       call take(attitude_list)
       call take(rates_list)
@@ -223,6 +229,10 @@ contains
                call from_tables(tests, list(k), number, is_there)
             end if
             if (.not. is_there) cycle
+            if (.not. is_pair) then
+               number%quantity = without_phase(number%quantity)
+               number%sign = without_phase(number%sign)
+            end if
             used = used + 1
             numbers(used) = number
          end do
@@ -247,7 +257,6 @@ contains
             if (gradients(k)%test /= tests(t)%name .or. gradients(k)%quantity /= trim(source%name)//fitted) cycle
             is_there = .true.
             number%quantity = trim(source%quantity)//fitted
-            if (size(tests(t)%prefixes) < 2) number%quantity = trim(source%name)//fitted      ! one wheel has no phase
             number%unit = gradients(k)%unit
             number%sign = gradients(k)%sign//' (over '//gradients(k)%window//')'
             if (gradients(k)%side == 'right') then
@@ -310,15 +319,10 @@ contains
          if (row > 0) value = test%table%values(place, row)
          return
       end if
-      is_good = converged_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
+      is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
       if (.not. any(is_good)) return
       if (how == 'largest') value = maxval(test%table%values(place, :), mask=is_good)
       if (how == 'least') value = minval(test%table%values(place, :), mask=is_good)
    end function value_of
-
-   !> The value of a missing number.
-   pure real(wp) function nothing()
-      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function nothing
 
 end module ek_key_numbers

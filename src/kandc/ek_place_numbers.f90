@@ -1,11 +1,11 @@
 !> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact
 !> of a stop, and the maximum force on the rack over all tests.
 module ek_place_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_table, only: column_index
-   use ek_test_result, only: test_result_t, design_row, converged_rows
-   use ek_key_number, only: key_number_t
+   use ek_test_result, only: test_result_t, design_row, unfolded_rows
+   use ek_key_number, only: key_number_t, nothing
    implicit none(type, external)
    private
    public :: place_numbers, value_where
@@ -159,7 +159,7 @@ contains
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place
       logical :: is_good(size(test%table%values, 2))
-      is_good = converged_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
+      is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
    end function is_good
 
    !> 'left_' or 'right_' of a name of that side, otherwise ''.
@@ -213,10 +213,5 @@ contains
       more(at + 2:) = numbers(at + 1:)
       call move_alloc(more, numbers)
    end subroutine append
-
-   !> The value of a missing number.
-   pure real(wp) function nothing()
-      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function nothing
 
 end module ek_place_numbers

@@ -119,8 +119,9 @@ contains
    end subroutine standard_tests
 
    !> A heading for a case: 'Lateral force, anti phase, 30 mm behind the patch'.
-   pure function test_title(this) result(title)
+   pure function test_title(this, wheels) result(title)
       type(case_t), intent(in) :: this
+      integer, intent(in) :: wheels              !! of the model; one alone has no phase
       character(:), allocatable :: title
       integer :: k
 
@@ -131,7 +132,7 @@ contains
       do k = 1, len(title)
          if (title(k:k) == '_') title(k:k) = ' '
       end do
-      if (any(this%test == [character(15) :: 'lateral_force', 'aligning_torque', 'braking', 'traction'])) then
+      if (wheels > 1 .and. any(this%test == [character(15) :: 'lateral_force', 'aligning_torque', 'braking', 'traction'])) then
          if (this%is_anti) then
             title = title//', anti phase'
          else

@@ -14,7 +14,7 @@ module ek_curve
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds
+   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, has_corner
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
 
@@ -133,6 +133,27 @@ contains
          area = curve%areas(k) + piece_area(curve%coefficients(:, k), x - curve%breaks(k))
       end if
    end function curve_integral
+
+   !> Whether the slope jumps at a point of the curve between two places (of the kind `linear` at nearly every point).
+   pure logical function has_corner(curve, from, to)
+      type(curve_t), intent(in) :: curve
+      real(wp), intent(in) :: from, to
+      real(wp), parameter :: jump = 1.0e-3_wp      ! of the slope
+      real(wp) :: h, left, right
+      integer :: k
+
+      has_corner = .true.
+      do k = 2, size(curve%breaks) - 1
+         if (curve%breaks(k) < min(from, to) .or. curve%breaks(k) > max(from, to)) cycle
+         associate (c => curve%coefficients(:, k - 1))
+            h = curve%breaks(k) - curve%breaks(k - 1)
+            left = c(2) + h*(2.0_wp*c(3) + 3.0_wp*h*c(4))
+         end associate
+         right = curve%coefficients(2, k)
+         if (abs(right - left) > jump*max(abs(left), abs(right))) return
+      end do
+      has_corner = .false.
+   end function has_corner
 
    !> The piece k with x_k ≤ x < x_{k+1}, by bisection; x lies between the first point and the last.
    pure integer function piece_of(breaks, x) result(low)

@@ -8,7 +8,7 @@
 !> library raised are cleared before, or they would trap as modes are restored.
 module ek_lapack
 #ifdef EK_TRAPS
-   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_invalid, ieee_divide_by_zero, ieee_overflow
+   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
       lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, lapack_dgeqp3 => dgeqp3, &
@@ -32,13 +32,9 @@ contains
       real(wp), intent(out) :: work(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrf
 
    !> Solution with the factors of dsytrf.
@@ -50,13 +46,9 @@ contains
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrs
 
    !> Reciprocal condition number (1-norm) from the factors of dsytrf.
@@ -71,13 +63,9 @@ contains
       integer, intent(out) :: iwork(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsycon
 
    !> Factor and solve in one call: the unit of the benchmark.
@@ -90,13 +78,9 @@ contains
       real(wp), intent(out) :: work(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsysv
 
    !> Factor (LU, partial pivoting) and solve a general system.
@@ -107,13 +91,9 @@ contains
       real(wp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgesv
 
    !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
@@ -125,13 +105,9 @@ contains
       real(wp), intent(out) :: work(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsyev
 
    !> Singular value decomposition.
@@ -143,13 +119,9 @@ contains
       real(wp), intent(out) :: work(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgesvd
 
    !> QR with column pivoting: reveals the rank.
@@ -160,13 +132,9 @@ contains
       real(wp), intent(out) :: tau(*), work(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgeqp3
 
    !> Least squares of least norm, any rank.
@@ -180,13 +148,9 @@ contains
       integer, intent(out) :: iwork(*)
       integer, intent(out) :: info
 
-      call ieee_set_halting_mode(ieee_invalid, .false.)
-      call ieee_set_halting_mode(ieee_divide_by_zero, .false.)
-      call ieee_set_halting_mode(ieee_overflow, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.)
       call lapack_dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
-      call ieee_set_flag(ieee_invalid, .false.)
-      call ieee_set_flag(ieee_divide_by_zero, .false.)
-      call ieee_set_flag(ieee_overflow, .false.)
+      call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgelsd
 #endif
 

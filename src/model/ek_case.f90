@@ -4,9 +4,10 @@ module ek_case
    implicit none(type, external)
    private
    public :: case_t, course_t, append_course, method_names, default_tolerance, most_increments
-   public :: follows_place, follows_tangent, follows_table
+   public :: follow_names, follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
+   character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
    integer, parameter :: most_increments = 1000000   !! a state takes about 3 kB on its way to the file
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
 
@@ -32,6 +33,7 @@ module ek_case
       real(wp) :: from = 0.0_wp, to = 0.0_wp   !! places: factor of the load [-], or change of the driven value [m, rad]
       integer :: increments = 100
       character(:), allocatable :: method   !! one of method_names
+      logical :: follows_arc = .false.      !! states at equal distances along the path, which may turn back; else at equal places
       real(wp) :: tolerance = default_tolerance   !! last Newton correction of a state, at most [m]
       ! a test of the rig, see ek_rig
       character(:), allocatable :: test     !! its name; not allocated or empty: none

@@ -8,10 +8,13 @@
 !>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
 module ek_law
    use ek_kinds, only: wp
-   use ek_curve, only: curve_t, look_up_curve
+   use ek_curve, only: curve_t, look_up_curve, has_corner
    implicit none(type, external)
    private
-   public :: law_t, look_up_law, deflection
+   public :: law_t, look_up_law, deflection, bend_between
+   public :: no_bend, steep, corner
+
+   integer, parameter :: no_bend = 0, steep = 1, corner = 2
 
    !> Units by the measure: m and N, or rad and N m.
    type :: law_t
@@ -61,5 +64,34 @@ contains
       real(wp), intent(in) :: value
       deflection = law%sign*(value - law%reference)
    end function deflection
+
+   !> How sharply the law bends between two values of the measure: not at all, as rubber in contact does that is steep from
+   !> one state to the next, or at a corner (where a stop is met, or a curve has one).
+   pure integer function bend_between(law, from, to) result(bend)
+      type(law_t), intent(in) :: law
+      real(wp), intent(in) :: from, to
+      real(wp) :: e(2)
+
+      e = [deflection(law, from), deflection(law, to)]
+      bend = no_bend
+      if (law%is_one_sided) then
+         if (any(e > -0.5_wp*law%rounding)) bend = steep
+         if (zone(e(1)) /= zone(e(2)) .or. zone(e(1)) == 1) bend = corner
+      end if
+      if (law%has_curve) then
+         if (has_corner(law%curve, e(1), e(2))) bend = corner
+      end if
+
+   contains
+
+      !> Before contact, in its rounding, behind it.
+      pure integer function zone(e)
+         real(wp), intent(in) :: e
+         zone = 0
+         if (abs(e) <= 0.5_wp*law%rounding) zone = 1
+         if (e > 0.5_wp*law%rounding) zone = 2
+      end function zone
+
+   end function bend_between
 
 end module ek_law

@@ -6,6 +6,7 @@ module ek_csv
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
+   use ek_letters, only: line_count
    use ek_file, only: read_whole, write_standard_output
    use ek_writer, only: writer_t, begin_file
    use ek_decimal, only: put_decimal, get_decimal, longest_decimal
@@ -156,7 +157,7 @@ contains
          if (index(content, '#') == 1) then
             call table%header%add(trim(content(min(3, verify(content(2:)//'x', ' ') + 1):)))
          else if (len_trim(content) > 0 .and. rows < 0) then
-            call take_names(content, lines_left(text(last + 1:)), table)
+            call take_names(content, line_count(text(last + 1:)), table)
             rows = 0
          else if (len_trim(content) > 0) then
             rows = rows + 1
@@ -171,17 +172,6 @@ contains
       end if
       table%values = table%values(:, :rows)
    end subroutine read_csv
-
-   !> Upper bound of the number of rows left.
-   pure integer function lines_left(text) result(lines)
-      character(*), intent(in) :: text
-      integer :: k
-
-      lines = 1
-      do k = 1, len(text)
-         if (text(k:k) == line_end) lines = lines + 1
-      end do
-   end function lines_left
 
    !> Creates the table from the line of column names.
    pure subroutine take_names(content, rows, table)

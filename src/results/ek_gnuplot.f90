@@ -29,7 +29,7 @@ contains
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error   !! exit_file
 
-      call write_whole(join_path(folder, figure%name//'.gp'), figure_script(figure), error)
+      call write_whole(join_path(folder, figure%name//'.gp'), figure_script(figure), error, can_be_redrawn=.true.)
    end subroutine write_figure
 
    !> Runs gnuplot once on the scripts written by write_figure into a folder.

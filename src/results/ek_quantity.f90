@@ -3,7 +3,7 @@ module ek_quantity
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: quantity_t, all_quantities, quantities_of, quantity_named
+   public :: quantity_t, all_quantities, quantities_of, quantity_named, without_phase
 
    !> A quantity of a chart: column without the wheel's name, title, unit and sign.
    type :: quantity_t
@@ -128,5 +128,23 @@ contains
          if (all_quantities(k)%column == name) quantity = all_quantities(k)
       end do
    end function quantity_named
+
+   !> A title or label as it reads of one wheel alone, which is in phase with no other.
+   pure function without_phase(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+      ! the longest first: each holds the next ones
+      character(*), parameter :: phases(*) = [character(26) :: '    (both wheels in phase)', 'both wheels in phase', &
+         ', in phase', 'in phase, ']
+      integer :: k, at, length
+
+      words = trim(text)
+      do k = 1, size(phases)
+         length = len_trim(phases(k))
+         if (k == size(phases)) length = length + 1          ! with its blank
+         at = index(words, phases(k) (:length))
+         if (at > 0) words = words(:at - 1)//words(at + length:)
+      end do
+   end function without_phase
 
 end module ek_quantity

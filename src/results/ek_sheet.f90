@@ -9,7 +9,7 @@ module ek_sheet
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, quoted, plural
-   use ek_letters, only: is_wide, with_line_ends, save_as_utf8
+   use ek_letters, only: is_wide, with_line_ends, line_count, save_as_utf8
    use ek_file, only: read_whole
    use ek_decimal, only: get_decimal
    use ek_table, only: name_length
@@ -83,7 +83,7 @@ contains
             call find_decimal_marks(text(last + 1:), sheet)
             deallocate (is_unnamed, sheet%values)
             allocate (is_unnamed(size(sheet%heads)), source=.false.)
-            allocate (sheet%values(size(sheet%heads), count_lines(text(last + 1:))), source=0.0_wp)
+            allocate (sheet%values(size(sheet%heads), line_count(text(last + 1:))), source=0.0_wp)
          else
             call take_row(content, line, sheet, rows, is_unnamed)
          end if
@@ -128,17 +128,6 @@ contains
          if (index(content(:min(9, len(content))), trim(cell_errors(k))) > 0) is_comment = .false.
       end do
    end function is_comment
-
-   !> Upper bound of the number of rows left.
-   pure integer function count_lines(text) result(lines)
-      character(*), intent(in) :: text
-      integer :: k
-
-      lines = 1
-      do k = 1, len(text)
-         if (text(k:k) == line_end) lines = lines + 1
-      end do
-   end function count_lines
 
    !> Reads the line of heads, which also defines the separator of the columns.
    subroutine take_heads(content, sheet)

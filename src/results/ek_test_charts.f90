@@ -7,7 +7,7 @@ module ek_test_charts
    use ek_kinds, only: wp
    use ek_table, only: name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
-   use ek_quantity, only: quantity_t, quantities_of, quantity_named
+   use ek_quantity, only: quantity_t, quantities_of, quantity_named, without_phase
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
@@ -63,6 +63,7 @@ contains
       integer :: wheel, place
 
       chart = chart_of(test, trim(quantity%column), trim(quantity%title), trim(quantity%label))
+      if (size(test%prefixes) < 2) chart%y_label = without_phase(chart%y_label)
       chart%noise = quantity%noise
       if (index(quantity%column, '_arm_length_mm') > 0) chart%cap = longest_arm
       place = column_index(test%table, quantity%column)

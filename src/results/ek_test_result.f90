@@ -8,7 +8,7 @@ module ek_test_result
    use ek_table, only: table_t, name_length, column_index, column_range
    implicit none(type, external)
    private
-   public :: test_result_t, frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, design_row
+   public :: test_result_t, frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, unfolded_rows, design_row
    public :: wheel_column, has_column, travel_column, least_stroke, wheel_word
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
@@ -190,6 +190,46 @@ contains
       is_good = ieee_is_finite(table%values(place, :))
       where (is_good) is_good = table%values(place, :) > 0.5_wp
    end function converged_rows
+
+   !> The converged rows around design over which the factor runs one way: where a path turns back (limit points,
+   !> follow = 'arc') a factor has more than one state, and slopes and places mean the branch through design.
+   pure function unfolded_rows(table) result(is_good)
+      type(table_t), intent(in) :: table
+      logical :: is_good(size(table%values, 2))
+      integer :: place, middle, turned(2)
+
+      is_good = converged_rows(table)
+      place = column_index(table, 'factor')
+      if (place == 0) return
+      is_good = is_good .and. ieee_is_finite(table%values(place, :))
+      if (.not. any(is_good)) return
+      middle = minloc(abs(table%values(place, :)), dim=1, mask=is_good)
+      turned = [turn_behind(middle, -1), turn_behind(middle, 1)]
+      is_good(:turned(1)) = .false.
+      is_good(turned(2):) = .false.
+
+   contains
+
+      !> The first row on one side from which the factor runs the other way; one beyond the table when there is none.
+      pure integer function turn_behind(middle, step) result(row)
+         integer, intent(in) :: middle, step
+         real(wp) :: before, way, first_way
+
+         before = table%values(place, middle)
+         first_way = 0.0_wp
+         row = middle + step
+         do while (row >= 1 .and. row <= size(is_good))
+            if (is_good(row)) then
+               way = table%values(place, row) - before
+               if (first_way*way < 0.0_wp) return
+               if (abs(way) > 0.0_wp) first_way = way
+               before = table%values(place, row)
+            end if
+            row = row + step
+         end do
+      end function turn_behind
+
+   end function unfolded_rows
 
    !> The row of the design state, where `factor` is 0; 0 when there is none that was found.
    pure integer function design_row(table) result(row)

@@ -40,6 +40,11 @@ contains
          call fail(error, exit_deck, deck%file//': there is no case '//quoted(case_name))
          return
       end if
+      if (cases(k)%follows_arc) then
+         call fail(error, exit_deck, deck%file//': case '//quoted(cases(k)%name)//' has follow = ''arc'', where a factor may '// &
+            'have several states; a study takes cases with follow = ''factor''')
+         return
+      end if
       is_checked = .false.
       if (present(is_known)) is_checked = is_known
       if (.not. is_checked) call check_inputs(suspension, cases(k:k), error)

@@ -20,7 +20,7 @@ do for [format in 'png svg'] {
    set output sprintf('%s/family.%s', out, format)
    set multiplot
    set label 1 'Toe and camber over the wheel travel' at screen 0.02, screen 0.955 font 'sans-serif:Bold,20' textcolor rgb '#202020'
-   set label 2 'McPherson strut; a curve for each pair of bushing rates, coloured by the front one' at screen 0.02, screen 0.915 textcolor rgb '#606060'
+   set label 2 'McPherson strut; one curve per pair of bushing rates, coloured by the front rate' at screen 0.02, screen 0.915 textcolor rgb '#606060'
    unset key
    set logscale cb; set cbrange [500:16000]
    set cbtics (500, 1000, 2000, 4000, 8000, 16000)
@@ -68,7 +68,7 @@ do for [format in 'png svg'] {
    set view map
    unset grid
    set pm3d map interpolate 4, 4
-   set datafile separator whitespace      # of the two tables just made
+   set datafile separator whitespace      # for the two tables made above
    unset key
    set label 3 'the deck' at first 8000, first 2000 offset 1.2, 0.7 front textcolor rgb '#FFFFFF' font 'sans-serif:Bold,15'
    splot $grid using 1:2:3 with pm3d notitle, \

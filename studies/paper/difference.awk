@@ -1,9 +1,9 @@
-# difference.awk: how far one sweep lies from another at the same wheel stroke.
+# difference.awk: difference between two sweeps at the same wheel stroke.
 #
 #     awk -v column=toe_deg -f difference.awk REFERENCE.csv OTHER.csv
 #
 # prints `stroke,difference` for every state of OTHER whose stroke REFERENCE covers; the reference is
-# interpolated linearly between its two neighbouring states. Both files hold rising strokes.
+# interpolated linearly between its two neighbouring states. The strokes of both files must increase.
 BEGIN { FS = "," }
 FNR == 1 { file++; is_head = 1 }
 /^#/ { next }

@@ -1,9 +1,9 @@
-# errors.awk: one method's rows of a step-size study.
+# errors.awk: the rows of one method in a step-size study.
 #
 #     awk -v method=recursive -v column=toe_error_deg -f errors.awk step_size.csv | sort -t, -k1n
 #
-# prints `increments,size of the error`; an error of exactly zero has no place on a logarithmic axis and
-# is left out.
+# prints `increments,size of the error`; an error of exactly zero cannot be drawn on a logarithmic axis and
+# is omitted.
 BEGIN { FS = "," }
 /^#/ { next }
 !is_headed {

@@ -1,4 +1,4 @@
-# key_numbers.awk: a few numbers of the three sweeps, read at the same wheel strokes.
+# key_numbers.awk: key numbers of the three sweeps at the same wheel strokes.
 #
 #     awk -f key_numbers.awk recursive/x.csv corrected/x.csv equilibrium/x.csv
 #
@@ -16,7 +16,7 @@ function print_method(    k, line) {
 }
 function value(k,    v) {
     v = at_stroke(k <= 3 ? "toe_deg" : k <= 6 ? "camber_deg" : "track_change_mm", stroke[(k - 1) % 3 + 1])
-    return v > -5e-6 && v < 5e-6 ? 0 : v    # or rounding noise would print as -0.00000
+    return v > -5e-6 && v < 5e-6 ? 0 : v    # otherwise rounding noise would print as -0.00000
 }
 BEGIN {
     FS = ","

@@ -3,7 +3,7 @@
 #
 #     gnuplot studies/paper/plot.gp
 #
-# in the repository's top folder, after tools/demo.sh has made the results. Other results, other pictures:
+# in the top folder of the repository, after tools/demo.sh has made the results. For other results or pictures:
 # gnuplot -e "results='my/folder'; study='my/step_size.csv'; pictures='my/pictures'" studies/paper/plot.gp
 if (!exists('results'))  results = 'out/demo'                                # holds a folder for each method
 if (!exists('study'))    study = 'studies/step_size/out/step_size.csv'
@@ -18,19 +18,19 @@ set tics out nomirror textcolor rgb '#404040'
 set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1
 set lmargin at screen 0.125; set rmargin at screen 0.965
 
-# Okabe and Ito's colours, which the colour-blind tell apart. The exact answer is a broad band; the
+# Okabe and Ito's colours, which colour-blind readers can distinguish. The exact solution is a broad band; the
 # methods are drawn on top of it.
 set style line 1 linecolor rgb '#56B4E9' linewidth 9
 set style line 2 linecolor rgb '#202020' linewidth 2.4 dashtype (9, 6) pointtype 5 pointsize 1.3
 set style line 3 linecolor rgb '#D55E00' linewidth 2.8 pointtype 7 pointsize 1.5
 set style line 9 linetype 1 linecolor rgb '#909090' linewidth 1.2
 
-# The size of what lies furthest from zero, short enough to be read in passing: 0.012 or 3·10⁻⁶.
+# The largest magnitude of a range, in short form: 0.012 or 3·10⁻⁶.
 largest(low, high) = high > -low ? high : -low
 short(x) = x == 0 ? '0' : x >= 1e-3 ? sprintf('%.2g', x) : gprintf('%.0t·10⁻', x).raised(-int(gprintf('%T', x)))
 raised(n) = (n > 9 ? raised(n/10) : '').word('⁰ ¹ ² ³ ⁴ ⁵ ⁶ ⁷ ⁸ ⁹', n % 10 + 1)
 
-# A round step that makes some four tics of a range.
+# A round step that divides a range into about four intervals.
 step(range) = step_of(0.25*range, 10**floor(log10(0.25*range)))
 step_of(size, power) = power*(size < 1.5*power ? 1 : size < 3.5*power ? 2 : size < 7.5*power ? 5 : 10)
 
@@ -77,7 +77,7 @@ do for [k = 1:3] {
       xlow = GPVAL_X_MIN; xhigh = GPVAL_X_MAX
 
       unset label 1; unset label 2; unset key
-      set label 3 'Distance to equilibrium at equal stroke, at most' at screen 0.125, screen 0.356 \
+      set label 3 'Difference at equal stroke; maximum:' at screen 0.125, screen 0.356 \
          font 'sans-serif:Bold,15' textcolor rgb '#202020'
       set label 4 sprintf('recursive %s %s', short(recursive_most), word(units, k)) at screen 0.775, screen 0.356 right \
          textcolor rgb '#B84F00'
@@ -123,7 +123,7 @@ do for [format in formats] {
    set label 2 'McPherson strut, vertical load 0 to −3000 N' at screen 0.03, screen 0.932 \
       font 'sans-serif,14' textcolor rgb '#606060'
    set key at screen 0.985, screen 0.985 right top vertical Left reverse samplen 4 width -1 spacing 1.05
-   set label 3 'What the joints say:  |Φ|, how far they are from closed, equation (31)' \
+   set label 3 'Joints:  |Φ|, residual of the joint constraints, equation (31)' \
       at screen 0.125, screen 0.895 font 'sans-serif:Bold,15' textcolor rgb '#202020'
    set tmargin at screen 0.868; set bmargin at screen 0.535
    set format x ''
@@ -132,7 +132,7 @@ do for [format in formats] {
         errors('corrected', 'constraint_error') using 1:2 with linespoints linestyle 2 title 'corrected'
 
    unset label 1; unset label 2; unset key
-   set label 3 'What the wheel says:  distance of toe from the equilibrium' \
+   set label 3 'Wheel:  error of toe relative to the equilibrium' \
       at screen 0.125, screen 0.472 font 'sans-serif:Bold,15' textcolor rgb '#202020'
    set tmargin at screen 0.445; set bmargin at screen 0.09
    set format x '%g'

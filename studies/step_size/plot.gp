@@ -16,14 +16,14 @@ set style line 2 linecolor rgb '#202020' linewidth 2.2 pointtype 9 pointsize 1.3
 set style line 3 linecolor rgb '#D55E00' linewidth 2.2 pointtype 7 pointsize 1.2
 set style line 8 linecolor rgb '#A0A0A0' linewidth 1.6 dashtype (6, 6)
 
-# The rows of one method; an error of zero is drawn at the rounding of the numbers.
+# The rows of one method; an error of zero is drawn at the rounding level.
 n(method) = strcol('method') eq method ? column('increments') : NaN
 e(method, name, least) = strcol('method') eq method ? (abs(column(name)) > least ? abs(column(name)) : least) : NaN
 t(method) = strcol('method') eq method ? 1e3*column('seconds') : NaN
 
 array column_of[4] = ['constraint_error', 'travel_error_mm', 'toe_error_deg', 'camber_error_deg']
-array title_of[4] = ['Joints: |Φ| of (31)', 'Wheel travel: distance to equilibrium', \
-   'Toe: distance to equilibrium', 'Camber: distance to equilibrium']
+array title_of[4] = ['Joints: |Φ| of (31)', 'Wheel travel: error relative to equilibrium', \
+   'Toe: error relative to equilibrium', 'Camber: error relative to equilibrium']
 array label_of[4] = ['|Φ|  [m, rad]', 'error [mm]', 'error [deg]', 'error [deg]']
 array first_order[4] = [1.8e-2, 0, 0, 0]
 array second_order[4] = [1.9e-2, 1.5, 0.2, 0.9]
@@ -63,13 +63,13 @@ do for [format in 'png svg'] {
    if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,15' }
    if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,15' background 'white' }
    set output sprintf('%s/work_precision.%s', out, format)
-   set label 1 'What a digit costs' at screen 0.03, screen 0.955 font 'sans-serif:Bold,20' textcolor rgb '#202020'
+   set label 1 'Accuracy against time' at screen 0.03, screen 0.955 font 'sans-serif:Bold,20' textcolor rgb '#202020'
    set label 2 'McPherson strut, vertical load 0 to −3000 N in 10 to 1000 increments' at screen 0.03, screen 0.915 textcolor rgb '#606060'
    set lmargin at screen 0.11; set rmargin at screen 0.96; set tmargin at screen 0.86; set bmargin at screen 0.11
    unset title
    set key at screen 0.975, screen 0.985 right top vertical samplen 3
    set xlabel 'time of the sweep [ms]'
-   set ylabel 'error of toe at its end [deg]'
+   set ylabel 'error of toe at the end [deg]'
    set format x '%g'
    set xrange [*:*]
    plot data using (t('recursive')):(e('recursive', 'toe_error_deg', least[3])) with linespoints linestyle 3 title 'recursive (paper)', \

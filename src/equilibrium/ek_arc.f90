@@ -1,0 +1,357 @@
+!> Walking a path by its arc length, over limit points: places where the load, or the driven value, goes no further and
+!> the path turns back.
+!>
+!> The place s is one more unknown, beside the bodies z and the reactions λ. Along a step of length Δl
+!>
+!>     F(z, λ, s) = 0,    t·(Δz, Δs) = Δl        t the unit tangent where the step begins (pseudo arc length)
+!>
+!> and each correction solves the bordered system
+!>
+!>     [ N  −∂F/∂s ] [Δz Δλ]   [ F ]
+!>     [ t     t_s ] [Δs   ] = [ 0 ]
+!>
+!> which is regular at a limit point, where N alone is not. Lengths are measured in
+!>
+!>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
+!>
+!> so that they have no unit; reactions do not count. The tangent's sense is that of the one before it, and
+!> that takes the path over a fold. A position where joints lock is passed likewise; there the reactions are without bound.
+!>
+!> A step is sound when its tangents explain where it landed and differ by a small angle, or at a corner of a law.
+!> Steps are reproducible: walked again from the same state, a path has the same lengths.
+!> No memory is asked for after new_arc.
+module ek_arc
+   use ek_kinds, only: wp
+   use ek_measure, only: distance
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, demand_rate, &
+      motion_between, move_as_screw
+   use ek_schedule, only: schedule_t, demand_at
+   use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, whole_tangent, residual_only
+   use ek_lapack, only: dgesv
+   implicit none(type, external)
+   private
+   public :: arc_t, new_arc, begin, advance, probe, find_tangent, find_motion, inner
+
+   real(wp), parameter :: first_step = 1.0e-2_wp      !! of the unit of length
+   real(wp), parameter :: longest_step = 1.0e-1_wp
+   real(wp), parameter :: corner_step = 1.0e-5_wp     !! below it a turn is taken for the corner of a law
+   real(wp), parameter :: least_step = 1.0e-9_wp      !! where no step is found the path has ended
+   real(wp), parameter :: most_turn = 0.17_wp         !! rad, 10 degrees: between the tangents at the ends of a step
+   real(wp), parameter :: good_turn = 0.1_wp          !! rad: what the next step is made for
+   real(wp), parameter :: most_of_corner = 1.5_wp     !! rad, 86 degrees: more would be another path
+   real(wp), parameter :: smooth = 1.0e-2_wp          !! of a step: what the trapezoidal rule may leave
+   integer, parameter :: most_iterations = 10         !! Newton is quadratic: more would not help
+
+   !> A segment of the path, from a to b; where a probe of it is; and work space.
+   type :: arc_t
+      real(wp) :: range = 1.0_wp                     !! place that counts as much as the size of the model
+      real(wp) :: size = 1.0_wp                      !! characteristic length, or the longest spring [m]
+      real(wp) :: tolerance = 0.0_wp                 !! m
+      logical :: is_symmetric = .true.               !! no load leaves N unsymmetric
+      real(wp) :: length = 0.0_wp                    !! of the path from design to a
+      real(wp) :: width = 0.0_wp                     !! of the segment; 0: there is none yet
+      real(wp) :: step = first_step                  !! that is tried next
+      real(wp) :: place_a = 0.0_wp, place_b = 0.0_wp
+      integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N
+      real(wp), allocatable :: packed_a(:), packed_b(:)      !! states, see ek_state
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; place] per length
+      real(wp), allocatable :: tangent_0(:)                  !! likewise where the walk began
+      type(state_t) :: state                         !! of the last probe
+      real(wp) :: place = 0.0_wp                     !! likewise
+      real(wp), allocatable :: tangent(:)            !! likewise, of find_tangent
+      integer :: factorisations = 0                  !! spent so far
+      type(state_t) :: other
+      real(wp), allocatable :: motion(:)             !! [twists; 0; place]
+      real(wp), allocatable :: residual(:)
+      real(wp), allocatable :: matrix(:, :), rhs(:, :)       !! the bordered system, scaled
+      integer, allocatable :: pivots(:)
+   end type arc_t
+
+contains
+
+   !> Room for a model.
+   function new_arc(suspension, length, range, tolerance) result(self)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: length         !! characteristic, of ek_scale [m]
+      real(wp), intent(in) :: range          !! place, above 0
+      real(wp), intent(in) :: tolerance      !! m
+      type(arc_t) :: self
+      integer :: n, k
+
+      n = suspension%unknowns() + suspension%constraints() + 1
+      allocate (self%tangent_a(n), self%tangent_b(n), self%tangent_0(n), self%tangent(n), self%motion(n), &
+         self%residual(n - 1), self%matrix(n, n), self%rhs(n, 1), source=0.0_wp)
+      allocate (self%packed_a(coordinates(suspension)), self%packed_b(coordinates(suspension)), source=0.0_wp)
+      allocate (self%pivots(n), source=0)
+      self%state = design_state(suspension)
+      self%other = self%state
+      self%range = range
+      self%size = length
+      do k = 1, size(suspension%springs)
+         if (suspension%springs(k)%measure%kind == distance) self%size = max(self%size, suspension%springs(k)%design_length)
+      end do
+      self%tolerance = tolerance
+      do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
+      end do
+   end function new_arc
+
+   !> To an equilibrium on the path, from which it is walked up or down.
+   subroutine begin(self, suspension, schedule, packed, place, upward, kkt, is_found)
+      type(arc_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), contiguous, intent(in) :: packed(:)
+      real(wp), intent(in) :: place
+      logical, intent(in) :: upward              !! the place grows at first
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_found           !! there is one direction to go in
+
+      self%length = 0.0_wp
+      self%width = 0.0_wp
+      self%step = first_step
+      self%packed_a = packed
+      self%place_a = place
+      call unpack_state(packed, self%state)
+      self%place = place
+      self%tangent_a = 0.0_wp
+      self%tangent_a(kkt%n + 1) = merge(self%range, -self%range, upward)
+      call find_tangent(self, suspension, schedule, kkt, is_found)
+      self%negative_a = kkt%negative
+      self%tangent_a = self%tangent
+      self%tangent_0 = self%tangent
+   end subroutine begin
+
+   !> On to the next segment.
+   subroutine advance(self, suspension, schedule, kkt, is_found)
+      type(arc_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_found           !! .false.: the path goes no further than a
+      real(wp) :: turn
+
+      if (self%width > 0.0_wp) then
+         self%length = self%length + self%width
+         self%packed_a = self%packed_b
+         self%tangent_a = self%tangent_b
+         self%place_a = self%place_b
+         self%negative_a = self%negative_b
+      end if
+      do
+         call probe(self, suspension, schedule, self%step, kkt, is_found)
+         if (is_found) call find_tangent(self, suspension, schedule, kkt, is_found)
+         if (is_found) then
+            turn = acos(min(max(inner(self, kkt, self%tangent_a, self%tangent), -1.0_wp), 1.0_wp))
+            is_found = turn <= most_turn
+            if (is_found) is_found = rest() <= smooth
+            if (.not. is_found .and. self%step <= corner_step) is_found = turn <= most_of_corner
+         end if
+         if (is_found) exit
+         self%step = 0.5_wp*self%step
+         if (self%step < least_step) then
+            self%width = 0.0_wp
+            return
+         end if
+      end do
+      call pack_state(self%state, self%packed_b)
+      self%place_b = self%place
+      self%tangent_b = self%tangent
+      self%negative_b = kkt%negative
+      self%width = self%step
+      self%step = min(longest_step, self%step*min(4.0_wp, good_turn/max(turn, 0.1_wp*good_turn)))
+
+   contains
+
+      !> What the trapezoidal rule leaves of the step, as a share of it.
+      real(wp) function rest()
+         real(wp) :: largest
+         call find_motion(self, kkt, self%packed_a, self%place_a, largest)
+         self%motion = self%motion - 0.5_wp*self%step*(self%tangent_a + self%tangent)
+         rest = sqrt(inner(self, kkt, self%motion, self%motion))/self%step
+      end function rest
+
+   end subroutine advance
+
+   !> The equilibrium at a length behind a, in self%state and self%place.
+   subroutine probe(self, suspension, schedule, width, kkt, is_found)
+      type(arc_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: width              !! length along the tangent of a
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_found
+      type(demand_t) :: demand
+      real(wp) :: length, longest, before
+      integer :: iteration
+
+      call unpack_state(self%packed_a, self%state)
+      self%place = self%place_a
+      self%rhs(:, 1) = width*self%tangent_a
+      call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
+      is_found = .false.
+      longest = max(merge(20.0_wp, 1.0_wp, width <= corner_step)*width, self%tolerance/self%size)
+      before = huge(before)
+      do iteration = 1, most_iterations
+         call demand_at(schedule, self%place, demand)
+         call assemble(suspension, self%state, demand, whole_tangent, kkt)
+         self%residual = kkt%rhs
+         call solve_bordered(self, suspension, schedule, 0.0_wp, kkt, is_found)
+         if (.not. is_found) return
+         length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
+         is_found = .false.
+         ! a correction as long as the step is no correction, but behind a corner; nor is one longer than that before; nor one that is not a number
+         if (.not. length <= longest .or. length > 2.0_wp*before) return
+         call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
+         is_found = length*self%size <= self%tolerance
+         if (is_found) return
+         before = max(length, tiny(length))
+      end do
+   end subroutine probe
+
+   !> The unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
+   !>
+   !> Where N is only the symmetric part of the true matrix the residual's own derivative along the tangent corrects it.
+   subroutine find_tangent(self, suspension, schedule, kkt, is_found)
+      type(arc_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_found
+      type(demand_t) :: demand
+      integer, parameter :: most_refinements = 8
+      real(wp), parameter :: small = 1.0e-6_wp, exact = 1.0e-9_wp
+      real(wp) :: length
+      integer :: k
+
+      call demand_at(schedule, self%place, demand)
+      self%residual = 0.0_wp
+      self%tangent = 0.0_wp
+      do k = 0, merge(0, most_refinements, self%is_symmetric)
+         if (k > 0) then
+            call shifted_residual(small)
+            self%residual = kkt%rhs
+            call shifted_residual(-small)
+            self%residual = (self%residual - kkt%rhs)/(2.0_wp*small)
+         end if
+         call assemble(suspension, self%state, demand, whole_tangent, kkt)
+         call solve_bordered(self, suspension, schedule, merge(1.0_wp, 0.0_wp, k == 0), kkt, is_found)
+         if (.not. is_found) return
+         length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
+         self%tangent = self%tangent + self%rhs(:, 1)
+         self%tangent = self%tangent/sqrt(inner(self, kkt, self%tangent, self%tangent))
+         if (k > 0 .and. length <= exact) exit
+      end do
+      is_found = abs(self%tangent(kkt%n + 1)) < huge(length)      ! a number
+      call factorise(kkt)
+
+   contains
+
+      !> The residual a bit further along the tangent.
+      subroutine shifted_residual(by)
+         real(wp), intent(in) :: by
+         type(demand_t) :: there
+         real(wp) :: place
+
+         self%other%poses(:) = self%state%poses
+         self%other%reaction(:) = self%state%reaction
+         place = self%place
+         self%rhs(:, 1) = by*self%tangent
+         call move_all(self, kkt, self%rhs(:, 1), self%other, place)
+         call demand_at(schedule, place, there)
+         call assemble(suspension, self%other, there, residual_only, kkt)
+      end subroutine shifted_residual
+
+   end subroutine find_tangent
+
+   !> Solves the bordered system for self%residual and the length `along`, with the matrix of the last assembly at
+   !> self%state: self%rhs(:, 1) becomes [Δz Δλ Δs].
+   subroutine solve_bordered(self, suspension, schedule, along, kkt, is_found)
+      type(arc_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: along
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_found
+      real(wp), parameter :: part = 1.0e-5_wp      ! of the range: demands are smooth, most of them linear
+      type(demand_t) :: low, high
+      integer :: i, j, n, info
+
+      call demand_at(schedule, self%place - part*self%range, low)
+      call demand_at(schedule, self%place + part*self%range, high)
+      call assemble_rate(suspension, self%state, demand_rate(low, high, 2.0_wp*part*self%range), kkt)
+      n = kkt%n
+      do j = 1, n
+         do i = j, n
+            self%matrix(i, j) = kkt%matrix(i, j)*(kkt%scale(i)*kkt%scale(j))
+            self%matrix(j, i) = self%matrix(i, j)
+         end do
+         self%matrix(j, n + 1) = -kkt%rhs(j)*kkt%scale(j)*self%range
+         self%matrix(n + 1, j) = 0.0_wp
+         if (j <= kkt%nq) self%matrix(n + 1, j) = self%tangent_a(j)*weight(j)*kkt%scale(j)
+         self%rhs(j, 1) = self%residual(j)*kkt%scale(j)
+      end do
+      self%matrix(n + 1, n + 1) = self%tangent_a(n + 1)/self%range
+      self%rhs(n + 1, 1) = along
+      call dgesv(n + 1, 1, self%matrix, n + 1, self%pivots, self%rhs, n + 1, info)
+      self%factorisations = self%factorisations + 1
+      is_found = info == 0
+      self%rhs(:n, 1) = self%rhs(:n, 1)*kkt%scale
+      self%rhs(n + 1, 1) = self%rhs(n + 1, 1)*self%range
+
+   contains
+
+      pure real(wp) function weight(j)
+         integer, intent(in) :: j
+         weight = 1.0_wp
+         if (mod(j - 1, 6) < 3) weight = 1.0_wp/self%size**2
+      end function weight
+
+   end subroutine solve_bordered
+
+   !> Bodies, reactions and place by a step.
+   pure subroutine move_all(self, kkt, step, state, place)
+      type(arc_t), intent(in) :: self
+      type(kkt_t), intent(in) :: kkt
+      real(wp), contiguous, intent(in) :: step(:)
+      type(state_t), intent(inout) :: state
+      real(wp), intent(inout) :: place
+
+      state%reaction = state%reaction + step(kkt%nq + 1:kkt%n)
+      call move_as_screw(state, step(:kkt%nq))
+      place = place + step(size(self%rhs, 1))
+   end subroutine move_all
+
+   !> a·b of two steps [twists; reactions; place].
+   pure real(wp) function inner(self, kkt, a, b)
+      type(arc_t), intent(in) :: self
+      type(kkt_t), intent(in) :: kkt
+      real(wp), contiguous, intent(in) :: a(:), b(:)
+      integer :: k
+
+      inner = a(kkt%n + 1)*b(kkt%n + 1)/self%range**2
+      do k = 1, kkt%nq, 6
+         inner = inner + dot_product(a(k:k + 2), b(k:k + 2))/self%size**2 + dot_product(a(k + 3:k + 5), b(k + 3:k + 5))
+      end do
+   end function inner
+
+   !> From a state and its place to the last probe: the step, in self%motion, and how far the body went that moved most.
+   subroutine find_motion(self, kkt, packed, place, largest)
+      type(arc_t), intent(inout) :: self
+      type(kkt_t), intent(in) :: kkt
+      real(wp), contiguous, intent(in) :: packed(:)
+      real(wp), intent(in) :: place
+      real(wp), intent(out) :: largest       !! m
+      integer :: k
+
+      call unpack_state(packed, self%other)
+      call motion_between(self%other, self%state, self%motion(:kkt%nq))
+      self%motion(kkt%n + 1) = self%place - place
+      largest = 0.0_wp
+      do k = 1, kkt%nq, 6
+         largest = max(largest, norm2(self%motion(k:k + 2)))
+      end do
+   end subroutine find_motion
+
+end module ek_arc

@@ -1,0 +1,303 @@
+!> How long a path is from design to the end of a case, which limit points lie on it, and the states along it.
+!>
+!> Two walks: `survey` measures, `go_to` comes to states at lengths that were asked for. Both take the same steps (ek_arc).
+module ek_arc_survey
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_state, only: demand_t
+   use ek_schedule, only: schedule_t, demand_at
+   use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
+   use ek_arc, only: arc_t, begin, advance, probe, find_tangent, find_motion, inner
+   implicit none(type, external)
+   private
+   public :: survey_t, survey, go_to, length_at, tell_limits
+
+   integer, parameter, public :: arrived = 0        !! at the end of the case
+   integer, parameter, public :: stuck = 1          !! no step was found
+   integer, parameter, public :: gone_far = 2       !! a body, or the place, went further than any suspension goes
+   integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
+   integer, parameter, public :: gone_on = 4        !! too many steps
+
+   integer, parameter, public :: most_limits = 16   !! limit points, and bifurcations, that are told
+   integer, parameter, public :: most_steps = 20000 !! of one path
+
+   real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
+   real(wp), parameter :: farthest = 3.0_wp         !! m: no suspension moves that far
+   real(wp), parameter :: far_off = 100.0_wp        !! ranges
+   real(wp), parameter :: same_way = 0.9_wp         !! cosine
+   real(wp), parameter :: same = 1.0e-14_wp         !! of the range
+   real(wp), parameter :: flat = 1.0e-10_wp         !! of the range: what a limit's place may be off before its parabola corrects it
+
+   !> What `survey` found.
+   type :: survey_t
+      integer :: ending = stuck
+      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! of the path from design to either end of the states
+      real(wp) :: last_place = 0.0_wp                            !! where the path was followed to
+      integer :: limits = 0
+      real(wp) :: limit_place(most_limits) = 0.0_wp, limit_length(most_limits) = 0.0_wp
+      integer :: crossings = 0
+      real(wp) :: crossing_place(most_limits) = 0.0_wp
+   end type survey_t
+
+contains
+
+   !> Walks from design until the place `far` is met for the first time.
+   subroutine survey(arc, suspension, schedule, settled, near, far, kkt, found)
+      type(arc_t), intent(inout) :: arc
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), contiguous, intent(in) :: settled(:)     !! packed state at place 0
+      real(wp), intent(in) :: near, far                  !! places on one side of 0; near may be 0
+      type(kkt_t), intent(inout) :: kkt
+      type(survey_t), intent(out) :: found
+      real(wp) :: top, place
+      logical :: is_found, is_past_near, has_top
+      integer :: k
+
+      is_past_near = .not. abs(near) > 0.0_wp
+      call begin(arc, suspension, schedule, settled, 0.0_wp, far > 0.0_wp, kkt, is_found)
+      do k = 1, most_steps
+         if (is_found) call advance(arc, suspension, schedule, kkt, is_found)
+         found%far_length = arc%length
+         found%last_place = arc%place_a
+         if (.not. is_found) then
+            found%ending = stuck
+            return
+         end if
+         found%far_length = arc%length + arc%width
+         found%last_place = arc%place_b
+         if (k > 1) then
+            found%ending = ending()
+            if (found%ending /= arrived) return
+         end if
+         top = arc%width
+         place = arc%place_b
+         has_top = arc%tangent_a(kkt%n + 1)*arc%tangent_b(kkt%n + 1) < 0.0_wp
+         if (has_top) call find_limit(arc, suspension, schedule, kkt, top, place)
+         ! a limit point of a load changes the inertia by one, what else changes it is a bifurcation
+         if (arc%negative_a /= arc%negative_b .and. .not. has_top) then
+            found%crossings = min(found%crossings + 1, most_limits)
+            call find_crossing(arc, suspension, schedule, kkt, found%crossing_place(found%crossings))
+         end if
+         call look_between(0.0_wp, arc%place_a, top, place)
+         if (found%ending == arrived) return
+         if (.not. has_top) cycle
+         found%limits = min(found%limits + 1, most_limits)
+         found%limit_place(found%limits) = place
+         found%limit_length(found%limits) = arc%length + top
+         call look_between(top, place, arc%width, arc%place_b)
+         if (found%ending == arrived) return
+      end do
+      found%ending = gone_on
+
+   contains
+
+      !> Whether the path has gone as far as makes sense; the last probe is b. `arrived`: it has not.
+      integer function ending()
+         real(wp) :: moved, behind
+
+         ending = arrived
+         call find_motion(arc, kkt, settled, 0.0_wp, moved)
+         if (moved > max(far_away*arc%size, farthest) .or. abs(arc%place_b) > far_off*arc%range) ending = gone_far
+         behind = sqrt(inner(arc, kkt, arc%motion, arc%motion))
+         if (behind > 1.01_wp*arc%width .or. inner(arc, kkt, arc%motion, arc%tangent_0) < 0.0_wp) return
+         if (inner(arc, kkt, arc%tangent_b, arc%tangent_0) < same_way) return
+         ending = gone_round
+         found%far_length = arc%length + max(arc%width - behind, 0.0_wp)
+      end function ending
+
+      !> Where the places near and far are met on a part of the segment over which the place does not turn.
+      subroutine look_between(low, place_low, high, place_high)
+         real(wp), intent(in) :: low, place_low, high, place_high
+         real(wp) :: width
+
+         found%ending = gone_on
+         if (.not. is_past_near .and. (place_low - near)*(place_high - near) <= 0.0_wp) then
+            call find_place(arc, suspension, schedule, kkt, near, low, place_low, high, place_high, width)
+            found%near_length = arc%length + width
+            is_past_near = .true.
+         end if
+         if (.not. is_past_near .or. (place_low - far)*(place_high - far) > 0.0_wp) return
+         call find_place(arc, suspension, schedule, kkt, far, low, place_low, high, place_high, width)
+         found%far_length = arc%length + width
+         found%last_place = far
+         found%ending = arrived
+      end subroutine look_between
+
+   end subroutine survey
+
+   !> The length from design to state k, of those from `first` to `last`.
+   pure real(wp) function length_at(found, k, first, last) result(length)
+      type(survey_t), intent(in) :: found
+      integer, intent(in) :: k, first, last
+
+      length = found%far_length
+      if (k /= last) length = found%near_length + (found%far_length - found%near_length)*real(k - first, wp)/(last - first)
+   end function length_at
+
+   !> Adds the limit points to a list; each with the state, from `first` to `last`, that is nearest.
+   pure subroutine tell_limits(found, first, last, limits, places, states)
+      type(survey_t), intent(in) :: found
+      integer, intent(in) :: first, last
+      integer, intent(inout) :: limits
+      real(wp), intent(inout) :: places(:)
+      integer, intent(inout) :: states(:)    !! 0: nearer to design than the first
+      real(wp) :: share
+      integer :: k
+
+      do k = 1, found%limits
+         limits = limits + 1
+         places(limits) = found%limit_place(k)
+         share = (found%limit_length(k) - found%near_length)/(found%far_length - found%near_length)
+         states(limits) = 0
+         if (share >= 0.0_wp) states(limits) = first + nint(share*(last - first))
+      end do
+   end subroutine tell_limits
+
+   !> Where the place turns on the segment at hand: the root of ds/dl.
+   subroutine find_limit(arc, suspension, schedule, kkt, width, place)
+      type(arc_t), intent(inout) :: arc
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(inout) :: width       !! of the segment → up to the limit point
+      real(wp), intent(inout) :: place       !! at the end of the segment → at the limit point
+      integer, parameter :: most_probes = 60
+      real(wp) :: low, high, f_low, f_high, f, x, slope, before, f_before
+      logical :: is_found
+      integer :: k, side
+
+      low = 0.0_wp
+      high = width
+      f_low = arc%tangent_a(kkt%n + 1)/arc%range
+      f_high = arc%tangent_b(kkt%n + 1)/arc%range
+      before = high
+      f_before = f_high
+      side = 0
+      do k = 1, most_probes
+         x = low - f_low*((high - low)/(f_high - f_low))
+         call probe(arc, suspension, schedule, x, kkt, is_found)
+         if (is_found) call find_tangent(arc, suspension, schedule, kkt, is_found)
+         if (.not. is_found) return
+         f = arc%tangent(kkt%n + 1)/arc%range
+         slope = (f - f_before)/(x - before)
+         width = x
+         place = arc%place
+         if (abs(f)*(high - low) <= flat) exit
+         before = x
+         f_before = f
+         call narrow(x, f, low, f_low, high, f_high, side)
+      end do
+      ! what is left of the way is a bit of a parabola
+      if (abs(slope)*(high - low) > abs(f)) place = place - 0.5_wp*arc%range*f**2/slope
+   end subroutine find_limit
+
+   !> The place on the segment at hand where the inertia changes, by bisection.
+   subroutine find_crossing(arc, suspension, schedule, kkt, place)
+      type(arc_t), intent(inout) :: arc
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: place
+      integer, parameter :: most_probes = 20     ! 1e-6 of a step
+      real(wp) :: low, high, place_low, place_high, width
+      logical :: is_found
+      integer :: k
+
+      low = 0.0_wp
+      high = arc%width
+      place_low = arc%place_a
+      place_high = arc%place_b
+      do k = 1, most_probes
+         width = 0.5_wp*(low + high)
+         call probe(arc, suspension, schedule, width, kkt, is_found)
+         if (is_found) call find_tangent(arc, suspension, schedule, kkt, is_found)
+         if (.not. is_found) exit
+         if (kkt%negative == arc%negative_a) then
+            low = width
+            place_low = arc%place
+         else
+            high = width
+            place_high = arc%place
+         end if
+      end do
+      place = 0.5_wp*(place_low + place_high)
+   end subroutine find_crossing
+
+   !> Where a place is met on a part of the segment at hand.
+   subroutine find_place(arc, suspension, schedule, kkt, goal, from, place_from, to, place_to, width)
+      type(arc_t), intent(inout) :: arc
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(in) :: goal
+      real(wp), intent(in) :: from, place_from, to, place_to     !! lengths behind a, and places, at both ends of the part
+      real(wp), intent(out) :: width                             !! length behind a
+      integer, parameter :: most_probes = 80
+      real(wp) :: low, high, f_low, f_high, f
+      logical :: is_found
+      integer :: k, side
+
+      low = from
+      high = to
+      f_low = (place_from - goal)/arc%range
+      f_high = (place_to - goal)/arc%range
+      width = high
+      if (abs(f_high) <= same) return
+      width = low
+      if (abs(f_low) <= same) return
+      side = 0
+      do k = 1, most_probes
+         width = low - f_low*((high - low)/(f_high - f_low))
+         call probe(arc, suspension, schedule, width, kkt, is_found)
+         if (.not. is_found) return
+         f = (arc%place - goal)/arc%range
+         if (abs(f) <= same .or. high - low <= spacing(high)) return
+         call narrow(width, f, low, f_low, high, f_high, side)
+      end do
+   end subroutine find_place
+
+   !> One more value of a function between two of different sign: false position, where an end that stays put counts
+   !> half (Illinois).
+   pure subroutine narrow(x, f, low, f_low, high, f_high, side)
+      real(wp), intent(in) :: x, f
+      real(wp), intent(inout) :: low, f_low, high, f_high
+      integer, intent(inout) :: side         !! which end was moved last
+
+      if ((f < 0.0_wp) .eqv. (f_high < 0.0_wp)) then
+         high = x
+         f_high = f
+         if (side == 1) f_low = 0.5_wp*f_low
+         side = 1
+      else
+         low = x
+         f_low = f
+         if (side == -1) f_high = 0.5_wp*f_high
+         side = -1
+      end if
+   end subroutine narrow
+
+   !> On to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
+   !>
+   !> `begin` comes first; lengths grow from call to call.
+   subroutine go_to(arc, suspension, schedule, length, kkt, is_found)
+      type(arc_t), intent(inout) :: arc
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: length
+      type(kkt_t), intent(inout) :: kkt
+      logical, intent(out) :: is_found
+      type(demand_t) :: demand
+
+      is_found = .true.
+      do while (is_found .and. arc%length + arc%width < length)
+         call advance(arc, suspension, schedule, kkt, is_found)
+      end do
+      if (is_found) call probe(arc, suspension, schedule, length - arc%length, kkt, is_found)
+      if (.not. is_found) return
+      call demand_at(schedule, arc%place, demand)
+      call assemble(suspension, arc%state, demand, whole_tangent, kkt)
+      call factorise(kkt)
+   end subroutine go_to
+
+end module ek_arc_survey

@@ -1,0 +1,155 @@
+#!/usr/bin/env bash
+# check_language.sh [FILE...]: finds wording that a native English-speaking engineer would not use, and prints
+# file:line, the wording, and the wording to use instead. Status 1 if it finds any.
+#
+# Without arguments it checks every tracked document, and the decks, studies, scripts and sources outside tests/. In Fortran it
+# checks comments and strings only, not identifiers. It does not see wording that is split over two lines. A line may
+# contain the phrases of `allowed` below; each has a reason.
+set -uo pipefail
+top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
+export LC_ALL=C.UTF-8
+
+# pattern (Perl regular expression, any case, whole words)  =>  wording to use
+wording() {
+  cat <<'END'
+(?:one|rows?|points?|curves?|lines?|files?|once|times?|factorisations?|increments?|units?|values?|records?|groups?|keys?|loads?|arms?|links?|wheels?|bodies|body|results?|tests?|designs?|states?|cost) an? (?:state|revolution|design|side|case|increment|row|line|thing|wheel|joint|group|second|deck|column|test|unit)  =>  per …
+a revolution  =>  per revolution
+(?:namelist )?group a thing  =>  one group per item
+(?:the|a|each|this|that|its) place(?! of)  =>  swept value (of a case), point, position
+(?:of|at|for|over|from|between|nearest) places?  =>  swept value (of a case), point, position
+words  =>  message, label, text, heading: the one that is meant
+told|tells?  =>  reported, print, given
+says less|no words but  =>  suppress informational messages
+lai?d over (?:each other|one another)|lays? .{0,60}over each other  =>  overlaid, overlay
+lost states?|states? (?:is|are|was|were) lost|loses? (?:a )?states?|equilibrium is lost|went wrong|goes wrong  =>  did not converge, failed
+mend(?:s|ed|ing)?  =>  fixed
+(?:most|least)_[a-z]\w*  =>  max_…, min_…
+(?:a|one|each|every|per|the) looks?|look-?outs?  =>  evaluation
+(?:a|one|each|every) view  =>  evaluation
+relative_turns?|relative turns?  =>  relative_rotation
+sway  =>  load_response
+courses?  =>  actuation
+demands?  =>  inputs, requires
+relief  =>  homotopy
+(?:a|the|its|their) pulls?  =>  generalised force
+(?:a|the|its|their) push  =>  generalised force, scatter
+(?:wheel|wheel's|the) lift (?:of|at|on) (?:a|the|each|both) wheels?|wheel lifts?  =>  vertical_force
+drafts?  =>  reading
+subjects?(?! to)  =>  (name the item)
+twins?  =>  side
+complaints?|complains?  =>  deck error, message
+(?<!\()(?:in|anti)[- ]phase  =>  parallel, opposed (in brackets: in phase, anti phase)
+roll inclination  =>  camber relative to road in roll
+copy the one that is nearest  =>  start from the closest one
+(?:and )?said to be so  =>  and marked as such
+\| of its own \|  =>  characteristic figure
+(?:whatever|which) the deck (?:speaks|has)|deck speaks  =>  regardless of the deck's units
+and (?:its|their) kin  =>  anti-dive, anti-lift, anti-squat
+dampers' velocity|rubber are not there|axes do not couple  =>  statics only: no damping forces; no friction, free play or hysteresis; bushing axes are uncoupled
+never asks? what|have come to  =>  never re-evaluates … in the new configuration
+capitals do not matter  =>  keywords are case-insensitive, names are not
+say there where  =>  use it to record the source
+resists with  =>  gives the restoring force
+comes? gently|half behind  =>  smooth transition, centred on …
+what the rig (?:does|brings)  =>  the rig's loads
+jumped over|is not met|met nowhere  =>  does not count as a solution; no solution
+a patch floats|no moment acts there but  =>  the contact patch floats: the only horizontal forces and moments on it are …
+gives? way  =>  moves with the force, deflects, counts as carried by a constant force
+the other sign  =>  the opposite sign, changes sign
+who sums up|has it so  =>  to sum moments … use …, as the solver does
+rates are theirs|nothing but bushings  =>  the wheels are carried by … alone
+as told above  =>  see above
+joints? (?:that are|are|is) open|how far the joints are from closed|furthest from closing  =>  violates the joint constraints, residual of the joint constraints
+run past what  =>  has left the range that the suspension can reach
+needs a folder, and|and --out - is none  =>  --plot needs an output folder and cannot be used with --out -
+begins at the end that is studied|take the other  =>  case has no range towards end = '…'; set end = '…'
+there is no use for  =>  unknown …
+(?:was|were) not found;  =>  no equilibrium at …; the last one was at …
+page tells where  =>  see the warnings at the top of the report
+hold the same|more than once; remove or weaken  =>  over-constrain one direction; replace one by a weaker type
+\(and '+curve'+ as well\)  =>  give 'rate' or 'curve'
+not ended by  =>  not terminated by
+to be read with care  =>  warnings
+ackermann at most|circle, least|largest steer to the  =>  maximum Ackermann; minimum turning circle; maximum steer
+to the own side|own side  =>  inner wheel, wheel's own …
+can say what is at  =>  are fit for extrapolation
+heads? of (?:a |the |its )?columns?|column heads?  =>  column heading
+END
+}
+
+# phrases that may stay  =>  reason
+allowed() {
+  cat <<'END'
+takes? (?:the|its) place of  =>  ordinary English: replaces
+of course  =>  ordinary English
+\(in phase, anti phase\)  =>  explains parallel, opposed once
+in other words  =>  ordinary English
+looks? like  =>  a remark names the likely cause
+anti[- ]lift|drive lift|brake lift  =>  names of quantities
+keywords?  =>  not the word list
+MemTotal  =>  a name of Linux
+END
+}
+
+documents() {
+  git -C "$top" ls-files -z -- '*.md' CITATION.cff input studies tools .ci src ':!:tests/decks' |
+    while IFS= read -r -d '' file; do
+      case $file in
+        *.png | tools/check_language.sh) ;;     # this list names what it forbids
+        *) printf '%s\0' "$top/$file" ;;
+      esac
+    done
+}
+
+# The text that people read: in Fortran comments and strings, on their lines; other files whole
+prose() {
+  case $1 in
+    *.f90 | *.F90 | *.pf)
+      awk -v q="'" '{
+        out = ""; open = ""; n = length($0)
+        for (k = 1; k <= n; k++) {
+          c = substr($0, k, 1)
+          if (open != "") { if (c == open) { open = ""; out = out "\"" } else out = out c }
+          else if (c == q || c == "\"") { open = c; out = out "\"" }
+          else if (c == "!") { out = out substr($0, k); break }
+        }
+        print out
+      }' "$1"
+      ;;
+    *) cat "$1" ;;
+  esac
+}
+
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+if [ $# -gt 0 ]; then printf '%s\0' "$@"; else documents; fi >"$work/files"
+stay=$(allowed | sed 's/  =>  .*//' | paste -s -d '|')
+
+# every line of prose as FILE:LINE:text
+while IFS= read -r -d '' file; do
+  [ -f "$file" ] || { echo "check_language: no file $file" >&2; exit 1; }
+  name=${file#"$top"/}
+  prose "$file" | awk -v name="$name" '{print name ":" FNR ":" $0}'
+done <"$work/files" >"$work/lines" || exit 1
+
+STAY=$stay perl -CSDA -Mutf8 -e '
+  use strict; use warnings;
+  my ($list, $lines) = @ARGV;
+  my (@pattern, @use, $found);
+  open(my $in, "<", $list) or die;
+  while (<$in>) { chomp; my ($p, $u) = split /  =>  /, $_, 2; push @pattern, qr/(?<!\w)(?:$p)(?!\w)/i; push @use, $u; }
+  my $stay = $ENV{STAY}; utf8::decode($stay) unless utf8::is_utf8($stay); $stay = qr/$stay/i;
+  open($in, "<", $lines) or die;
+  while (<$in>) {
+    chomp;
+    my ($where, $text) = /^([^:]*:\d+):(.*)$/ or next;
+    $text =~ s/$stay/~/g;
+    for my $k (0 .. $#pattern) {
+      while ($text =~ /$pattern[$k]/g) { print "$where: \"$&\": use: $use[$k]\n"; $found++; }
+    }
+  }
+  exit($found ? 1 : 0);
+' <(wording) "$work/lines"
+status=$?
+[ $status -eq 0 ] && echo "check_language: $(tr -cd '\0' <"$work/files" | wc -c) files, nothing found"
+exit $status
