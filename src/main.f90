@@ -38,7 +38,7 @@ program elastokin
 
 contains
 
-   !> The command, from beginning to end.
+   !> Runs the command given by the arguments.
    subroutine obey(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error

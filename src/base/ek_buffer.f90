@@ -1,12 +1,12 @@
-!> A text that grows piece by piece: pages, scripts and tables of text are built in it.
+!> A text that grows piece by piece, used to build pages, scripts and text tables.
 !>
-!> Room is doubled when it runs out, so that n letters cost n, however small the pieces are.
+!> The capacity doubles when it is exhausted, so appending n characters costs O(n) however small the pieces are.
 module ek_buffer
    implicit none(type, external)
    private
    public :: buffer_t
 
-   integer, parameter :: first_room = 4096   !! letters
+   integer, parameter :: first_room = 4096   !! characters
 
    type :: buffer_t
       private
@@ -22,7 +22,7 @@ module ek_buffer
 
 contains
 
-   !> Append letters.
+   !> Append characters.
    pure subroutine buffer_add(self, text)
       class(buffer_t), intent(inout) :: self
       character(*), intent(in) :: text
@@ -38,7 +38,7 @@ contains
       self%used = self%used + len(text)
    end subroutine buffer_add
 
-   !> Append letters and the end of a line.
+   !> Append characters and a line end.
    pure subroutine buffer_line(self, text)
       class(buffer_t), intent(inout) :: self
       character(*), intent(in) :: text
@@ -47,7 +47,7 @@ contains
       call self%add(new_line('a'))
    end subroutine buffer_line
 
-   !> All letters so far.
+   !> The text appended so far.
    pure function buffer_text(self) result(text)
       class(buffer_t), intent(in) :: self
       character(:), allocatable :: text
@@ -56,13 +56,13 @@ contains
       if (allocated(self%letters)) text = self%letters(:self%used)
    end function buffer_text
 
-   !> How many letters there are.
+   !> The number of characters.
    pure integer function buffer_length(self) result(length)
       class(buffer_t), intent(in) :: self
       length = self%used
    end function buffer_length
 
-   !> Forget all letters, keep the room.
+   !> Delete the text, keep the capacity.
    pure subroutine buffer_clear(self)
       class(buffer_t), intent(inout) :: self
       self%used = 0

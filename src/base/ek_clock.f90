@@ -1,4 +1,4 @@
-!> Wall-clock time for reports and benchmarks, and the date of what is written.
+!> Wall-clock time for reports and benchmarks, and the date stamp of output files.
 module ek_clock
    use ek_kinds, only: wp, i8
    implicit none(type, external)
@@ -7,7 +7,7 @@ module ek_clock
 
 contains
 
-   !> Seconds on a clock that only goes forward; the zero is arbitrary, so only differences mean anything.
+   !> Seconds of a monotonic clock; its zero is arbitrary, so only differences are meaningful.
    !> Resolution 1 ns with gfortran on Linux.
    real(wp) function seconds()
       integer(i8) :: ticks, rate
@@ -16,14 +16,14 @@ contains
       seconds = real(ticks, wp)/real(rate, wp)
    end function seconds
 
-   !> Seconds since 1970-01-01 00:00 UTC, by the clock of the machine.
+   !> Seconds since 1970-01-01 00:00 UTC, from the system clock.
    integer(i8) function seconds_since_1970() result(passed)
       integer :: now(8), year, month
 
       call date_and_time(values=now)
       year = now(1)
       month = now(2)
-      if (month < 3) then                       ! the year begins in March: the day that leaps is its last
+      if (month < 3) then                       ! the year starts in March, so that the leap day is its last day
          year = year - 1
          month = month + 12
       end if
@@ -31,8 +31,8 @@ contains
       passed = 60*(60*(24*passed + now(5)) + now(6) - now(4)) + now(7)
    end function seconds_since_1970
 
-   !> '2026-01-31 17:05': now, in the time zone of the machine; or, in UTC, what the environment variable SOURCE_DATE_EPOCH
-   !> sets, so that the same input gives the same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
+   !> '2026-01-31 17:05': the local time now; if the environment variable SOURCE_DATE_EPOCH is set, that time in UTC, so that
+   !> the same input gives the same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
    function date_words() result(words)
       character(16) :: words
       integer(i8) :: epoch, days, left
@@ -61,7 +61,7 @@ contains
       write (words, '(i4.4,a,i2.2,a,i2.2,a,i2.2,a,i2.2)') now(1), '-', now(2), '-', now(3), ' ', now(5), ':', now(6)
    end function date_words
 
-   !> SOURCE_DATE_EPOCH, where it is a whole number of seconds that a date of four digits can show.
+   !> Reads SOURCE_DATE_EPOCH if it is a whole number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)
       integer(i8), intent(out) :: epoch
       logical, intent(out) :: is_set

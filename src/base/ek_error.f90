@@ -1,4 +1,4 @@
-!> The error value that every fallible procedure hands back, and the exit codes of the program.
+!> The error value returned by every procedure that can fail, and the exit codes of the program.
 !>
 !> Unallocated is success. The caller writes `if (allocated(error)) return` after every call.
 module ek_error
@@ -10,10 +10,10 @@ module ek_error
    integer, parameter :: exit_usage = 1        !! wrong command line
    integer, parameter :: exit_deck = 2         !! mistakes in a deck
    integer, parameter :: exit_model = 3        !! mechanism or redundant constraint
-   integer, parameter :: exit_convergence = 4  !! a state was not found; what was reached is written
+   integer, parameter :: exit_convergence = 4  !! a state did not converge; the converged states are written
    integer, parameter :: exit_file = 5         !! a file cannot be read or written
 
-   !> What went wrong, and the status the program ends with.
+   !> The error message and the exit status of the program.
    type :: error_t
       integer :: code = exit_usage
       character(:), allocatable :: message    !! one or more lines, no trailing newline
@@ -64,7 +64,7 @@ contains
       self%lines(self%used)%text = message
    end subroutine list_add
 
-   !> How many messages there are.
+   !> The number of messages.
    pure integer function list_count(self)
       class(message_list_t), intent(in) :: self
       list_count = self%used
@@ -78,7 +78,7 @@ contains
       text = self%lines(k)%text
    end function list_line
 
-   !> All messages, one a line, in the order they came.
+   !> All messages, one per line, in the order of their addition.
    pure function list_text(self) result(text)
       class(message_list_t), intent(in) :: self
       character(:), allocatable :: text

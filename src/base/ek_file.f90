@@ -1,4 +1,4 @@
-!> Files and folders. A file written here is there whole or not at all (ek_writer); no shell is ever started.
+!> Files and folders. A file is written completely or not at all (ek_writer); no shell is ever started.
 module ek_file
    use, intrinsic :: iso_fortran_env, only: output_unit
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_size_t
@@ -13,19 +13,19 @@ module ek_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
-   integer, parameter :: most_streamed = 1000000000   !! bytes of a pipe or a device; /dev/zero has no end
+   integer, parameter :: most_streamed = 1000000000   !! bytes read from a pipe or a device; /dev/zero is endless
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
    integer(c_int), parameter :: may_execute = 1  !! X_OK
-   integer(c_int), parameter :: all_may = 511    !! 0777, the umask takes away
+   integer(c_int), parameter :: all_may = 511    !! 0777, reduced by the umask
 
 contains
 
-   !> Write `text` as the content of `path`, in one step for every reader. A device (`/dev/stdout`) is written directly.
+   !> Write `text` as the content of `path`, atomically for other readers. A device (`/dev/stdout`) is written directly.
    subroutine write_whole(path, text, error, can_be_redrawn)
       character(*), intent(in) :: path
       character(*), intent(in) :: text                       !! bytes, written as they are
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      logical, intent(in), optional :: can_be_redrawn        !! then the disk is not waited for (ek_writer)
+      logical, intent(in), optional :: can_be_redrawn        !! if .true., the call does not wait for the disk (ek_writer)
       type(writer_t) :: writer
 
       call begin_file(writer, path, error, can_be_redrawn)
@@ -34,8 +34,8 @@ contains
       call writer%finish(error)
    end subroutine write_whole
 
-   !> Write bytes to standard output, after what Fortran has put there. Unlike a Fortran `write` it tells
-   !> when the disk is full. A reader that wants no more (`| head`) is an error without words.
+   !> Write bytes to standard output, after anything Fortran has written there. Unlike a Fortran `write` it reports a full
+   !> disk. A reader that has closed the pipe (`| head`) causes an error with an empty message.
    subroutine write_standard_output(text, error)
       character(*), intent(in) :: text                       !! bytes, written as they are
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with the reason
@@ -50,7 +50,7 @@ contains
       end if
    end subroutine write_standard_output
 
-   !> Write bytes to standard error. Where that is closed or full there is nobody left to tell.
+   !> Write bytes to standard error. A failure here cannot be reported anywhere and is ignored.
    subroutine write_standard_error(text)
       character(*), intent(in) :: text
       logical :: ignored
@@ -58,7 +58,7 @@ contains
       ignored = is_written(2_c_int, text)
    end subroutine write_standard_error
 
-   !> All bytes of a text, to an open descriptor.
+   !> Write all bytes of a text to an open descriptor.
    logical function is_written(descriptor, text)
       integer(c_int), intent(in) :: descriptor
       character(*), intent(in) :: text
@@ -78,15 +78,15 @@ contains
       end do
    end function is_written
 
-   !> The whole content of a file, byte for byte.
+   !> Read the whole content of a file, byte for byte.
    !>
-   !> Only what a user has named may be a pipe or a device: of what a file names, a device may have no end, and a pipe
-   !> nobody who ever writes to it.
+   !> Only a path given by the user may be a pipe or a device. A path found inside a file may not: the device may be endless,
+   !> and the pipe may never have a writer.
    subroutine read_whole(path, text, error, may_stream)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      logical, intent(in), optional :: may_stream            !! else it must be a plain file
+      logical, intent(in), optional :: may_stream            !! if absent or .false., it must be a regular file
       type(facts_t) :: facts
       character(200) :: reason
       integer(i8) :: size
@@ -100,7 +100,7 @@ contains
       if (.not. is_true(may_stream)) then
          facts = facts_of(path, follow=.true.)
          if (facts%kind == device_file .or. facts%kind == other_file) then
-            call fail(error, exit_file, "cannot read '"//path//"': it is no plain file, but a pipe or a device")
+            call fail(error, exit_file, "cannot read '"//path//"': it is a pipe or a device, not a regular file")
             return
          end if
       end if
@@ -108,7 +108,7 @@ contains
          status='old', iostat=status, iomsg=reason)
       if (status == 0) then
          inquire (unit=unit, size=size)
-         if (size > huge(1)) then         ! its letters are counted in default integers
+         if (size > huge(1)) then         ! its characters are counted in default integers
             status = 1
             reason = 'it is larger than 2 GB'
          else if (size > 0) then
@@ -120,7 +120,7 @@ contains
             call read_stream(unit, text)
             if (len(text) == most_streamed) then
                status = 1
-               reason = 'it does not end within 1 GB'
+               reason = 'it is longer than 1 GB'
             end if
          end if
          close (unit, iostat=ignored)
@@ -131,7 +131,7 @@ contains
       end if
    end subroutine read_whole
 
-   !> Of an optional argument that is false where it is not given.
+   !> The value of an optional argument whose default is .false.
    pure logical function is_true(flag)
       logical, intent(in), optional :: flag
 
@@ -139,7 +139,7 @@ contains
       if (present(flag)) is_true = flag
    end function is_true
 
-   !> What a pipe delivers, which has no size beforehand; not more than `most_streamed`.
+   !> Read a pipe, whose size is unknown beforehand, up to `most_streamed` bytes.
    subroutine read_stream(unit, text)
       integer, intent(in) :: unit
       character(:), allocatable, intent(inout) :: text
@@ -162,14 +162,14 @@ contains
       text = text(:used)
    end subroutine read_stream
 
-   !> Make a folder and those above it; one that is there already is fine, and rid of what dead runs have left in it.
+   !> Create a folder and its parents. In an existing folder, temporary files left by dead runs are removed.
    subroutine make_folder(path, error)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       character(:), allocatable :: reason
       integer :: k, ignored
 
-      reason = 'no name given'
+      reason = 'no name is given'
       do k = 1, len(path)
          if (k < len(path)) then
             if (path(k + 1:k + 1) /= '/' .or. path(k:k) == '/') cycle
@@ -180,13 +180,13 @@ contains
          if (.not. folder_exists(path(:k))) exit
       end do
       if (.not. folder_exists(path)) then
-         call fail(error, exit_file, "cannot make the folder '"//path//"': "//reason)
+         call fail(error, exit_file, "cannot create the folder '"//path//"': "//reason)
          return
       end if
       call remove_stale(path)
    end subroutine make_folder
 
-   !> Remove a file; that it was not there is no error.
+   !> Remove a file; a missing file is not an error.
    subroutine remove_file(path)
       character(*), intent(in) :: path
       integer :: ignored
@@ -194,7 +194,7 @@ contains
       ignored = c_remove(path//c_null_char)
    end subroutine remove_file
 
-   !> Is there a file or folder of this name?
+   !> Does a file or folder of this name exist?
    logical function file_exists(path)
       character(*), intent(in) :: path
       file_exists = c_access(path//c_null_char, may_exist) == 0
@@ -208,7 +208,7 @@ contains
       if (len(path) > 0) folder_exists = c_access(path//'/.'//c_null_char, may_exist) == 0
    end function folder_exists
 
-   !> Can a program of this name be started: is it in PATH, or, given with a slash, there?
+   !> Can a program of this name be started? It must be in PATH or, if the name contains a slash, exist at that path.
    logical function program_exists(name) result(is_there)
       character(*), intent(in) :: name
       character(:), allocatable :: path
@@ -230,7 +230,7 @@ contains
       end do
    end function program_exists
 
-   !> Whether a path is a file that may be run.
+   !> Whether a path is an executable file.
    logical function is_program(path)
       character(*), intent(in) :: path
 
@@ -238,13 +238,13 @@ contains
       if (is_program) is_program = c_access(path//c_null_char, may_execute) == 0
    end function is_program
 
-   !> Does a person read this: is standard output (1) or standard error (2) a terminal?
+   !> Is standard output (1) or standard error (2) a terminal?
    logical function is_terminal(descriptor)
       integer, intent(in) :: descriptor
       is_terminal = c_isatty(int(descriptor, c_int)) == 1
    end function is_terminal
 
-   !> folder/name; a name that starts with a slash stands for itself.
+   !> folder/name; a name that starts with a slash is returned unchanged.
    pure function join_path(folder, name) result(path)
       character(*), intent(in) :: folder, name
       character(:), allocatable :: path
@@ -258,7 +258,7 @@ contains
       end if
    end function join_path
 
-   !> 'a/b' of 'a/b/c.nml', '.' of 'c.nml', '/' of '/c.nml'.
+   !> The folder of a path: 'a/b' for 'a/b/c.nml', '.' for 'c.nml', '/' for '/c.nml'.
    pure function folder_name(path) result(folder)
       character(*), intent(in) :: path
       character(:), allocatable :: folder
@@ -272,7 +272,7 @@ contains
       end if
    end function folder_name
 
-   !> The name without folder and extension: 'c' of 'a/b/c.nml', 'c.x' of 'c.x.nml', '.rc' of 'a/.rc'.
+   !> The name without folder and extension: 'c' for 'a/b/c.nml', 'c.x' for 'c.x.nml', '.rc' for 'a/.rc'.
    pure function base_name(path) result(name)
       character(*), intent(in) :: path
       character(:), allocatable :: name

@@ -1,27 +1,27 @@
-!> The bytes of a text that comes from outside: its encoding, its line ends, and the characters in it that cannot be seen.
+!> Characters of text read from files: encoding, line ends, and invisible characters.
 module ek_letters
    implicit none(type, external)
    private
    public :: visible, bad_byte, as_utf8, is_wide, with_line_ends, line_count, save_as_utf8
 
-   !> What to do with a file for which is_wide is true.
+   !> The message for a file for which is_wide is true.
    character(*), parameter :: save_as_utf8 = &
-      "this is not UTF-8 text (it is UTF-16, or no text at all); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
+      "this is not UTF-8 text (it is UTF-16 or not a text file); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
 
    character(*), parameter :: hexadecimal = '0123456789ABCDEF'
 
 contains
 
-   !> A text in which every character that cannot be seen stands as its number: `<U+00A0>` for a no-break space,
-   !> `<U+00AD>` for a soft hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab; and every byte that is no
-   !> UTF-8 as `<E4>`. Line ends and ordinary blanks stay.
+   !> A text in which every invisible character is replaced by its number: `<U+00A0>` for a no-break space, `<U+00AD>` for a
+   !> soft hyphen, `<U+200B>` for a zero-width space, `<U+0009>` for a tab. Every byte that is not UTF-8 becomes for example
+   !> `<E4>`. Line ends and ordinary blanks are kept.
    pure function visible(text) result(seen)
       character(*), intent(in) :: text
       character(:), allocatable :: seen
       integer :: k, first, length, code
 
       seen = ''
-      first = 1                    ! of what is not yet copied
+      first = 1                    ! first character not yet copied
       k = 1
       do while (k <= len(text))
          code = ichar(text(k:k))
@@ -42,7 +42,7 @@ contains
       seen = seen//text(first:)
    end function visible
 
-   !> Place of the first byte that is no part of UTF-8; 0 if there is none.
+   !> Position of the first byte that is not valid UTF-8; 0 if there is none.
    pure integer function bad_byte(text) result(k)
       character(*), intent(in) :: text
       integer :: length, code
@@ -57,7 +57,7 @@ contains
       k = 0
    end function bad_byte
 
-   !> A text in which every byte that is no UTF-8 has become the character that stands for such bytes, U+FFFD.
+   !> A text in which every byte that is not valid UTF-8 is replaced by the replacement character, U+FFFD.
    pure function as_utf8(text) result(sound)
       character(*), intent(in) :: text
       character(:), allocatable :: sound
@@ -74,8 +74,8 @@ contains
       sound = sound//text(first:)
    end function as_utf8
 
-   !> Whether a text has two or four bytes a character (UTF-16, UTF-32), or is none: it begins with the byte order mark of
-   !> UTF-16, or holds a zero.
+   !> Whether a text uses two or four bytes per character (UTF-16, UTF-32) or is binary: it begins with the byte order mark of
+   !> UTF-16, or contains a zero byte.
    pure logical function is_wide(text)
       character(*), intent(in) :: text
 
@@ -85,7 +85,7 @@ contains
          index(text, achar(0)) > 0
    end function is_wide
 
-   !> A text with line ends of one byte each: those of Windows (CR LF) and of old Macs (CR alone) become a newline.
+   !> A text with single-byte line ends: those of Windows (CR LF) and of old Macs (CR alone) become a newline.
    pure function with_line_ends(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain
@@ -97,7 +97,7 @@ contains
       used = 0
       do k = 1, len(text)
          if (text(k:k) == newline .and. k > 1) then
-            if (text(k - 1:k - 1) == return) cycle       ! it stands there already
+            if (text(k - 1:k - 1) == return) cycle       ! the newline is already there
          end if
          used = used + 1
          if (text(k:k) == return) plain(used:used) = newline
@@ -106,7 +106,7 @@ contains
       plain = plain(:used)
    end function with_line_ends
 
-   !> How many lines a text has, the last one counted though it may be empty.
+   !> The number of lines of a text; the last one counts even if it is empty.
    pure integer function line_count(text) result(lines)
       character(*), intent(in) :: text
       integer :: k
@@ -117,12 +117,12 @@ contains
       end do
    end function line_count
 
-   !> The character at byte k: its number and how many bytes it takes; length 0 where this is no UTF-8.
+   !> The character at byte k: its number and its length in bytes; length 0 where the bytes are not valid UTF-8.
    pure subroutine decode(text, k, code, length)
       character(*), intent(in) :: text
       integer, intent(in) :: k
       integer, intent(out) :: code, length
-      integer, parameter :: least(4) = [0, 128, 2048, 65536]      ! shorter ones have to be written shorter
+      integer, parameter :: least(4) = [0, 128, 2048, 65536]      ! smallest number for each length (longer encodings are invalid)
       integer :: j, byte
 
       length = 0
@@ -150,7 +150,7 @@ contains
       if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
    end subroutine decode
 
-   !> Control characters, blanks other than the ordinary one, soft hyphen, zero-width characters, marks of direction.
+   !> Control characters, blanks other than the ordinary one, soft hyphen, zero-width characters, direction marks.
    pure logical function is_invisible(code)
       integer, intent(in) :: code
 

@@ -1,5 +1,5 @@
-!> Whether there is room for what comes: asked before hours of work, so that the answer is words and a status, not the end of
-!> the process at the allocation that does not succeed.
+!> Checks that enough memory is available before hours of work begin, so that a shortage gives a message and an exit status
+!> instead of a crash at the allocation that fails.
 module ek_memory
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file
@@ -10,12 +10,12 @@ module ek_memory
 
 contains
 
-   !> Fails where a block of so many bytes cannot be had. Nothing is kept; it takes no memory but addresses.
+   !> Fails if a block of this many bytes cannot be allocated. The block is released at once; only address space is used.
    subroutine ask_memory(bytes, purpose, error)
       integer(i8), intent(in) :: bytes
       character(*), intent(in) :: purpose                     !! who needs it: 'case 'x' with 1000 states'
       type(error_t), allocatable, intent(out) :: error        !! exit_file
-      character(1), allocatable, volatile :: block(:)         ! volatile: an optimiser may not take it away as unused
+      character(1), allocatable, volatile :: block(:)         ! volatile: the optimiser must not remove it as unused
       integer :: status
 
       allocate (block(bytes), stat=status)

@@ -1,8 +1,8 @@
-!> The functions of the C library that this program needs and Fortran does not offer, as they are.
+!> Interfaces to the functions of the C library that this program needs and Fortran does not offer.
 !>
-!> Functions of POSIX that take neither a structure nor a list of arguments of open length: no layout and no constant of a
-!> processor is needed. `__errno_location` is the name that glibc and musl give to errno. `flock` is not of POSIX, but
-!> of every Linux and BSD. What they are good for: ek_system, ek_writer, ek_process, ek_file.
+!> Only POSIX functions without structures and without variable argument lists are used, so no structure layout and no
+!> processor-dependent constant is needed. `__errno_location` is the name of errno in glibc and musl. `flock` is not in
+!> POSIX, but in every Linux and BSD. Users of this module: ek_system, ek_writer, ek_process, ek_file.
 module ek_posix
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t
    implicit none(type, external)

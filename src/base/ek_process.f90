@@ -1,4 +1,4 @@
-!> Another program, run without a shell, in a folder of its own and not for ever.
+!> Runs another program without a shell, in a given folder and with a time limit.
 module ek_process
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_loc, c_long, c_null_char, c_null_ptr, c_ptr, c_associated
    use ek_kinds, only: wp
@@ -15,16 +15,16 @@ module ek_process
 
 contains
 
-   !> Runs a program, found in PATH, in `folder`; what it says goes to the file `log`, its standard input is empty.
+   !> Runs a program, found in PATH, in `folder`; its output goes to the file `log`, its standard input is empty.
    !>
-   !> It and what it starts form a process group, which is killed when the time is up. Should this process itself be killed
-   !> meanwhile, an alarm ends the program soon after its time.
+   !> The program and its children form a process group, which is killed at the time limit. If this process itself is killed
+   !> first, an alarm ends the program soon after the limit.
    subroutine run_program(words, folder, log, limit, status, trouble)
       type(message_list_t), intent(in) :: words               !! the program and its arguments
-      character(*), intent(in) :: folder, log                 !! log: a path seen from here
+      character(*), intent(in) :: folder, log                 !! log: path relative to the current folder
       integer, intent(in) :: limit                            !! s
       integer, intent(out) :: status                          !! exit status, 128 + number of a signal
-      character(:), allocatable, intent(out) :: trouble       !! why it could not be run to its end; '' where it was
+      character(:), allocatable, intent(out) :: trouble       !! why it did not run to completion; '' if it did
       character(kind=c_char), allocatable, target :: letters(:)
       type(c_ptr), allocatable :: pointers(:)
       type(c_ptr) :: said, nothing
@@ -43,7 +43,7 @@ contains
          trouble = 'cannot write '''//log//''': '//system_reason()
       else
          process = c_fork()
-         if (process == 0) then                                ! from here to execvp nothing but calls of the system
+         if (process == 0) then                                ! from here to execvp only system calls are allowed
             ignored = c_setpgid(0_c_int, 0_c_int)
             call set_signal(sigpipe, is_ignored=.false.)
             call set_signal(sigalrm, is_ignored=.false.)
@@ -57,7 +57,7 @@ contains
          if (process < 0) then
             trouble = 'cannot start '//words%line(1)//': '//system_reason()
          else
-            ignored = c_setpgid(process, process)              ! whoever comes first
+            ignored = c_setpgid(process, process)              ! parent and child both set it: whichever runs first
             call wait_for(process, limit, status, trouble)
          end if
       end if
@@ -65,7 +65,7 @@ contains
       if (c_associated(nothing)) ignored = c_fclose(nothing)
    end subroutine run_program
 
-   !> Waits for a process, and ends its group when the time is up.
+   !> Waits for a process, and kills its group at the time limit.
    subroutine wait_for(process, limit, status, trouble)
       integer(c_int), intent(in) :: process
       integer, intent(in) :: limit                            !! s
@@ -78,7 +78,7 @@ contains
       character(12) :: number
       real(wp) :: deadline
 
-      status = 0                                              ! where another has taken its status, pictures are judged as they are
+      status = 0                                              ! status collected elsewhere: the pictures themselves decide
       word = 0
       nap = 1
       deadline = seconds() + limit
@@ -97,7 +97,7 @@ contains
                if (error_number() /= interrupted) exit
             end do
             write (number, '(i0)') limit
-            trouble = 'it did not end within '//trim(number)//' s and was stopped'
+            trouble = 'it did not finish within '//trim(number)//' s and was stopped'
             exit
          end if
          ignored = c_poll(c_null_ptr, 0_c_long, int(nap, c_int))
@@ -107,7 +107,7 @@ contains
       if (iand(int(word), 127) /= 0) status = 128 + iand(int(word), 127)
    end subroutine wait_for
 
-   !> Words as C wants them.
+   !> The arguments as C strings.
    subroutine argument_list(words, letters, pointers)
       type(message_list_t), intent(in) :: words
       character(kind=c_char), allocatable, target, intent(out) :: letters(:)

@@ -1,5 +1,5 @@
-!> What a batch system, a shell or a pipe has set for this process, put right once, before anything else. Of the whole
-!> process: only the main program may call it.
+!> Corrects the signal actions and file descriptors that a batch system, a shell or a pipe has set for this process. It
+!> affects the whole process: only the main program may call it, once, before anything else.
 module ek_surroundings
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_ptr
    use ek_posix, only: c_close, c_dup, c_fopen
@@ -13,9 +13,9 @@ module ek_surroundings
 
 contains
 
-   !> A reader that goes away (`| head`) and a file that reaches `ulimit -f` are errors of a write, not the end of the
-   !> process. The descriptors 0, 1 and 2 are in use, so that no file of results gets the number of a stream that
-   !> was closed (`>&-`), and words in the middle of it.
+   !> A reader that closes the pipe (`| head`) and a file that reaches `ulimit -f` become write errors instead of ending the
+   !> process. Descriptors 0, 1 and 2 are opened if they were closed (`>&-`), so that no results file receives one of these
+   !> numbers and messages in the middle of it.
    subroutine prepare_surroundings()
       type(c_ptr) :: stays_open
       integer(c_int) :: descriptor, copy
@@ -28,7 +28,7 @@ contains
          copy = c_dup(descriptor)
          if (copy >= 0) then
             ignored = c_close(copy)
-         else if (k == 0) then                                            ! the least free number: this one
+         else if (k == 0) then                                            ! open takes the lowest free number: this one
             stays_open = c_fopen('/dev/null'//c_null_char, 'w'//c_null_char)      ! reading fails, as it did
          else
             stays_open = c_fopen('/dev/null'//c_null_char, 'r'//c_null_char)      ! writing fails

@@ -1,8 +1,8 @@
-!> What the system says: of files and folders, of failures, of this machine; and signals.
+!> System queries: files and folders, failures, this machine; and signals.
 !>
-!> Two things here are of Linux, each with a way out elsewhere: the place of the name in a `struct dirent` (where '.' is
-!> not found at it, a folder counts as empty), and the kind of a file, which comes from statx, the same on every
-!> processor (it is looked up when the program runs; where it is missing, kinds are unknown).
+!> Two items are specific to Linux, each with a fallback elsewhere: the offset of the name in a `struct dirent` (if '.' is
+!> not found there, a folder counts as empty), and the kind of a file, which comes from statx, the same on every
+!> processor (it is looked up at run time; if it is missing, kinds are unknown).
 module ek_system
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_intptr_t, c_null_char, c_null_ptr, c_funptr, &
       c_null_funptr, c_ptr, c_size_t, c_associated, c_f_pointer, c_f_procpointer
@@ -20,17 +20,17 @@ module ek_system
    integer, parameter :: no_such_entry = 2, already_there = 17, no_folder = 20, not_for_this_kind = 22, broken_pipe = 32
 
    integer, parameter :: unknown_file = -1, no_file = 0, regular_file = 1, folder_file = 2, device_file = 3, link_file = 4, &
-      other_file = 5                                !! other: a pipe with a name, a socket
+      other_file = 5                                !! other: a named pipe, a socket
 
-   !> What the system says of a path.
+   !> The facts of a path: kind, identity and age.
    type :: facts_t
       integer :: kind = unknown_file
-      integer(i8) :: inode = 0, device = 0          !! together: which file it is
-      integer(i8) :: changed = 0                    !! when it was written last [s since 1970]
+      integer(i8) :: inode = 0, device = 0          !! together: identity of the file
+      integer(i8) :: changed = 0                    !! last modification [s since 1970]
       integer(i8) :: owner = -1
    end type facts_t
 
-   integer, parameter :: most_letters = 4096         !! of a path
+   integer, parameter :: most_letters = 4096         !! longest path
 
    abstract interface
       integer(c_int) function statx_procedure(folder, path, flags, mask, facts) bind(c)
@@ -50,7 +50,7 @@ module ek_system
 
 contains
 
-   !> Kind, identity and age of a path; of a link itself where `follow` is false.
+   !> Kind, identity and age of a path; if `follow` is false, of the link itself.
    type(facts_t) function facts_of(path, follow) result(facts)
       character(*), intent(in) :: path
       logical, intent(in) :: follow
@@ -89,7 +89,7 @@ contains
 
    contains
 
-      !> A whole number of the structure, the lowest byte first as on all processors in use.
+      !> An integer of the structure, lowest byte first, as on all processors in use.
       integer(i8) function number_at(offset, bytes) result(number)
          integer, intent(in) :: offset, bytes
          integer :: k
@@ -102,7 +102,7 @@ contains
 
    end function facts_of
 
-   !> The names in a folder, in the order of the system, without '.' and '..'; none where it cannot be read.
+   !> The names in a folder, in system order, without '.' and '..'; none if it cannot be read.
    subroutine folder_names(path, names)
       character(*), intent(in) :: path
       type(message_list_t), intent(out) :: names
@@ -134,7 +134,7 @@ contains
       if (.not. is_understood) names = message_list_t()
    end subroutine folder_names
 
-   !> Whether this process alone now holds an open file or folder. The lock goes when the process ends, however it ends.
+   !> Locks an open file or folder; .false. if another process holds it. The lock is released when the process ends.
    logical function try_lock(descriptor)
       integer(c_int), intent(in) :: descriptor
       integer(c_int), parameter :: alone_and_at_once = 6      ! LOCK_EX + LOCK_NB
@@ -142,7 +142,7 @@ contains
       try_lock = c_flock(descriptor, alone_and_at_once) == 0
    end function try_lock
 
-   !> 16 letters that nobody can foresee. `attempt` keeps two of one moment apart where the system gives no random bytes.
+   !> 16 unpredictable characters. If the system provides no random bytes, `attempt` separates two calls at the same time.
    function random_tag(attempt) result(tag)
       integer, intent(in) :: attempt
       character(16) :: tag
@@ -172,8 +172,8 @@ contains
       end do
    end function random_tag
 
-   !> 8 letters that tell this running system from others that see the same folder: of its boot, else of its name.
-   !> Containers on one machine share it, as they share its locks.
+   !> 8 characters that distinguish this running system from others with access to the same folder: from its boot id, or else
+   !> from its name. Containers on one machine share them, as they share its locks.
    function machine_tag() result(tag)
       character(8) :: tag
       character(64) :: text
@@ -205,7 +205,7 @@ contains
       end do
    end function machine_tag
 
-   !> The working folder; '.' where it has no path.
+   !> The working folder; '.' if it has no path.
    function working_folder() result(path)
       character(:), allocatable :: path
       character(kind=c_char) :: letters(most_letters)
@@ -221,7 +221,7 @@ contains
       end do
    end function working_folder
 
-   !> What a signal does: nothing (`is_ignored`), else what the system does by default.
+   !> Sets the action of a signal: ignored (`is_ignored`), or the system's default.
    subroutine set_signal(number, is_ignored)
       integer, intent(in) :: number
       logical, intent(in) :: is_ignored
@@ -232,7 +232,7 @@ contains
       ignored = c_signal(int(number, c_int), action)
    end subroutine set_signal
 
-   !> The number of the last failure of the C library.
+   !> The error number (errno) of the last failure in the C library.
    integer function error_number()
       integer(c_int), pointer :: number
 
@@ -240,14 +240,14 @@ contains
       error_number = number
    end function error_number
 
-   !> Why the last call of the C library failed, in its own words.
+   !> The C library's message for its last failure.
    function system_reason() result(reason)
       character(:), allocatable :: reason
 
       reason = reason_of(error_number())
    end function system_reason
 
-   !> The words of a number of error_number.
+   !> The message for an error number.
    function reason_of(number) result(reason)
       integer, intent(in) :: number
       character(:), allocatable :: reason

@@ -1,4 +1,4 @@
-!> Numbers to words and back, for messages and names. Never used inside an increment.
+!> Conversion between numbers and text, for messages and names. Never used inside an increment.
 module ek_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -7,15 +7,15 @@ module ek_text
    private
    public :: str, lower, quoted, nearest_name, vector_text, plural, printable
 
-   !> A number as the shortest text that a person would write.
+   !> A number as text, in the shortest form a person would write.
    interface str
       module procedure str_integer, str_real
    end interface str
 
 contains
 
-   !> A text as a terminal may show it: control characters, which move the cursor, set colours or worse, become `<U+001B>`.
-   !> Ends of lines and tabulators stay, and everything else of UTF-8.
+   !> A text that is safe to show on a terminal: control characters, which could move the cursor or set colours, become
+   !> `<U+001B>`. Line ends, tabs and all other UTF-8 characters are kept.
    pure function printable(text) result(shown)
       character(*), intent(in) :: text
       character(:), allocatable :: shown
@@ -48,7 +48,7 @@ contains
       shown = shown(:at)
    end function printable
 
-   !> The control character at a place, U+0000 … U+001F or U+007F … U+009F; −1 where there is none.
+   !> The code of the control character at a position, U+0000 … U+001F or U+007F … U+009F; −1 if there is none.
    pure integer function control_code(text, at) result(code)
       character(*), intent(in) :: text
       integer, intent(in) :: at
@@ -63,7 +63,7 @@ contains
       end if
    end function control_code
 
-   !> A whole number without blanks.
+   !> An integer without blanks.
    pure function str_integer(value) result(text)
       integer, intent(in) :: value
       character(:), allocatable :: text
@@ -147,7 +147,7 @@ contains
       end do
    end function lower
 
-   !> A name between single quotes; characters in it that cannot be seen stand as <U+00A0>.
+   !> A name between single quotes; invisible characters in it are shown as <U+00A0>.
    pure function quoted(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
@@ -167,7 +167,7 @@ contains
       end if
    end function plural
 
-   !> The candidate that a typing slip most likely meant, or '' when none is near
+   !> The candidate most similar to a mistyped name, or '' if none is similar
    !> (edit distance at most a third of the length, at least 1).
    pure function nearest_name(name, candidates) result(best)
       character(*), intent(in) :: name
@@ -181,7 +181,7 @@ contains
       do k = 1, size(candidates)
          if (candidates(k) == '') cycle
          distance = edit_distance(lower(trim(name)), lower(trim(candidates(k))))
-         ! of two that are equally near, the one with the same first letter: the first is seldom wrong
+         ! of two equally similar ones, prefer the same first letter: typing mistakes there are rare
          if (distance < least .or. (distance == least .and. best /= '' .and. name(:1) == candidates(k)(:1) &
             .and. index(best, name(:1)) /= 1)) then
             least = distance

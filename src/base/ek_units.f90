@@ -1,7 +1,7 @@
-!> Units at the border: decks may speak mm, N and deg; inside, everything is SI and radians.
+!> Units at the interface: decks may use mm, N and deg; inside, everything is SI and radians.
 !>
-!> A deck value in its own unit times the factor here is SI. Results always leave in
-!> mm, N, deg and N m, whatever the deck speaks.
+!> A deck value times the factor here is in SI. Results are always written in mm, N, deg and
+!> N m, regardless of the deck's units.
 module ek_units
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -22,7 +22,7 @@ module ek_units
 
 contains
 
-   !> Units by name; the names were checked by the is_* functions before.
+   !> Units by name; the names must have been checked by the is_* functions.
    pure type(units_t) function new_units(length, force, angle) result(units)
       character(*), intent(in) :: length   !! 'mm' or 'm'
       character(*), intent(in) :: force    !! 'N' or 'kN'
@@ -51,7 +51,7 @@ contains
       is_length_unit = name == 'mm' .or. name == 'm'
    end function is_length_unit
 
-   !> Whether a deck may give forces in this unit; letters may be small.
+   !> Whether a deck may give forces in this unit; lower case is accepted.
    pure logical function is_force_unit(name)
       character(*), intent(in) :: name
       is_force_unit = name == 'N' .or. name == 'n' .or. name == 'kN' .or. name == 'kn'

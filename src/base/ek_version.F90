@@ -1,4 +1,4 @@
-!> The version, from the one place that sets it: project() in CMakeLists.txt.
+!> The program version, set only by project() in CMakeLists.txt.
 module ek_version
    implicit none(type, external)
    private

@@ -1,19 +1,19 @@
-!> The one way in which a file comes to be: under a name that nobody can foresee, in the folder where it belongs, row by
-!> row; when the last byte is on the disk it takes its name, in one step for every reader.
+!> Writes every output file: row by row under an unpredictable temporary name in the target folder; when the last byte is
+!> on the disk the file is renamed, atomically for other readers.
 !>
 !>     call begin_file(writer, path, error)
-!>     call writer%add(text)                  ! as often as there is something; a failure is kept
-!>     call writer%finish(error)              ! whole, or not there (and then what was there before still is)
+!>     call writer%add(text)                  ! any number of times; a failure is remembered
+!>     call writer%finish(error)              ! the complete file, or none (an older file is then kept)
 !>
-!> A temporary file is `.elastokin-<machine>-<random>.tmp`. Its process holds a lock on it, which goes with the process: one
-!> without a lock, of this machine, is of a dead run, and `remove_stale` takes it away. Of another machine, whose locks
-!> may not be seen here, one is dead when nothing was written to it for a day.
+!> A temporary file is named `.elastokin-<machine>-<random>.tmp`. Its process holds a lock on it until the process ends. An
+!> unlocked file of this machine therefore belongs to a dead run, and `remove_stale` removes it. Locks of other machines
+!> may be invisible here: their files count as dead when nothing was written to them for a day.
 !>
-!> What can be drawn again (a picture, a chart's script) takes its name in one step too, but is not waited for: the many
-!> pictures of a report would take longer to reach the disk than to be drawn. After a power cut they may be empty.
+!> Files that can be redrawn (pictures, scripts of charts) are renamed atomically too, but without waiting for the disk:
+!> writing the many pictures of a report to the disk would take longer than drawing them. After a power cut they may be empty.
 !>
-!> A part is for what is long in the making: `<path>.<machine>-<random>.part`. It stays when the run is killed, with all that was
-!> flushed, and goes when a later run finishes the same file.
+!> A part is the temporary file of a long run: `<path>.<machine>-<random>.part`. If the run is killed it remains, with
+!> everything that was flushed, until a later run finishes the same file.
 module ek_writer
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t, c_associated
    use ek_kinds, only: i8
@@ -32,19 +32,19 @@ module ek_writer
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
    integer, parameter :: tag_length = 8 + 1 + 16            !! <machine>-<random>
    integer(i8), parameter :: a_day = 86400                  !! s
-   integer, parameter :: most_attempts = 100                !! at a name that is free, and stays ours
+   integer, parameter :: most_attempts = 100                !! to create a file under a free name and lock it
    integer(c_int), parameter :: may_exist = 0               !! F_OK of access(2)
    integer(c_int), parameter :: mine_alone = 448            !! 0700
 
-   !> A file in the making.
+   !> A file being written.
    type :: writer_t
       private
       type(c_ptr) :: stream = c_null_ptr
-      character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written in place
-      character(:), allocatable :: reason               !! of the first failure; '' while all is well
+      character(:), allocatable :: path, temporary      !! temporary: '' for a device, which is written directly
+      character(:), allocatable :: reason               !! of the first failure; '' if there was none
       logical :: is_part = .false., is_empty = .true.
-      logical :: is_awaited = .true.                    !! on the disk before it takes its name
-      type(buffer_t) :: rows                            !! of a part, since the last flush: they go out together
+      logical :: is_awaited = .true.                    !! wait until the file is on the disk before it is renamed
+      type(buffer_t) :: rows                            !! of a part, since the last flush: they are written together
    contains
       procedure :: add => writer_add
       procedure :: flush => writer_flush
@@ -53,7 +53,7 @@ module ek_writer
       procedure :: temporary_name => writer_temporary_name
    end type writer_t
 
-   !> A folder of this run alone, for programs that write what they want.
+   !> A private folder of this run, for other programs to write into.
    type :: scratch_t
       character(:), allocatable :: path
       type(c_ptr) :: lock = c_null_ptr
@@ -61,12 +61,12 @@ module ek_writer
 
 contains
 
-   !> Begin the file `path`. Nothing is there under this name, or what was there before, until it is finished.
+   !> Begin the file `path`. Until it is finished, the name refers to the older file or to none.
    subroutine begin_file(writer, path, error, can_be_redrawn)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-      logical, intent(in), optional :: can_be_redrawn        !! then it is not waited for; else, and by default, it is
+      logical, intent(in), optional :: can_be_redrawn        !! if .true., do not wait for the disk; default .false.
       type(facts_t) :: facts
 
       call start(writer, path)
@@ -85,7 +85,7 @@ contains
       if (len(writer%reason) > 0) call fail(error, exit_file, "cannot write '"//path//"': "//writer%reason)
    end subroutine begin_file
 
-   !> Begin the file `path` as a part, which stays when the run is killed.
+   !> Begin the file `path` as a part, which remains when the run is killed.
    subroutine begin_part(writer, path, error)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
@@ -110,14 +110,14 @@ contains
       writer%reason = ''
    end subroutine start
 
-   !> Devices where the system cannot be asked. /dev/shm is a folder like others.
+   !> Devices recognised by name, where the system gives no file kind. /dev/shm is an ordinary folder.
    pure logical function is_device_name(path)
       character(*), intent(in) :: path
 
       is_device_name = (index(path, '/dev/') == 1 .and. index(path, '/dev/shm/') /= 1) .or. index(path, '/proc/') == 1
    end function is_device_name
 
-   !> A new file that this process has locked. O_EXCL (the x of the mode): a link planted under the name is not followed.
+   !> Creates a new file and locks it. O_EXCL (the x of the mode): a link planted under the name is not followed.
    subroutine open_temporary(writer, begin, end)
       type(writer_t), intent(inout) :: writer
       character(*), intent(in) :: begin, end                 !! of its path
@@ -130,7 +130,7 @@ contains
             if (error_number() == already_there) cycle
             exit
          end if
-         ! in between another run may have taken it for a dead one's
+         ! meanwhile another run may have removed it as a dead run's file
          if (is_ours(c_fileno(writer%stream), writer%temporary)) return
          ignored = c_fclose(writer%stream)
       end do
@@ -138,7 +138,7 @@ contains
       writer%temporary = ''
    end subroutine open_temporary
 
-   !> Locks what was just made. Where there are no locks at all, nobody takes it away before a day has passed.
+   !> Locks the file just created. Without lock support, other runs remove it only after a day.
    logical function is_ours(descriptor, path)
       integer(c_int), intent(in) :: descriptor
       character(*), intent(in) :: path
@@ -149,7 +149,7 @@ contains
       if (is_ours) is_ours = c_access(path//c_null_char, may_exist) == 0
    end function is_ours
 
-   !> Bytes, as they are.
+   !> Add bytes unchanged.
    subroutine writer_add(self, text)
       class(writer_t), intent(inout) :: self
       character(*), intent(in) :: text
@@ -165,8 +165,8 @@ contains
       end if
    end subroutine writer_add
 
-   !> Hands over to the system what was added: it stays, whatever becomes of this process. What was added to a part since the
-   !> last time goes in one call, so that a part that is left ends where a flush did.
+   !> Passes the added text to the system, so that it survives the end of this process. The text added to a part since the
+   !> last flush is written in one call, so that a remaining part always ends at a flush.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
       character(:), allocatable :: text
@@ -189,8 +189,8 @@ contains
       if (c_fflush(self%stream) /= 0) self%reason = system_reason()
    end subroutine writer_flush
 
-   !> Every byte to the disk (unless it can be redrawn); then the file takes its name. Where something failed there is no new
-   !> file; of a part the rows that are out stay, and are named.
+   !> Writes every byte to the disk (unless the file can be redrawn), then renames the file. After a failure there is no new
+   !> file; the rows of a part that were written remain, and the message gives their path.
    subroutine writer_finish(self, error)
       class(writer_t), intent(inout) :: self
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -216,13 +216,12 @@ contains
          return
       end if
       words = "cannot write '"//self%path//"': "//self%reason
-      if (self%is_part) words = words//'; what came before is in '//self%temporary
+      if (self%is_part) words = words//'; the rows written so far are in '//self%temporary
       call self%abandon()
       call fail(error, exit_file, words)
    end subroutine writer_finish
 
-   !> Gives the file up: there will be none. A part stays as it is, if there is something in it. One that is finished is left
-   !> alone.
+   !> Abandons the file: none is created. A part that is not empty remains. A finished file is left unchanged.
    subroutine writer_abandon(self)
       class(writer_t), intent(inout) :: self
       integer :: ignored
@@ -233,7 +232,7 @@ contains
       self%stream = c_null_ptr
    end subroutine writer_abandon
 
-   !> Where the bytes are until the file is finished.
+   !> The temporary path, which holds the bytes until the file is finished.
    function writer_temporary_name(self) result(path)
       class(writer_t), intent(in) :: self
       character(:), allocatable :: path
@@ -242,7 +241,7 @@ contains
       if (allocated(self%temporary)) path = self%temporary
    end function writer_temporary_name
 
-   !> Gives a whole picture of the same disk its place, in one step. It can be drawn again, and is not waited for.
+   !> Moves a complete picture to its final path on the same disk, atomically, without waiting for the disk.
    subroutine move_file(from, to, error)
       character(*), intent(in) :: from, to
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
@@ -254,7 +253,7 @@ contains
       end if
    end subroutine move_file
 
-   !> The new name itself to the disk. Some file systems cannot; the file is then whole all the same.
+   !> Writes the folder entry to the disk. Some file systems cannot; the file is complete nevertheless.
    subroutine keep_name(folder)
       character(*), intent(in) :: folder
       type(c_ptr) :: handle
@@ -266,7 +265,7 @@ contains
       ignored = c_closedir(handle)
    end subroutine keep_name
 
-   !> A new folder in `folder`, which is there. Its owner alone may look into it.
+   !> Creates a folder in the existing `folder`, accessible by its owner only.
    subroutine begin_scratch(folder, scratch, error)
       character(*), intent(in) :: folder
       type(scratch_t), intent(out) :: scratch
@@ -285,10 +284,10 @@ contains
          ignored = c_closedir(scratch%lock)
          scratch%lock = c_null_ptr
       end do
-      call fail(error, exit_file, "cannot make a folder in '"//folder//"': "//system_reason())
+      call fail(error, exit_file, "cannot create a folder in '"//folder//"': "//system_reason())
    end subroutine begin_scratch
 
-   !> Takes a scratch folder away, with what is left in it.
+   !> Removes a scratch folder and its content.
    subroutine end_scratch(scratch)
       type(scratch_t), intent(inout) :: scratch
       integer :: ignored
@@ -300,7 +299,7 @@ contains
       scratch%lock = c_null_ptr
    end subroutine end_scratch
 
-   !> Removes the files of a folder. Links go, not what they point to; folders stay, none is made by a script of ours.
+   !> Removes the files of a folder. Links are removed, not their targets; subfolders remain, as our scripts create none.
    subroutine empty_folder(path)
       character(*), intent(in) :: path
       type(message_list_t) :: names
@@ -312,7 +311,7 @@ contains
       end do
    end subroutine empty_folder
 
-   !> Removes what dead runs have left in a folder. What cannot be removed, or is not understood, stays.
+   !> Removes files of dead runs from a folder. Anything that cannot be removed or identified remains.
    subroutine remove_stale(folder)
       character(*), intent(in) :: folder
       type(message_list_t) :: names
@@ -328,7 +327,7 @@ contains
       end do
    end subroutine remove_stale
 
-   !> Removes the parts that killed runs have left of a file that is now whole.
+   !> Removes the parts that killed runs left of a file that is now complete.
    subroutine remove_parts(path)
       character(*), intent(in) :: path
       type(message_list_t) :: names
@@ -345,10 +344,10 @@ contains
       end do
    end subroutine remove_parts
 
-   !> Removes a temporary file or folder if its run is dead. The lock is held meanwhile: two runs do not both remove it, and one
-   !> that has just made it notices.
+   !> Removes a temporary file or folder if its run is dead. The lock is held meanwhile, so that two runs do not both remove it
+   !> and a run that has just created it notices.
    subroutine remove_dead(path, tag)
-      character(*), intent(in) :: path, tag                  !! tag: begins with that of its machine
+      character(*), intent(in) :: path, tag                  !! tag: begins with the tag of its machine
       type(facts_t) :: facts, opened
       type(c_ptr) :: handle
       integer :: ignored
@@ -367,7 +366,7 @@ contains
          handle = c_opendir(path//c_null_char)
          if (.not. c_associated(handle)) return
          if (try_lock(c_dirfd(handle))) then
-            opened = facts_of(path, follow=.false.)          ! no link was put in its place
+            opened = facts_of(path, follow=.false.)          ! it must not have been replaced by a link
             if (opened%kind == folder_file .and. opened%inode == facts%inode .and. opened%device == facts%device) then
                call empty_folder(path)
                ignored = c_rmdir(path//c_null_char)

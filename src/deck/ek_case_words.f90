@@ -1,4 +1,4 @@
-!> What one &case says, in the deck's words and units, and the wheels and drivers that it names.
+!> The keys of one &case, in the deck's units, and the wheels and drivers to which it refers.
 module ek_case_words
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted
@@ -11,7 +11,7 @@ module ek_case_words
    private
    public :: words_t, read_words, find_driver, find_wheel
 
-   !> What one &case says, in the deck's words and units.
+   !> The values of the keys of one &case, in the deck's units.
    type :: words_t
       character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities, follow
       character(note_length) :: file, target
@@ -21,12 +21,12 @@ module ek_case_words
 
 contains
 
-   !> Reads the namelist; a key that is not there keeps its usual value. What cannot be read is complained of.
+   !> Reads the namelist; a missing key keeps its default value. An unreadable record is reported.
    subroutine read_words(deck, k, draft, words)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k               !! record of the case
       type(draft_t), intent(inout) :: draft
-      type(words_t), intent(out) :: words    !! `test`, `vertical` and `follow` in small letters
+      type(words_t), intent(out) :: words    !! `test`, `vertical` and `follow` in lower case
       character(word_length) :: name, load(most_loads), drive, wheel, method, test, vertical, phase, quantities, follow
       character(note_length) :: file, target
       real(wp) :: from, to, tolerance, offset
@@ -60,13 +60,13 @@ contains
          increments=increments, follow=lower(follow))
    end subroutine read_words
 
-   !> Looks for the driver joint that a case names; complains where there is none.
+   !> Finds the driver joint named by a case; reports a mistake if there is none.
    subroutine find_driver(deck, k, draft, name, others, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: name, others(:)     !! others: what else may be driven, for the hint
-      real(wp), intent(inout) :: factor               !! unit of what it drives → SI; unchanged where there is none
+      character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
+      real(wp), intent(inout) :: factor               !! deck unit of the driven value → SI; unchanged if not found
       character(word_length), allocatable :: names(:)
       integer :: j, found
 
@@ -89,20 +89,20 @@ contains
       call complain(draft, deck, k, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, names))
    end subroutine find_driver
 
-   !> The wheel that a case names; complains where there is none, or where the case drives none.
+   !> Finds the wheel named by a case; reports a mistake if there is none, or if the case takes no wheel.
    subroutine find_wheel(deck, k, draft, words, may_have_one, which, this)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       type(draft_t), intent(inout) :: draft
       type(words_t), intent(in) :: words
       logical, intent(in) :: may_have_one
-      character(*), intent(in) :: which      !! the cases that have one
-      type(case_t), intent(inout) :: this    !! gets its number
+      character(*), intent(in) :: which      !! the cases that take the key `wheel`, for the message
+      type(case_t), intent(inout) :: this    !! receives the number of the wheel
       integer :: found
 
       call look_up(draft, deck, k, 'wheel', wheel_group, trim(words%wheel), found)
       if (found > 0) this%wheel = draft%cards(found)%index
-      if (.not. may_have_one) call complain(draft, deck, k, 'wheel', 'wheel: only a case '//which//' has one')
+      if (.not. may_have_one) call complain(draft, deck, k, 'wheel', 'wheel: only a case '//which//' takes this key')
    end subroutine find_wheel
 
 end module ek_case_words

@@ -1,4 +1,4 @@
-!> What is wrong with a deck, and where: mistakes are collected, and told together.
+!> The mistakes of a deck, with their locations: they are collected and reported together.
 module ek_complaint
    use ek_text, only: str
    use ek_letters, only: visible
@@ -7,7 +7,7 @@ module ek_complaint
    private
    public :: place_t, complaints_t, place_in
 
-   !> Where something stands.
+   !> A location in a file or on the command line.
    type :: place_t
       character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
       integer :: source = 0, line = 0     !! messages are sorted by these
@@ -19,10 +19,10 @@ module ek_complaint
       character(:), allocatable :: text
    end type complaint_t
 
-   !> Mistakes found so far; handed out in the order of files and lines.
+   !> Mistakes found so far; reported in the order of files and lines.
    !>
-   !> What &mirror doubled is told once and under the name that the deck uses: a message about the right twin
-   !> is dropped where there is one about the left twin at the same place, and that one loses its prefixes.
+   !> A mistake in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
+   !> side is dropped if there is one about the left side at the same location, and the prefixes are removed from the latter.
    type :: complaints_t
       private
       integer :: used = 0
@@ -35,7 +35,7 @@ module ek_complaint
 
 contains
 
-   !> Note a mistake. Characters that cannot be seen stand in it as <U+00A0>.
+   !> Record a mistake. Invisible characters in the message are shown as <U+00A0>.
    pure subroutine complaints_add(self, place, what)
       class(complaints_t), intent(inout) :: self
       type(place_t), intent(in) :: place
@@ -65,7 +65,7 @@ contains
       end if
    end subroutine complaints_add
 
-   !> Hands the texts over without a copy.
+   !> Moves the texts without copying them.
    pure subroutine move_complaint(from, to)
       type(complaint_t), intent(inout) :: from, to
 
@@ -76,7 +76,7 @@ contains
       call move_alloc(from%text, to%text)
    end subroutine move_complaint
 
-   !> A text in which a quote and a prefix have become the quote alone.
+   !> A text in which a quote followed by a prefix is replaced by the quote alone.
    pure function without(text, prefix) result(plain)
       character(*), intent(in) :: text, prefix
       character(:), allocatable :: plain
@@ -93,14 +93,14 @@ contains
       plain = plain//text(first:)
    end function without
 
-   !> How many mistakes were noted.
+   !> The number of recorded mistakes.
    pure integer function complaints_count(self)
       class(complaints_t), intent(in) :: self
       complaints_count = self%used
    end function complaints_count
 
-   !> The messages, one a line, by file and line number; those of one line in the order they came. Who has so many has
-   !> given a file that is no deck.
+   !> The messages, one per line, sorted by file and line number; messages about one line keep their order. The list is cut
+   !> at a limit: a file with so many mistakes is probably not a deck.
    pure function complaints_text(self) result(text)
       class(complaints_t), intent(in) :: self
       character(:), allocatable :: text
@@ -120,16 +120,16 @@ contains
          if (k > 1) text = text//new_line('a')
          text = text//self%list(order(k))%text
       end do
-      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes: is this a deck?'
+      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this file a deck?'
    end function complaints_text
 
-   !> The order of messages: files as they were read, then lines.
+   !> The order of messages: files in the order of reading, then lines.
    pure logical function is_before(a, b)
       type(place_t), intent(in) :: a, b
       is_before = a%source < b%source .or. (a%source == b%source .and. a%line < b%line)
    end function is_before
 
-   !> A line of a file; line 0: the file itself.
+   !> The location of a line of a file; line 0: the file itself.
    pure subroutine place_in(file, source, line, place)
       character(*), intent(in) :: file
       integer, intent(in) :: source, line

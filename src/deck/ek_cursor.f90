@@ -1,6 +1,6 @@
-!> A place in a text, and what can be taken from there on: blanks, words, subscripts, the rest of a line.
+!> A position in a text, with procedures that read from it: blanks, words, subscripts, the rest of a line.
 !>
-!> Each `take_…` leaves the cursor behind what it took. Nothing here can fail; the scanner says what is wrong.
+!> Each `take_…` moves the cursor behind the text it returns. Nothing here can fail; the scanner reports mistakes.
 module ek_cursor
    implicit none(type, external)
    private
@@ -9,7 +9,7 @@ module ek_cursor
 
    character, parameter :: tab = achar(9), newline = achar(10), return = achar(13)
 
-   !> Where the scanner stands.
+   !> The position of the scanner.
    type :: cursor_t
       integer :: at = 1, line = 1    !! character and line, from 1
       integer :: source = 1          !! number of the file
@@ -40,7 +40,7 @@ contains
       end do
    end subroutine skip_blanks
 
-   !> Whether a key stands here: a word, perhaps a subscript, and an = sign.
+   !> Whether a key starts here: a word, optionally a subscript, and an = sign.
    pure logical function key_follows(text, cursor)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
@@ -60,7 +60,7 @@ contains
       key_follows = text(ahead%at:ahead%at) == '='
    end function key_follows
 
-   !> What stands between ( and ), blanks removed; the cursor ends behind the ).
+   !> The text between ( and ), blanks removed; the cursor moves behind the ).
    pure subroutine take_subscript(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -79,7 +79,7 @@ contains
       cursor%at = cursor%at + 1
    end subroutine take_subscript
 
-   !> Letters, digits, _ and % from here on.
+   !> The letters, digits, _ and % from here on.
    pure subroutine take_word(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -95,7 +95,7 @@ contains
       word = text(first:cursor%at - 1)
    end subroutine take_word
 
-   !> Anything up to a separator, at least one character.
+   !> The text up to a separator, at least one character.
    pure subroutine take_anything(text, cursor, word)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
@@ -111,12 +111,12 @@ contains
       word = text(first:cursor%at - 1)
    end subroutine take_anything
 
-   !> The rest of a line that belongs to no group, up to the next & or comment.
+   !> The rest of a line outside any group, up to the next & or comment.
    pure subroutine take_line(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: content
-      integer, parameter :: most = 40   ! enough to recognise it
+      integer, parameter :: most = 40   ! enough to identify the line
       integer :: first
 
       first = cursor%at
@@ -127,13 +127,13 @@ contains
       content = trim(text(first:min(cursor%at - 1, first + most)))
    end subroutine take_line
 
-   !> Whether a name can begin so.
+   !> Whether a name can begin with this character.
    pure logical function is_word_begin(c)
       character, intent(in) :: c
       is_word_begin = (c >= 'a' .and. c <= 'z') .or. (c >= 'A' .and. c <= 'Z') .or. c == '_'
    end function is_word_begin
 
-   !> Whether a string begins, or ends, so.
+   !> Whether this character is a quote.
    pure logical function is_quote(c)
       character, intent(in) :: c
       is_quote = c == "'" .or. c == '"'

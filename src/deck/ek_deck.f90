@@ -1,11 +1,11 @@
 !> A deck in memory: read from a file or a text, changed by settings, identified by a checksum.
 !>
-!> A mistake in the writing (a group without its end, a key given twice) does not stop the
-!> reading: it is kept here, and `build_model` reports it together with every other mistake.
-!> So `error` is set here only when the file cannot be read (exit_file) or is empty (exit_deck).
+!> A syntax mistake (a group without its end, a key given twice) does not stop the reading: it is
+!> stored here, and `build_model` reports it together with all other mistakes.
+!> Therefore `error` is set only if the file cannot be read (exit_file) or is empty (exit_deck).
 !>
-!> The order of things: text, included files, settings of records that the deck has, &mirror, settings of
-!> records that only &mirror makes.
+!> Order of processing: text, included files, settings of records in the deck, &mirror, settings of records
+!> created by &mirror.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_kinds, only: i8
@@ -23,21 +23,21 @@ module ek_deck
    private
    public :: deck_t, read_deck, parse_deck, set_value, finish_deck, split_setting, deck_checksum
 
-   !> `path=text` for a record that &mirror makes.
+   !> `path=text` for a record created by &mirror.
    type :: setting_t
       character(:), allocatable :: path, text
    end type setting_t
 
    !> The parsed deck.
    type :: deck_t
-      character(:), allocatable :: file          !! as named by the user; for messages
-      type(record_t), allocatable :: records(:)  !! the first `used`, in the order of the text
+      character(:), allocatable :: file          !! as given by the user, for messages
+      type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text
       integer :: used = 0
-      type(complaints_t) :: complaints           !! mistakes of writing
-      type(setting_t), allocatable :: late(:)    !! to be set when the deck has been mirrored
+      type(complaints_t) :: complaints           !! syntax mistakes
+      type(setting_t), allocatable :: late(:)    !! settings to be made after &mirror
       logical :: is_mirrored = .false.
    contains
-      procedure :: is_finished                   !! nothing is left for finish_deck to do
+      procedure :: is_finished                   !! finish_deck has nothing left to do
    end type deck_t
 
 contains
@@ -47,7 +47,7 @@ contains
       character(*), intent(in) :: path
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(in), optional :: is_study     !! a study's file, which includes no other; .false.
+      logical, intent(in), optional :: is_study     !! the file of a study, which includes no other files; default .false.
       character(:), allocatable :: text
 
       if (path == '-') then
@@ -61,12 +61,12 @@ contains
       end if
    end subroutine read_deck
 
-   !> Takes a deck from a text; `name` stands for the file in messages, and its folder for that of included files.
+   !> Parses a deck from a text; `name` is the file name used in messages, and its folder is that of included files.
    subroutine parse_deck(text, name, deck, error, is_study)
       character(*), intent(in) :: text, name
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(in), optional :: is_study     !! .false.
+      logical, intent(in), optional :: is_study     !! default .false.
       logical :: includes
 
       deck%file = trim(name)
@@ -82,7 +82,7 @@ contains
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
 
-   !> A case of the rig without a name is called like its test: parallel_travel, aligning_torque_anti.
+   !> Names a rig case without a name after its test: parallel_travel, aligning_torque_anti.
    subroutine name_tests(deck)
       type(deck_t), intent(inout) :: deck
       type(entry_t) :: name
@@ -103,15 +103,15 @@ contains
    end subroutine name_tests
 
    !> Sets one value, as `--set path=value` does: `point.lower_ball_joint.z`, `bushing.top_mount.kt(1)`,
-   !> `spring.coil.rate`, `model.length`. A key that the record lacks is added. Ranges are checked
-   !> by `build_model`, whose messages then name this setting as their place.
+   !> `spring.coil.rate`, `model.length`. A key missing in the record is added. Ranges are checked
+   !> by `build_model`, whose messages then give this setting as the location.
    !>
-   !> Where the deck is mirrored, a record of its own is changed before it is doubled, so on both sides;
+   !> With &mirror, a record of the deck is changed before it is duplicated, so on both sides;
    !> `point.left_lower_ball_joint.z` changes one side.
    subroutine set_value(deck, path, text, error)
       type(deck_t), intent(inout) :: deck
       character(*), intent(in) :: path    !! group.name.key or model.key
-      character(*), intent(in) :: text    !! the value as in a deck; quotes around words may be left out
+      character(*), intent(in) :: text    !! the value as in a deck; quotes around texts may be omitted
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: message, late_message
       type(deck_t) :: whole
@@ -126,14 +126,14 @@ contains
             call add_late(deck%late, path, text)
             return
          end if
-         ! the name that was meant may be of either kind
+         ! the intended name may be that of either kind of record
          if (is_found .or. index(message, 'did you mean') == 0) message = late_message
       end if
       if (deck%complaints%count() > 0) message = deck%complaints%text()//new_line('a')//message
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> Appends a setting to those that wait.
+   !> Appends a setting to those made after &mirror.
    subroutine add_late(late, path, text)
       type(setting_t), allocatable, intent(inout) :: late(:)
       character(*), intent(in) :: path, text
@@ -152,13 +152,13 @@ contains
       call move_alloc(grown, late)
    end subroutine add_late
 
-   !> Whether the records are those that the model is built from.
+   !> Whether the records are final: the model can be built from them.
    pure logical function is_finished(self)
       class(deck_t), intent(in) :: self
       is_finished = self%is_mirrored .or. .not. has_mirror(self%records, self%used)
    end function is_finished
 
-   !> The deck with both sides written out, and the settings of either side made. Mistakes join its complaints.
+   !> The deck with both sides written out and the settings of single sides applied. Mistakes are added to its list.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
@@ -174,15 +174,15 @@ contains
       if (.not. allocated(deck%late)) return
       do k = 1, size(deck%late)
          call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)
-         if (message == '') cycle      ! a later setting has done away with the record that it names
+         if (message == '') cycle      ! a later setting has removed the record to which this one refers
          place%words = '--set '//trim(deck%late(k)%path)//'='//trim(deck%late(k)%text)
          place%source = huge(place%source)
          call whole%complaints%add(place, message(len(place%words) + 3:))
       end do
    end subroutine finish_deck
 
-   !> 16 hexadecimal digits (FNV-1a, 64 bits) of everything that can change a result: comments,
-   !> notes, titles, layout and the file that a group stands in do not count; settings do.
+   !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
+   !> notes, titles, layout and the file of a group are ignored; settings are included.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -196,7 +196,7 @@ contains
       end if
    end function deck_checksum
 
-   !> FNV-1a, 64 bits, of all records in hexadecimal digits; titles and notes do not count.
+   !> FNV-1a, 64 bits, of all records in hexadecimal digits; titles and notes are ignored.
    function checksum_of(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -222,7 +222,7 @@ contains
 
    contains
 
-      !> hash ← (hash xor byte) × (2^40 + 0x1b3), in two halves of 32 bits so that nothing overflows.
+      !> hash ← (hash xor byte) × (2^40 + 0x1b3), in two halves of 32 bits to avoid overflow.
       subroutine include(text)
          character(*), intent(in) :: text
          integer(i8), parameter :: mask = int(z'ffffffff', i8), multiplier = int(z'1b3', i8)
@@ -239,10 +239,10 @@ contains
 
    end function checksum_of
 
-   !> All of standard input, line by line: it may be a pipe, without a size.
+   !> Reads all of standard input line by line: it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
-      type(error_t), allocatable, intent(out) :: error      !! exit_file: it has no end
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
       character(4096) :: chunk
       character(:), allocatable :: grown
       integer :: status, got, filled
@@ -253,8 +253,8 @@ contains
          read (input_unit, '(a)', advance='no', iostat=status, size=got) chunk
          if (status /= 0 .and. status /= iostat_eor) exit
          if (filled + got + 1 > len(text)) then
-            if (len(text) > 1000000000) then      ! twice that is beyond a default integer
-               call fail(error, exit_file, 'cannot read standard input: it does not end within 1 GB')
+            if (len(text) > 1000000000) then      ! twice this length would overflow a default integer
+               call fail(error, exit_file, 'cannot read standard input: it is longer than 1 GB')
                return
             end if
             allocate (character(2*len(text)) :: grown)

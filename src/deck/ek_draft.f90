@@ -1,8 +1,8 @@
-!> The reader's workbench: what is known of each record while a suspension is being built, and
-!> the look-ups that turn names into points, bodies and directions, or into a message.
+!> The state of the reader: the information about each record while a suspension is built, and
+!> look-ups that convert names to points, bodies and directions, or report a mistake.
 !>
-!> Messages read `file:line: group 'name': what`. Wherever an entry was already refused (its key
-!> is then blank here) the look-ups stay quiet: one mistake, one message.
+!> Messages have the form `file:line: group 'name': what`. If an entry was already rejected (its key
+!> is then blank here) the look-ups report nothing: one mistake, one message.
 module ek_draft
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -19,16 +19,16 @@ module ek_draft
    public :: draft_t, card_t, complain, where_of, line_of, find_card, names_of, look_up
    public :: find_point, find_body, find_bodies, find_direction, to_internal, choice, has_key, angle_between
 
-   !> What is known of one record.
+   !> The information about one record.
    type :: card_t
       integer :: group = 0                  !! 0: an unknown group
       character(word_length) :: name = ''
-      character(:), allocatable :: text     !! its sound entries as a namelist record
-      logical :: is_good = .false.          !! no mistake in it so far
-      integer :: index = 0                  !! its number among its kind in the suspension
-      real(wp) :: at(3) = 0.0_wp            !! of a point: design position, SI, x rearward
-      real(wp) :: factor = 1.0_wp           !! of a measure: deck unit → SI
-      logical :: is_used = .false.          !! of a point: referenced; of a body: held by something
+      character(:), allocatable :: text     !! its valid entries as a namelist record
+      logical :: is_good = .false.          !! no mistake found so far
+      integer :: index = 0                  !! its number among the elements of its kind in the suspension
+      real(wp) :: at(3) = 0.0_wp            !! point: design position, SI, x rearward
+      real(wp) :: factor = 1.0_wp           !! measure: deck unit → SI
+      logical :: is_used = .false.          !! point: referenced; body: attached to something
    end type card_t
 
    type :: draft_t
@@ -37,12 +37,12 @@ module ek_draft
       real(wp) :: gravity = 0.0_wp             !! m/s²
       type(complaints_t) :: complaints
       type(card_t), allocatable :: cards(:)    !! one per record of the deck
-      type(curve_t), allocatable :: curves(:)  !! those of &curve, numbers as in the deck
+      type(curve_t), allocatable :: curves(:)  !! the curves of &curve, numbers as in the deck
    end type draft_t
 
 contains
 
-   !> Note a mistake in record k, at the line of `key` ('': of the record).
+   !> Report a mistake in record k, at the line of `key` ('': the line of the record).
    subroutine complain(draft, deck, k, key, what)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -74,7 +74,7 @@ contains
       words = line_words(deck%records(j), deck%records(k))
    end function line_of
 
-   !> Whether record k gives any element of a key.
+   !> Whether record k contains any element of a key.
    pure logical function has_key(deck, k, key)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -95,8 +95,8 @@ contains
       find_card = 0
    end function find_card
 
-   !> All names of a group that a wrong one in record k may mean, for suggestions. What &mirror doubled is
-   !> suggested as the deck has it, unless the wrong name is that of one side.
+   !> The names of a group suggested for an unknown name in record k. A record duplicated by &mirror is
+   !> suggested under its name in the deck, unless the unknown name has the prefix of a side.
    function names_of(draft, deck, group, k, wrong) result(names)
       type(draft_t), intent(in) :: draft
       type(deck_t), intent(in) :: deck
@@ -119,7 +119,7 @@ contains
       end do
    end function names_of
 
-   !> The record that a key of record k names; 0, with a message, if there is none.
+   !> The record to which a key of record k refers; 0, with a message, if there is none.
    subroutine look_up(draft, deck, k, key, group, name, found)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -142,8 +142,8 @@ contains
       end if
    end subroutine look_up
 
-   !> Whether an unknown name may belong to a record whose own name or group was refused already:
-   !> then that is the mistake, and every reference to it is not.
+   !> Whether an unknown name may belong to a record whose own name or group was already rejected:
+   !> then only that is reported, not the references to it.
    pure logical function may_be_meant(draft, group, name)
       type(draft_t), intent(in) :: draft
       integer, intent(in) :: group
@@ -152,7 +152,7 @@ contains
          any(draft%cards%group == 0 .and. (draft%cards%name == name .or. draft%cards%name == ''))
    end function may_be_meant
 
-   !> Where a named point is at design; is_found is false when it is unknown or was refused itself.
+   !> The design position of a named point; is_found is .false. if the point is unknown or was rejected.
    subroutine find_point(draft, deck, k, key, name, at, is_found)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -189,7 +189,7 @@ contains
       if (is_found) body = draft%cards(found)%index
    end subroutine find_body
 
-   !> Both bodies of an element; they must differ. Marks them as held.
+   !> Both bodies of an element; they must differ. Marks them as attached.
    subroutine find_bodies(draft, deck, k, names, bodies, is_found)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -222,8 +222,8 @@ contains
       character(*), intent(in) :: vector_key
       real(wp), intent(in) :: vector(3)          !! deck axes
       real(wp), intent(out) :: direction(3)      !! unit, x rearward
-      logical, intent(out) :: is_given           !! either key is there
-      logical, intent(out) :: is_good            !! and `direction` is set
+      logical, intent(out) :: is_given           !! either key is present
+      logical, intent(out) :: is_good            !! `direction` is set
       real(wp) :: ends(3, 2)
       logical :: is_there(2), has_points, has_vector
       integer :: j
@@ -252,7 +252,7 @@ contains
       if (has_vector) then
          direction = to_internal(draft, vector)
          if (.not. norm2(direction) > 0.0_wp) then
-            if (draft%cards(k)%is_good) call complain(draft, deck, k, vector_key, vector_key//' has no length')
+            if (draft%cards(k)%is_good) call complain(draft, deck, k, vector_key, vector_key//' has zero length')
             return
          end if
       end if
@@ -261,7 +261,7 @@ contains
       is_good = .true.
    end subroutine find_direction
 
-   !> A vector from deck axes to x rearward, y right, z up.
+   !> Transforms a vector from deck axes to x rearward, y right, z up.
    pure function to_internal(draft, vector) result(turned)
       type(draft_t), intent(in) :: draft
       real(wp), intent(in) :: vector(3)
@@ -270,7 +270,7 @@ contains
       if (draft%is_iso) turned(1:2) = -vector(1:2)
    end function to_internal
 
-   !> The number of a word among the choices; 0, with a message, if it is none of them.
+   !> The index of a keyword among the choices; 0, with a message, if it is none of them.
    subroutine choice(draft, deck, k, key, word, choices, number)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -294,7 +294,7 @@ contains
       call complain(draft, deck, k, key, key//' must be one of '//list//', found '//quoted(word))
    end subroutine choice
 
-   !> Angle between two unit vectors [deg], exact also near 0 and 180.
+   !> Angle between two unit vectors [deg], accurate near 0 and 180 deg too.
    pure real(wp) function angle_between(u, v) result(angle)
       use ek_units, only: degree
       real(wp), intent(in) :: u(3), v(3)

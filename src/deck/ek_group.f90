@@ -1,6 +1,6 @@
-!> The groups of a deck and their keys: the one place that says what is legal.
+!> The groups of a deck and their keys: the single definition of what is legal.
 !>
-!> To add a key: its row here, and its variable in the namelist of the reader that takes the group.
+!> To add a key: add its row here and its variable to the namelist in the reader of the group.
 module ek_group
    use ek_text, only: lower, quoted, nearest_name
    use ek_letters, only: visible
@@ -25,7 +25,7 @@ module ek_group
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass']
 
-   integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others are a deck's
+   integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
 
    ! types of value
    integer, parameter :: word = 1      !! quoted, at most word_length characters: names and choices
@@ -34,19 +34,19 @@ module ek_group
    integer, parameter :: whole = 4     !! whole number
    integer, parameter :: switch = 5    !! .true. or .false.
 
-   integer, parameter :: word_length = 63      !! the longest name
-   integer, parameter :: note_length = 2000    !! the longest title or note
-   integer, parameter :: most_measures = 8     !! of one coupler
-   integer, parameter :: most_values = 200     !! of one factor, step sizes of one study, points of a curve, names in shared
+   integer, parameter :: word_length = 63      !! longest name
+   integer, parameter :: note_length = 2000    !! longest title or note
+   integer, parameter :: most_measures = 8     !! per coupler
+   integer, parameter :: most_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
    integer, parameter :: most_loads = 12       !! scaled together by one case
-   integer, parameter :: largest_exponent = 30 !! numbers beyond 1e30 are slips, and could overflow later
-   integer, parameter :: smallest_exponent = -100   !! so are those below 1e-100, of which the least are read as 0
+   integer, parameter :: largest_exponent = 30 !! numbers above 1e30 are mistakes and could overflow later
+   integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
 
    type :: key_t
       integer :: group
       character(14) :: name
       integer :: type
-      integer :: least, most     !! how many values
+      integer :: least, most     !! number of values
       logical :: is_required
    end type key_t
 
@@ -239,27 +239,28 @@ module ek_group
 
 contains
 
-   !> Whether a name begins with a letter and has letters, digits and _ only: it stands in messages, paths and heads of columns.
+   !> Whether a name begins with a letter and contains only letters, digits and _. Names appear in messages, paths and
+   !> column headings.
    pure logical function is_legal_name(name)
       character(*), intent(in) :: name
       is_legal_name = verify(lower(name), letters//'0123456789_') == 0 .and. scan(lower(name), letters) == 1
    end function is_legal_name
 
-   !> What is wrong with a name that is not legal. A blank at an end of it, which nobody sees, is shown.
+   !> The message for an illegal name. A leading or trailing blank is made visible.
    pure function illegal_name(name) result(words)
-      character(*), intent(in) :: name     !! as it was written
+      character(*), intent(in) :: name     !! as written in the deck
       character(:), allocatable :: words
 
-      words = 'a name begins with a letter and has letters, digits and _ only'
+      words = 'a name must begin with a letter and contain only letters, digits and _'
       if (len(name) == 0) return
       if (name(len(name):) == ' ') then
-         words = words//", found '"//visible(trim(name))//"<U+0020>'; remove the blank at its end"
+         words = words//", found '"//visible(trim(name))//"<U+0020>'; remove the trailing blank"
       else if (name(:1) == ' ') then
-         words = words//", found '<U+0020>"//visible(trim(adjustl(name)))//"'; remove the blank at its beginning"
+         words = words//", found '<U+0020>"//visible(trim(adjustl(name)))//"'; remove the leading blank"
       end if
    end function illegal_name
 
-   !> Its number, 0 if there is no such group.
+   !> The number of a group, 0 if there is no such group.
    pure integer function group_number(name)
       character(*), intent(in) :: name
       integer :: k
@@ -270,13 +271,13 @@ contains
       end do
    end function group_number
 
-   !> Whether a group belongs in a deck; .false. for those of a study and for 0.
+   !> Whether a group belongs to a deck; .false. for groups of a study and for 0.
    pure logical function is_deck_group(group)
       integer, intent(in) :: group
       is_deck_group = group > 0 .and. .not. any(study_groups == group)
    end function is_deck_group
 
-   !> The groups of a deck, or those of a study, for suggestions.
+   !> The group names of a deck or of a study, for suggestions.
    pure function names_of_groups(of_deck) result(names)
       logical, intent(in) :: of_deck
       character(len(group_names)), allocatable :: names(:)
@@ -289,13 +290,13 @@ contains
       names = pack(group_names, is_wanted)
    end function names_of_groups
 
-   !> Whether --set names a group without the name of a record: &model, and the groups that have no names.
+   !> Whether --set addresses a group without a record name: &model, and the other groups without names.
    pure logical function is_single(group)
       integer, intent(in) :: group
       is_single = group == model_group .or. .not. any(keys%group == group .and. keys%name == 'name' .and. keys%is_required)
    end function is_single
 
-   !> The row of a key; is_known is false when the group has no such key.
+   !> The row of a key; is_known is .false. if the group has no such key.
    pure subroutine find_key(group, name, key, is_known)
       integer, intent(in) :: group
       character(*), intent(in) :: name
@@ -331,7 +332,7 @@ contains
    !> "bushing 'top_mount': "
    pure function record_head(group, name) result(head)
       integer, intent(in) :: group
-      character(*), intent(in) :: name     !! '' when it has none
+      character(*), intent(in) :: name     !! '' if it has none
       character(:), allocatable :: head
 
       if (name == '') then
@@ -350,10 +351,10 @@ contains
       words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))//did_you_mean(name, key_names(group))
    end function unknown_key
 
-   !> " (did you mean 'kt'?)" when one candidate is near, else all of them.
+   !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.
    pure function did_you_mean(name, candidates) result(words)
       character(*), intent(in) :: name
-      character(*), intent(in) :: candidates(:)    !! blank ones do not count
+      character(*), intent(in) :: candidates(:)    !! blank ones are ignored
       character(:), allocatable :: words
       integer, parameter :: most_listed = 20
       integer :: k

@@ -1,7 +1,7 @@
-!> &include: a deck in several files, read as if it were one text.
+!> &include: a deck in several files, read like a single text.
 !>
 !> The &include record itself stays in the list, so that its keys are checked like all others; the records
-!> of the file follow it. Every record knows its file, so messages name that one.
+!> of the file follow it. Every record stores its file, which messages then show.
 module ek_include
    use ek_error, only: error_t
    use ek_file, only: read_whole, join_path, folder_name
@@ -13,21 +13,21 @@ module ek_include
    private
    public :: read_text
 
-   integer, parameter :: most_nested = 8      !! files within files; more is a mistake
-   integer, parameter :: most_files = 500     !! in all: ten that include ten each, eight deep, would be 10^8
-   integer, parameter :: most_letters = 50000000   !! in all; the largest deck known has 1 % of it
+   integer, parameter :: most_nested = 8      !! nesting depth of files; more is a mistake
+   integer, parameter :: most_files = 500     !! total: ten files that include ten each, eight levels deep, would be 10^8
+   integer, parameter :: most_letters = 50000000   !! total; the largest known deck has 1 % of it
 
-   !> The files that are open, from the deck inwards.
+   !> The open files, from the deck inwards.
    type :: file_t
       character(:), allocatable :: path
    end type file_t
 
 contains
 
-   !> All records of a text and of the files that it includes. Mistakes go to `complaints`.
+   !> Reads all records of a text and of the files it includes. Mistakes are added to `complaints`.
    subroutine read_text(text, file, records, used, complaints)
       character(*), intent(in) :: text
-      character(*), intent(in) :: file                        !! its path, or what stands for it in messages
+      character(*), intent(in) :: file                        !! its path, or its label in messages
       type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
       integer, intent(out) :: used
       type(complaints_t), intent(inout) :: complaints
@@ -47,7 +47,7 @@ contains
       character(*), intent(in) :: text
       integer, intent(in) :: depth
       type(file_t), intent(inout) :: open_files(0:)
-      integer, intent(inout) :: sources, letters              !! files read so far, and their letters
+      integer, intent(inout) :: sources, letters              !! files read so far, and their characters
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(complaints_t), intent(inout) :: complaints
@@ -66,7 +66,7 @@ contains
       end do
    end subroutine take_text
 
-   !> The file that an &include names; '' where it names none in quotes, which the check of its keys will tell.
+   !> The file named by an &include; '' if no quoted name is given, which the check of its keys reports.
    subroutine find_name(record, name, place)
       type(record_t), intent(in) :: record
       character(:), allocatable, intent(out) :: name
@@ -81,7 +81,7 @@ contains
          name = trim(record%entries(entry)%values(1)%text)
    end subroutine find_name
 
-   !> A file beside the innermost open one.
+   !> Reads a file named relative to the innermost open one.
    recursive subroutine take_file(name, place, depth, open_files, sources, letters, records, used, complaints)
       character(*), intent(in) :: name
       type(place_t), intent(in) :: place        !! of the &include
@@ -96,11 +96,11 @@ contains
       character(:), allocatable :: text, path
       integer :: k, records_before, complaints_before
 
-      if (sources > most_files + 1) return                     ! told already
+      if (sources > most_files + 1) return                     ! already reported
       path = beside(open_files(depth)%path, name)
       do k = 0, depth
          if (plain_path(open_files(k)%path) /= plain_path(path)) cycle
-         call complaints%add(place, 'include: '//quoted(path)//' would include itself')
+         call complaints%add(place, 'include: '//quoted(path)//' includes itself')
          return
       end do
       if (depth == most_nested) then
@@ -114,10 +114,10 @@ contains
       end if
       letters = letters + min(len(text), most_letters)
       if (sources > most_files .or. letters > most_letters) then
-         call place_in(open_files(0)%path, 0, 0, all_of_it)     ! before all other mistakes, which it makes a hundred times
+         call place_in(open_files(0)%path, 0, 0, all_of_it)     ! sorted before all other mistakes, which may be its consequences
          call complaints%add(all_of_it, 'more than '//str(most_files)//' files or '//str(most_letters/1000000)// &
-            ' MB are included in all; the last one by '//place%words)
-         sources = most_files + 2                              ! once; what follows is not read
+            ' MB are included in total; the last one by '//place%words)
+         sources = most_files + 2                              ! reported once; the rest is not read
          return
       end if
       records_before = used
@@ -125,10 +125,10 @@ contains
       open_files(depth + 1)%path = path
       call take_text(text, depth + 1, open_files, sources, letters, records, used, complaints)
       if (used == records_before .and. complaints%count() == complaints_before) &
-         call complaints%add(place, 'include: there is no group in '//quoted(path))
+         call complaints%add(place, 'include: no group found in '//quoted(path))
    end subroutine take_file
 
-   !> The path of a file named in another one; of a deck without a folder, in the working folder.
+   !> The path of a file named in another file, relative to the folder of the latter or the working folder.
    pure function beside(file, name) result(path)
       character(*), intent(in) :: file, name
       character(:), allocatable :: path
@@ -137,7 +137,7 @@ contains
       if (index(file, '/') > 0) path = join_path(folder_name(file), name)
    end function beside
 
-   !> A path without 'x/..' and '.', so that two ways of naming one file compare equal.
+   !> A path without 'x/..' and '.', so that different spellings of one path compare equal.
    pure function plain_path(path) result(plain)
       character(*), intent(in) :: path
       character(:), allocatable :: plain

@@ -1,12 +1,12 @@
-!> &mirror: a deck that describes the left half of an axle becomes the deck of both sides.
+!> &mirror: converts a deck of the left half of an axle to the deck of both sides.
 !>
-!> This works on records, before anything is looked up, so that the reader never knows. Points off the plane
-!> y = 0, and all bodies, are written twice, as left_<name> and right_<name>, but for those in `shared`; so is
-!> every element that refers to one of them. What bears a name of one side already, or refers to one, is not.
+!> It works on records before names are looked up, so that the reader does not depend on it. Points off the plane y = 0 and
+!> all bodies are written twice, as left_<name> and right_<name>, except those in `shared`; so is every element that refers
+!> to one of them. An element whose name already has a side, or that refers to such a name, is not duplicated.
 !>
-!> The right twin is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial one
-!> (a moment, the axis of a rotation) −M v. A bushing's x and z axes are mirrored as directions, so its y = z × x
-!> becomes −M y: along the marker's axes forces change the sign of y, moments those of x and z.
+!> The right twin is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial vector (a moment,
+!> the axis of a rotation) becomes −M v. The x and z axes of a bushing are mirrored as directions, so y = z × x becomes
+!> −M y: in marker axes, forces change the sign of y, moments the signs of x and z.
 module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -20,20 +20,20 @@ module ek_mirror
    private
    public :: has_mirror, mirror_records
 
-   real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point nearer to y = 0 is on both sides
+   real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point closer to y = 0 exists once
 
-   !> What is known of the half while it is doubled, one element a record.
+   !> Information about the half deck during duplication, one array element per record.
    type :: half_t
-      character(word_length), allocatable :: groups(:), names(:)   !! lower case; '' where there is no name
+      character(word_length), allocatable :: groups(:), names(:)   !! lower case; '' if there is no name
       logical, allocatable :: is_doubled(:), is_shared(:)
-      logical, allocatable :: is_right(:)            !! a wheel of the other side, refused
-      real(wp) :: length = 1.0e-3_wp                 !! the deck's unit of length [m]
+      logical, allocatable :: is_right(:)            !! a wheel of the right side, rejected
+      real(wp) :: length = 1.0e-3_wp                 !! the deck's length unit [m]
       real(wp) :: outboard = -1.0_wp                 !! sign of y on the left
    end type half_t
 
 contains
 
-   !> Whether there is an &mirror among the records.
+   !> Whether the records contain a &mirror.
    pure logical function has_mirror(records, used)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
@@ -45,7 +45,7 @@ contains
       end do
    end function has_mirror
 
-   !> The records of both sides, a left twin and right after it the right one. Without &mirror: a copy.
+   !> The records of both sides, each left twin followed by its right twin. Without &mirror: a copy.
    subroutine mirror_records(records, used, whole, whole_used, complaints)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
@@ -77,7 +77,7 @@ contains
       end do
    end subroutine mirror_records
 
-   !> Finds what is doubled, and what is wrong with the half.
+   !> Determines which records are duplicated, and reports mistakes of the half deck.
    subroutine survey(records, half, complaints)
       type(record_t), intent(in) :: records(:)
       type(half_t), intent(out) :: half
@@ -102,7 +102,7 @@ contains
          case ('wheel')
             half%is_right(k) = lower(element(records(k), 'side', 1)) == 'right'
             if (half%is_right(k)) call complain(complaints, records(k), 'side', &
-               "the deck of a mirrored axle describes the left half, found side = 'right'")
+               "a deck with &mirror must describe the left half, found side = 'right'")
          end select
       end do
       if (mirror == 0) return
@@ -122,12 +122,12 @@ contains
       end do
       do k = 1, size(records)
          if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(twin_prefix)) cycle
-         call complain(complaints, records(k), 'name', 'a name that &mirror doubles has at most '// &
+         call complain(complaints, records(k), 'name', 'a name that &mirror duplicates must have at most '// &
             str(word_length - len(twin_prefix))//' characters, found '//str(len_trim(half%names(k))))
       end do
    end subroutine survey
 
-   !> The names in `shared`; each must be that of something. 'none' alone, where nothing has that name, is no name.
+   !> The names in `shared`; each must exist. 'none' alone, if no record has that name, stands for an empty list.
    subroutine find_shared(mirror, half, complaints)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
@@ -143,7 +143,7 @@ contains
          if (mirror%entries(e)%key /= 'shared') cycle
          do v = 1, mirror%entries(e)%used
             associate (value => mirror%entries(e)%values(v))
-               if (.not. value%is_string .or. value%text == '') cycle     ! told by the check of keys
+               if (.not. value%is_string .or. value%text == '') cycle     ! reported by the check of keys
                is_found = .false.
                do k = 1, size(half%names)
                   if (half%names(k) /= lower(value%text)) cycle
@@ -158,14 +158,14 @@ contains
       end do
    end subroutine find_shared
 
-   !> Whether record k is there once because it is said so, by `shared` or by its name.
+   !> Whether record k exists once because of `shared` or its name.
    pure logical function is_of_one(half, k)
       type(half_t), intent(in) :: half
       integer, intent(in) :: k
       is_of_one = half%is_shared(k) .or. half%is_right(k) .or. has_side(half%names(k))
    end function is_of_one
 
-   !> A point is doubled unless it lies in the plane; it must lie on the left.
+   !> Duplicates a point unless it lies in the plane; it must lie on the left.
    subroutine judge_point(point, half, is_doubled, complaints)
       type(record_t), intent(in) :: point
       type(half_t), intent(in) :: half
@@ -176,14 +176,14 @@ contains
 
       call number_of(point, 'at', 2, y, is_known)
       is_doubled = .not. is_known .or. abs(y)*half%length >= in_plane
-      ! a deck of the right half has been told so at its wheel
+      ! for a deck of the right half, only the wheel is reported
       if (.not. (is_known .and. is_doubled) .or. any(half%is_right)) return
       if (y*half%outboard < 0.0_wp) call complain(complaints, point, 'at', &
-         'the deck of a mirrored axle describes the left half, found y = '//str(y)//' on the right (y points '// &
-         trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); a point that there is only once is listed in shared')
+         'a deck with &mirror must describe the left half, found y = '//str(y)//' on the right (y points '// &
+         trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); list a point that exists only once in shared')
    end subroutine judge_point
 
-   !> Whether an element is doubled with something that it refers to.
+   !> Whether an element is duplicated because it refers to something duplicated.
    logical function follows(record, half)
       type(record_t), intent(in) :: record
       type(half_t), intent(in) :: half
@@ -195,7 +195,7 @@ contains
          if (.not. is_name(role)) cycle
          do v = 1, record%entries(e)%used
             associate (text => record%entries(e)%values(v)%text)
-               if (has_side(text)) then      ! across the axle, or of one side: it says so itself
+               if (has_side(text)) then      ! the reference has a side: the element exists once
                   follows = .false.
                   return
                end if
@@ -205,7 +205,7 @@ contains
       end do
    end function follows
 
-   !> Whether what a role names is doubled.
+   !> Whether the record named by a role is duplicated.
    pure logical function is_doubled_name(half, role, name)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
@@ -216,7 +216,7 @@ contains
       is_doubled_name = any(half%is_doubled .and. half%groups == named_group(role) .and. half%names == lower(name))
    end function is_doubled_name
 
-   !> Gives a twin its name, and those of the twins that it refers to.
+   !> Renames a twin and its references to other twins.
    subroutine rename(half, twin, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: twin
@@ -240,7 +240,7 @@ contains
       end do
    end subroutine rename
 
-   !> left_<name>, right_<name>; the wheel 'left' becomes 'left' and 'right'. Too long a name, told in `survey`, is cut.
+   !> left_<name>, right_<name>; the wheel 'left' becomes 'left' and 'right'. A name that is too long (reported by `survey`) is cut.
    pure function name_of_twin(group, name, twin) result(renamed)
       character(*), intent(in) :: group, name
       integer, intent(in) :: twin
@@ -254,10 +254,10 @@ contains
       end if
    end function name_of_twin
 
-   !> A record that is there once: a case's doubled loads act on both sides; any other name must be that of one thing.
+   !> A record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
    subroutine keep_single(half, is_refused, record, complaints)
       type(half_t), intent(in) :: half
-      logical, intent(in) :: is_refused        !! a wheel of the right side, told already
+      logical, intent(in) :: is_refused        !! a wheel of the right side, already reported
       type(record_t), intent(inout) :: record
       type(complaints_t), intent(inout) :: complaints
       type(record_t) :: original
@@ -269,7 +269,7 @@ contains
          role = role_of(record, record%entries(e)%key)
          if (.not. is_name(role)) cycle
          if (role == loads) then
-            do v = 1, original%entries(e)%first - 1     ! load(2) = … moves up when load(1) has become two
+            do v = 1, original%entries(e)%first - 1     ! load(2) = … moves up if load(1) was duplicated
                if (is_doubled_name(half, role, element(original, original%entries(e)%key, v))) &
                   record%entries(e)%first = record%entries(e)%first + 1
             end do
@@ -283,7 +283,7 @@ contains
                right = name_of_twin(named_group(role), value%text, right_twin)
                if (left == value%text) cycle
                if (.not. is_refused) call complain(complaints, record, record%entries(e)%key, record%entries(e)%key// &
-                  ': &mirror doubles the '//named_group(role)//' '//quoted(value%text)//'; name '//quoted(left)// &
+                  ': &mirror duplicates the '//named_group(role)//' '//quoted(value%text)//'; use '//quoted(left)// &
                   ' or '//quoted(right))
                value%text = left
             end associate
@@ -291,7 +291,7 @@ contains
       end do
    end subroutine keep_single
 
-   !> Both twins of every load that is doubled.
+   !> Replaces every duplicated load by both twins.
    subroutine expand(half, role, entry)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
@@ -315,7 +315,7 @@ contains
       call move_alloc(both%values, entry%values)
    end subroutine expand
 
-   !> The name of a record, lower case; '' where it has none that may be one.
+   !> The name of a record, lower case; '' if it has no usable name.
    pure function name_of(record) result(name)
       type(record_t), intent(in) :: record
       character(:), allocatable :: name
@@ -328,7 +328,7 @@ contains
          name = trim(lower(record%entries(e)%values(1)%text))
    end function name_of
 
-   !> Notes a mistake at a key of a record, or at the record where the key is ''.
+   !> Reports a mistake at a key of a record, or at the record if the key is ''.
    subroutine complain(complaints, record, key, what)
       type(complaints_t), intent(inout) :: complaints
       type(record_t), intent(in) :: record

@@ -1,7 +1,7 @@
-!> What the keys of a deck are under y → −y: names of things that may be doubled, vectors, sides.
+!> The behaviour of the keys of a deck under y → −y: references that may be duplicated, vectors, sides.
 !>
-!> A key that is not listed means the same on both sides (a rate, a radius, static toe). To add a key to the
-!> deck that holds a name or a direction: its row here, beside the one in ek_group.
+!> A key that is not listed is the same on both sides (a rate, a radius, static toe). To add a key that
+!> holds a name or a direction: add its row here as well as in ek_group.
 module ek_mirror_role
    use ek_text, only: lower
    use ek_record, only: record_t, element
@@ -83,7 +83,7 @@ module ek_mirror_role
 
 contains
 
-   !> What a key is; 0: the same on both sides.
+   !> The role of a key; 0: the same on both sides.
    pure integer function role_of(record, key) result(role)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -97,20 +97,20 @@ contains
       if (role == polar .and. key == 'axis_vector' .and. turns(record)) role = axial
    end function role_of
 
-   !> Whether the record's axis is that of a rotation: its sense, not its direction, makes the value's sign.
+   !> Whether the axis of the record is a rotation axis: the sense of rotation determines the sign of the value.
    pure logical function turns(record)
       type(record_t), intent(in) :: record
       turns = record%group == 'torsion'
       if (record%group == 'measure') turns = lower(element(record, 'type', 1)) == 'rotation'
    end function turns
 
-   !> Whether records of a group are doubled with what they refer to.
+   !> Whether records of a group are duplicated together with the records to which they refer.
    pure logical function is_element(group)
       character(*), intent(in) :: group
       is_element = any(elements == group)
    end function is_element
 
-   !> Whether &mirror may make two of a record of this group at all.
+   !> Whether &mirror may duplicate records of this group.
    pure logical function can_be_doubled(group)
       character(*), intent(in) :: group
       can_be_doubled = is_element(group) .or. group == 'point' .or. group == 'body'
@@ -122,7 +122,7 @@ contains
       is_name = role >= 1 .and. role <= size(named_groups)
    end function is_name
 
-   !> The group of the records that a role names.
+   !> The group of the records to which a role refers.
    pure function named_group(role) result(group)
       integer, intent(in) :: role
       character(:), allocatable :: group

@@ -1,4 +1,4 @@
-!> One record under y → −y: the numbers, the sense of an axis, the side.
+!> The mirror image of one record under y → −y: numbers, sense of an axis, side.
 module ek_mirror_twin
    use ek_kinds, only: wp
    use ek_text, only: lower
@@ -13,7 +13,7 @@ module ek_mirror_twin
 
 contains
 
-   !> Makes the mirror image of a record; names are left as they are.
+   !> Creates the mirror image of a record; names are unchanged.
    subroutine reflect(record)
       type(record_t), intent(inout) :: record
       integer :: e, role
@@ -36,7 +36,7 @@ contains
       end do
    end subroutine reflect
 
-   !> The other sign for some elements of a key; what is no number is left for its message.
+   !> Changes the sign of some elements of a key; invalid numbers are left for the check of values.
    subroutine turn_round(entry, which)
       type(entry_t), intent(inout) :: entry
       integer, intent(in) :: which(:)      !! subscripts
@@ -64,7 +64,7 @@ contains
       end select
    end subroutine turn_number
 
-   !> 'fy=c' ↔ 'fy=-c', for the components whose sign changes along the marker's axes.
+   !> 'fy=c' ↔ 'fy=-c', for the components whose sign changes in marker axes.
    subroutine turn_curves(entry)
       type(entry_t), intent(inout) :: entry
       character(:), allocatable :: name, component
@@ -85,7 +85,7 @@ contains
       end do
    end subroutine turn_curves
 
-   !> An axis from its second point to its first.
+   !> Exchanges the two points of an axis.
    subroutine exchange_ends(entry)
       type(entry_t), intent(inout) :: entry
       type(value_t) :: kept
@@ -99,12 +99,12 @@ contains
       end if
    end subroutine exchange_ends
 
-   !> A bushing with one of its two axes given has the other chosen by `perpendicular`, which is not the same
-   !> choice on both sides. So the choice for the left side is written down.
+   !> If only one of the two axes of a bushing is given, `perpendicular` chooses the other, but not symmetrically on
+   !> both sides. Therefore the choice for the left side is written into the record.
    subroutine complete_marker(records, original, copy)
-      type(record_t), intent(in) :: records(:)      !! of the half, where the points are
-      type(record_t), intent(in) :: original        !! with the names of the half
-      type(record_t), intent(inout) :: copy         !! gets x_vector or z_vector
+      type(record_t), intent(in) :: records(:)      !! of the half deck, which contains the points
+      type(record_t), intent(in) :: original        !! with the names of the half deck
+      type(record_t), intent(inout) :: copy         !! receives x_vector or z_vector
       type(entry_t) :: added
       real(wp) :: axis(3), chosen(3)
       character(32) :: text
@@ -127,7 +127,7 @@ contains
       call add_entry(copy, added)
    end subroutine complete_marker
 
-   !> A direction in the axes of the deck, unit length; unknown where anything is wrong with it.
+   !> A direction in deck axes, unit length; unknown if it has a mistake.
    subroutine find_axis(records, record, points_key, vector_key, axis, is_known)
       type(record_t), intent(in) :: records(:), record
       character(*), intent(in) :: points_key, vector_key
@@ -171,7 +171,7 @@ contains
       is_known = all(is_number)
    end subroutine vector_of
 
-   !> Element `at` of a key as a number; 0 where it is none.
+   !> Element `at` of a key as a number; 0 if it is not a number.
    subroutine number_of(record, key, at, value, is_known)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key

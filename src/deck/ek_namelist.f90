@@ -1,8 +1,8 @@
-!> One record against the table of groups, and then as a clean namelist text.
+!> Checks one record against the table of groups and writes it as a valid namelist text.
 !>
-!> The compiler's namelist read does the conversion, but it passes too few values, a key given twice,
-!> `nan` and `1e999` in silence, and an unsound record can blind the next read. So every value is
-!> judged here first (type, count, subscript, size), and only sound entries are written out again.
+!> The compiler's namelist read converts the values, but silently accepts too few values, a key given twice,
+!> `nan` and `1e999`, and an invalid record can disturb the next read. Therefore every value is
+!> checked here first (type, count, subscript, size), and only valid entries are written out again.
 module ek_namelist
    use ek_text, only: str, lower, quoted, plural
    use ek_letters, only: bad_byte
@@ -16,7 +16,7 @@ module ek_namelist
 
 contains
 
-   !> Checks one record, and writes its sound entries as one namelist record.
+   !> Checks one record and writes its valid entries as one namelist record.
    subroutine check_record(record, group, head, complaints, text, is_good)
       type(record_t), intent(in) :: record
       integer, intent(in) :: group
@@ -61,12 +61,12 @@ contains
          associate (entry => record%entries(k))
             given = 0
             first = huge(first)
-            do l = 1, record%used        ! kt(1)=… kt(2)=… count together, judged at the first of them
+            do l = 1, record%used        ! kt(1)=… kt(2)=… are counted together and checked at the first one
                if (record%entries(l)%key /= entry%key) cycle
                given = given + record%entries(l)%used
                first = min(first, l)
             end do
-            if (entry%used == 0) then    ! the scanner said so
+            if (entry%used == 0) then    ! reported by the scanner
                is_good = .false.
                return
             end if
@@ -83,7 +83,7 @@ contains
                call complain(k, trim(key%name)//' '//needs()//', found '//str(given))
                return
             end if
-            if (entry%first > 1 .and. given >= key%least) then     ! lists are read from their first element on, without gaps
+            if (entry%first > 1 .and. given >= key%least) then     ! lists start at their first element and have no gaps
                if (entry_index(record, entry%key, entry%first - 1) == 0) then
                   call complain(k, trim(key%name)//element_text(entry%first - 1)//' is missing, found '//trim(key%name)// &
                      element_text(entry%first))
@@ -109,7 +109,7 @@ contains
          end if
       end function needs
 
-      !> What values too many may come from: a decimal comma, or a key that nobody knows and no = behind it.
+      !> Hints about surplus values: a decimal comma, or an unknown key without = after it.
       function surplus() result(words)
          character(:), allocatable :: words
          integer :: j
@@ -119,7 +119,7 @@ contains
             do j = 2, entry%used
                if (entry%values(j)%is_string .or. entry%values(j)%is_empty) cycle
                if (scan(lower(entry%values(j)%text(:1)), 'abcdefghijklmnopqrstuvwxyz') == 1 .and. j < entry%used) then
-                  ! of an open string come words alone
+                  ! an unclosed string leaves only words
                   if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, '0123456789') == 0) cycle
                   words = ' (is the = after '//quoted(entry%values(j)%text)//' missing?)'
                   return
@@ -155,7 +155,7 @@ contains
 
          associate (entry => record%entries(k))
             call put(' '//entry%key)
-            ! a section, as one element followed by several values is an extension that -std=f2018 refuses
+            ! written as a section: one element followed by several values is an extension rejected by -std=f2018
             if (entry%first > 1 .or. entry%used < key%least) &
                call put('('//str(entry%first)//':'//str(entry%first + entry%used - 1)//')')
             call put('=')
@@ -187,7 +187,7 @@ contains
 
    end subroutine check_record
 
-   !> 'a number, found …' when a value does not fit its type; '' when it does.
+   !> 'a number, found …' if a value does not fit its type; '' if it does.
    pure function value_fault(value, type) result(fault)
       type(value_t), intent(in) :: value
       integer, intent(in) :: type
@@ -196,7 +196,7 @@ contains
 
       select case (type)
       case (word, prose)
-         expected = 'a word in quotes'
+         expected = 'a text in quotes'
       case (number)
          expected = 'a number'
       case (whole)
@@ -219,7 +219,7 @@ contains
          else if (len(value%text) > note_length) then
             fault = 'at most '//str(note_length)//' characters long, found '//str(len(value%text))
          else if (value%text == '') then
-            fault = expected//', found an empty one'
+            fault = expected//', found an empty text'
          else if (bad_byte(value%text) > 0) then
             fault = 'UTF-8 text, found '//quoted(value%text)//'; save the file as UTF-8'
          end if
@@ -240,7 +240,7 @@ contains
       end select
    end function value_fault
 
-   !> That a word stands in the quotes of a word processor.
+   !> A hint if a text has typographic quotes.
    pure function quote_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words
@@ -253,7 +253,7 @@ contains
       end do
    end function quote_hint
 
-   !> What else than a number a text may be meant as.
+   !> A hint about common mistakes in numbers.
    pure function number_hint(text) result(words)
       character(*), intent(in) :: text
       character(:), allocatable :: words

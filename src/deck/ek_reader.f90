@@ -1,7 +1,7 @@
 !> Builds the suspension and its load cases from a deck.
 !>
-!> Here numbers leave the deck's units and axes: everything behind this door is SI, x rearward.
-!> Every mistake of the deck is collected; the suspension is only complete when there is none.
+!> Here numbers are converted from the deck's units and axes: all results are SI, x rearward.
+!> All mistakes of the deck are collected; the suspension is complete only if there are none.
 module ek_reader
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -35,11 +35,11 @@ module ek_reader
 
 contains
 
-   !> The model and the cases of a deck, or all that is wrong with it, in the order of its files and lines.
+   !> The model and the cases of a deck, or all its mistakes, in the order of files and lines.
    subroutine build_model(deck, suspension, cases, error, is_whole)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; those with a mistake too
+      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; includes cases with a mistake
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
       type(deck_t) :: finished
@@ -54,7 +54,7 @@ contains
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> The same of a deck in which nothing is left to be doubled.
+   !> The same for a deck already mirrored.
    subroutine build_finished(deck, suspension, cases, is_whole, error)
       type(deck_t), intent(in) :: deck
       type(suspension_t), intent(out) :: suspension
@@ -66,7 +66,7 @@ contains
 
       is_whole = .false.
       draft%complaints = deck%complaints
-      if (deck%used == 0 .and. draft%complaints%count() == 1) then     ! not even text, and that is all there is to say
+      if (deck%used == 0 .and. draft%complaints%count() == 1) then     ! not a text file: only this is reported
          allocate (cases(0))
          call fail(error, exit_deck, draft%complaints%text())
          return
@@ -114,7 +114,7 @@ contains
       call complete(suspension)
    end subroutine build_finished
 
-   !> Whether a file holds groups of a study, and none of a deck.
+   !> Whether a file contains groups of a study and none of a deck.
    pure logical function is_study(deck)
       type(deck_t), intent(in) :: deck
       integer :: k, group
@@ -130,7 +130,7 @@ contains
       end do
    end function is_study
 
-   !> Group, keys, counts and types of record k, and that its name is legal and new.
+   !> Checks group, keys, counts and types of record k, and that its name is legal and unique.
    subroutine check_names(deck, k, draft)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -140,7 +140,7 @@ contains
 
       associate (card => draft%cards(k), record => deck%records(k))
          card%group = group_number(record%group)
-         if (.not. is_deck_group(card%group)) card%group = 0     ! a study's
+         if (.not. is_deck_group(card%group)) card%group = 0     ! a group of a study
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
          if (card%group == 0) then
@@ -165,7 +165,7 @@ contains
       end associate
    end subroutine check_names
 
-   !> That no record before k has its name.
+   !> Checks that no record before k has the same name.
    subroutine check_new(deck, k, draft)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -179,9 +179,9 @@ contains
                call complain(draft, deck, k, 'name', 'the name is given twice, first in '//line_of(deck, j, k)//doubling(j))
                exit
             else if (has_results(card%group) .and. has_results(draft%cards(j)%group)) then
-               call complain(draft, deck, k, 'name', 'the name is already that of the '// &
+               call complain(draft, deck, k, 'name', 'the name is already used by the '// &
                   trim(group_names(draft%cards(j)%group))//' in '//line_of(deck, j, k)//doubling(j)// &
-                  ' (joints, measures and elastic elements share their columns)')
+                  ' (names of joints, measures and elastic elements make column names)')
                exit
             end if
          end do
@@ -189,20 +189,20 @@ contains
 
    contains
 
-      !> Where only one of the two is doubled, the name that both have at last.
+      !> If &mirror created only one of the two, its original name.
       function doubling(j) result(words)
          integer, intent(in) :: j
          character(:), allocatable :: words
 
          words = ''
          if ((deck%records(j)%twin == single) .eqv. (deck%records(k)%twin == single)) return
-         words = ' (&mirror makes '//trim(draft%cards(k)%name)//' of '// &
+         words = ' (&mirror creates '//trim(draft%cards(k)%name)//' from '// &
             own_name(deck%records(merge(j, k, deck%records(k)%twin == single)))//')'
       end function doubling
 
    end subroutine check_new
 
-   !> Whether things of a group have columns in the results.
+   !> Whether elements of a group have columns in the results.
    pure logical function has_results(group)
       integer, intent(in) :: group
       has_results = any(group == [joint_group, measure_group, bushing_group, spring_group, damper_group, stop_group, &
@@ -314,7 +314,7 @@ contains
          call find_point(draft, deck, k, 'centre', trim(centre), centre_at, has_centre)
          if (.not. mass > 0.0_wp) call complain(draft, deck, k, 'mass', 'mass must be above 0 kg, found '//str(mass))
          if (has_key(deck, k, 'mass') .neqv. has_key(deck, k, 'centre')) call complain(draft, deck, k, &
-            trim(merge('mass  ', 'centre', has_key(deck, k, 'mass'))), 'mass and centre (of gravity) go together')
+            trim(merge('mass  ', 'centre', has_key(deck, k, 'mass'))), 'give mass and centre (of gravity) together')
          if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
          if (is_found) then
             call add_body(suspension, trim(name), where_of(deck, k), at, mass, centre_at)
@@ -326,7 +326,7 @@ contains
          call complain_of_all(deck, draft, 'there is no &body, so nothing can move')
    end subroutine read_bodies
 
-   !> A mistake of the deck as a whole.
+   !> Reports a mistake of the deck as a whole.
    subroutine complain_of_all(deck, draft, what)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -337,7 +337,7 @@ contains
       call draft%complaints%add(place, what)
    end subroutine complain_of_all
 
-   !> A body that nothing holds would float away: certainly a slip. Unless what holds it was refused.
+   !> Reports a body attached to nothing, unless the element attached to it was rejected.
    subroutine check_bodies(deck, draft)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft

@@ -1,4 +1,4 @@
-!> &axle and &steering: what the suspension is part of. At most one of each.
+!> &axle and &steering: data of the vehicle around the suspension. At most one of each.
 module ek_reader_axle
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -14,7 +14,7 @@ module ek_reader_axle
 
 contains
 
-   !> &axle: front or rear, and the shares of braking and driving force that reach it.
+   !> &axle: front or rear, and its shares of braking and driving force.
    subroutine read_axle(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -50,7 +50,7 @@ contains
          call check_positive(draft, deck, k, 'front_width', front_width)
          if (has_key(deck, k, 'front_overhang') .neqv. has_key(deck, k, 'front_width')) call complain(draft, deck, k, &
             trim(merge('front_overhang', 'front_width   ', has_key(deck, k, 'front_overhang'))), &
-            'front_overhang and front_width go together (both make the circle from wall to wall)')
+            'give front_overhang and front_width together (both define the wall-to-wall turning circle)')
          associate (this => suspension%axle)
             call choice(draft, deck, k, 'position', trim(position), [character(5) :: 'front', 'rear'], c)
             this%is_front = c == 1
@@ -71,7 +71,7 @@ contains
       end do
    end subroutine read_axle
 
-   !> &steering: the driver of the rack, and what the steering wheel has to do with it.
+   !> &steering: the driver of the rack, and the ratio to the steering wheel.
    subroutine read_steering(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -103,7 +103,7 @@ contains
 
    contains
 
-      !> A driver, and one of a length: ratio and travel are lengths.
+      !> The joint must be a driver of a length, as ratio and travel are lengths.
       subroutine check_driver()
          integer :: measure
 
@@ -117,13 +117,13 @@ contains
          associate (index => draft%cards(measure)%index)
             if (index == 0) return
             if (any(suspension%readouts(index)%measure%kind == [axis_axis, rotation])) call complain(draft, deck, k, &
-               'driver', 'driver: '//quoted(driver)//' must move along a length, but its measure is an angle')
+               'driver', 'driver: '//quoted(driver)//' must prescribe a length, but its measure is an angle')
          end associate
       end subroutine check_driver
 
    end subroutine read_steering
 
-   !> Whether a group that may be there once was there before; then that is a mistake.
+   !> Whether a group that may occur once has occurred before; reports it as a mistake.
    logical function is_second(draft, deck, k)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck

@@ -1,4 +1,4 @@
-!> &case: what is done to the wheels, or to anything else that can be driven.
+!> &case: the load or motion applied to the wheels or to any driver.
 module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -16,20 +16,20 @@ module ek_reader_cases
    private
    public :: read_cases
 
-   ! what a state may be off: rounding of a metre is 1e-13 mm, and no case converges below that; with more than a millimetre
-   ! the first guess of every state would do
+   ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
+   ! the first guess of every state would be accepted
    real(wp), parameter :: least_tolerance = 1.0e-15_wp, most_tolerance = 1.0e-3_wp      !! m
 
 contains
 
-   !> All cases, in the order of the deck; those with a mistake too, which the draft's complaints then tell.
+   !> All cases in the order of the deck, including those with a mistake, which is reported in the draft.
    subroutine read_cases(deck, draft, cases)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(case_t), allocatable, intent(out) :: cases(:)
       type(words_t) :: words
       real(wp) :: factor
-      integer, allocatable :: records(:)     ! of the cases
+      integer, allocatable :: records(:)     ! records of the cases
       integer :: k, c, used
 
       allocate (cases(count(draft%cards%group == case_group)))
@@ -109,12 +109,12 @@ contains
             call complain(draft, deck, k, 'target', &
                "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target)//hint)
          else if (words%method /= '' .and. lower(words%method) /= 'equilibrium') then
-            call complain(draft, deck, k, 'target', "target: only method 'equilibrium' can look for one, found "// &
+            call complain(draft, deck, k, 'target', "target: only method = 'equilibrium' can search for one, found "// &
                quoted(words%method))
          end if
       end subroutine read_target
 
-      !> follow = 'arc': an equilibrium at every state, and no place is met but once.
+      !> follow = 'arc': needs method 'equilibrium'; tables and targets, which need a unique factor, are not allowed.
       subroutine read_follow()
          integer :: c
 
@@ -122,36 +122,38 @@ contains
          cases(used)%follows_arc = c == 2
          if (c /= 2) return
          if (words%test == 'table') then
-            call complain(draft, deck, k, 'follow', "follow = 'arc' has no place in test 'table': each of its rows is a state")
+            call complain(draft, deck, k, 'follow', &
+               "follow = 'arc' is not allowed in test 'table': each row of the table is one state")
          else if (words%target /= '') then
-            call complain(draft, deck, k, 'follow', "follow = 'arc' cannot be with a target: a path that turns back "// &
-               'meets the same factor more than once')
+            call complain(draft, deck, k, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
+               'passes the same factor more than once')
          end if
          if (lower(words%method) /= 'equilibrium') call complain(draft, deck, k, 'follow', &
-            "follow = 'arc': only method 'equilibrium' can walk along it, found "//quoted(words%method))
+            "follow = 'arc' needs method = 'equilibrium', found "//quoted(words%method))
       end subroutine read_follow
 
    end subroutine read_cases
 
-   !> The target of a case has a file of its own, <case>_target: no other case may be called so.
+   !> The target of a case has its own file, <case>_target: no other case may have this name.
    subroutine refuse_one_file_for_two(deck, draft, cases, records)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
       type(case_t), intent(in) :: cases(:)
-      integer, intent(in) :: records(:)      !! of the cases
+      integer, intent(in) :: records(:)      !! records of the cases
       integer :: a, b
 
       do a = 1, size(cases)
          if (cases(a)%target == '') cycle
          do b = 1, size(cases)
             if (lower(cases(b)%name) /= lower(cases(a)%name)//'_target') cycle
-            call complain(draft, deck, records(b), 'name', 'the file of this case would be that of the target of case '// &
+            call complain(draft, deck, records(b), 'name', &
+               'the results of this case would have the same file as the target of case '// &
                quoted(cases(a)%name)//' in '//line_of(deck, records(a), records(b)))
          end do
       end do
    end subroutine refuse_one_file_for_two
 
-   !> A case that names what it scales or drives.
+   !> A case that scales loads or drives a joint directly.
    subroutine read_drive(deck, k, draft, words, this, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -165,11 +167,11 @@ contains
       if (has_key(deck, k, 'load') .and. has_key(deck, k, 'drive')) then
          call complain(draft, deck, k, 'drive', 'give either load or drive, not both')
       else if (.not. (has_key(deck, k, 'load') .or. has_key(deck, k, 'drive'))) then
-         call complain(draft, deck, k, '', "'load' or 'drive' is missing (or 'test')")
+         call complain(draft, deck, k, '', "give 'load', 'drive' or 'test'")
       end if
       do j = 1, size(test_keys)
          if (has_key(deck, k, trim(test_keys(j)))) call complain(draft, deck, k, trim(test_keys(j)), &
-            trim(test_keys(j))//": only a case with a 'test' has one")
+            trim(test_keys(j))//": only a case with a 'test' takes this key")
       end do
       loads = count(words%load /= '')
       refused = 0
@@ -212,7 +214,7 @@ contains
          call look_up(draft, deck, k, 'load', load_group, name, found)
          if (found == 0) return
          if (draft%cards(found)%is_used) return
-         ! of a load that &mirror doubled, once
+         ! a load duplicated by &mirror is reported once
          if (.not. (deck%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, deck, k, 'load', &
             'load '//quoted(own_name(deck%records(found)))//' in '//line_of(deck, found, k)// &
             " is constant; a case scales loads with factor = 'case'")

@@ -1,6 +1,6 @@
-!> &curve, and the rates and curves that elements ask for.
+!> &curve, and the rates and curves of elements.
 !>
-!> A curve has no unit of its own: its numbers are what the element that uses it would have, deck units.
+!> A curve has no units of its own: its numbers have the deck units of the element that uses it.
 module ek_reader_curves
    use ek_kinds, only: wp
    use ek_text, only: str, lower
@@ -12,11 +12,11 @@ module ek_reader_curves
    private
    public :: read_curves, find_law, find_curve, check_rate, check_either
 
-   real(wp), parameter :: least_step = 1.0e-30_wp   !! deck unit; as no number is above 1e30, no slope overflows
+   real(wp), parameter :: least_step = 1.0e-30_wp   !! deck unit; with numbers below 1e30 no slope overflows
 
 contains
 
-   !> &curve: points, and what goes between them.
+   !> &curve: points and interpolation.
    subroutine read_curves(deck, draft)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -61,7 +61,7 @@ contains
       end do
    end subroutine read_curves
 
-   !> How many values of a key there are, however they are written.
+   !> The number of values of a key, however they are written.
    pure integer function value_count(deck, k, key)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -74,7 +74,7 @@ contains
       end do
    end function value_count
 
-   !> The curve that a key of record k names, in SI; unallocated where there is none, or it was refused.
+   !> The curve named by a key of record k, in SI; unallocated if there is none or it was rejected.
    subroutine find_curve(draft, deck, k, key, name, x_unit, y_unit, curve)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -89,22 +89,22 @@ contains
       if (draft%cards(found)%is_good) curve = scaled_curve(draft%curves(draft%cards(found)%index), x_unit, y_unit)
    end subroutine find_curve
 
-   !> The law of an element that has either a rate or a curve: checks both keys, and gives the curve if there is one.
+   !> The law of an element with either a rate or a curve: checks both keys and returns the curve if there is one.
    subroutine find_law(draft, deck, k, rate, curve, x_unit, y_unit, law)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k                   !! record of the element
       real(wp), intent(in) :: rate               !! deck units
-      character(*), intent(in) :: curve          !! its name; '': none
+      character(*), intent(in) :: curve          !! name of the curve; '': none
       real(wp), intent(in) :: x_unit, y_unit     !! SI per deck unit of the deflection and of the force
-      type(curve_t), allocatable, intent(out) :: law   !! SI; unallocated where there is none, or it was refused
+      type(curve_t), allocatable, intent(out) :: law   !! SI; unallocated if there is none or it was rejected
 
       call check_either(draft, deck, k)
       call check_rate(draft, deck, k, 'rate', '', rate)
       call find_curve(draft, deck, k, 'curve', curve, x_unit, y_unit, law)
    end subroutine find_law
 
-   !> Rate or curve, one of them.
+   !> Exactly one of rate and curve must be given.
    subroutine check_either(draft, deck, k)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -113,11 +113,11 @@ contains
       if (has_key(deck, k, 'rate') .and. has_key(deck, k, 'curve')) then
          call complain(draft, deck, k, 'curve', 'give either rate or curve, not both')
       else if (.not. (has_key(deck, k, 'rate') .or. has_key(deck, k, 'curve'))) then
-         call complain(draft, deck, k, '', "'rate' is missing (and 'curve' as well)")
+         call complain(draft, deck, k, '', "give 'rate' or 'curve'")
       end if
    end subroutine check_either
 
-   !> A rate is never negative.
+   !> A rate must not be negative.
    subroutine check_rate(draft, deck, k, key, element, rate)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck

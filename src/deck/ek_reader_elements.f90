@@ -16,7 +16,7 @@ module ek_reader_elements
    private
    public :: read_bushings, read_loads
 
-   real(wp), parameter :: least_angle = 0.01_wp   !! deg between x and z, below which x has no direction of its own
+   real(wp), parameter :: least_angle = 0.01_wp   !! deg between x and z, below which x is undefined
 
 contains
 
@@ -56,7 +56,7 @@ contains
          ends(:, 2) = ends(:, 1)
          if (at(2) /= '') call find_point(draft, deck, k, 'at', trim(at(2)), ends(:, 2), is_found)
          if (.not. (has_key(deck, k, 'kt') .or. has_key(deck, k, 'kr') .or. has_key(deck, k, 'curve'))) &
-            call complain(draft, deck, k, '', "'kt' is missing (and 'kr' as well)")
+            call complain(draft, deck, k, '', "give 'kt', 'kr' or 'curve'")
          do j = 1, 3
             call check_rate(draft, deck, k, 'kt', '('//str(j)//')', kt(j))
             call check_rate(draft, deck, k, 'kr', '('//str(j)//')', kr(j))
@@ -81,13 +81,13 @@ contains
       end do
    end subroutine read_bushings
 
-   !> Curves of a bushing: words 'fx=c' or 'mz=-c', the minus for the curve reflected through the origin.
+   !> Curves of a bushing: texts 'fx=c' or 'mz=-c', the minus sign for the curve reflected through the origin.
    subroutine find_laws(draft, deck, k, words, rates, element)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
       character(*), intent(in) :: words(:)
-      real(wp), intent(in) :: rates(6)            !! deck units: a component has a rate or a curve
+      real(wp), intent(in) :: rates(6)            !! deck units; a component has either a rate or a curve
       type(bushing_t), intent(inout) :: element
       character(*), parameter :: components(6) = ['fx', 'fy', 'fz', 'mx', 'my', 'mz']
       type(curve_t), allocatable :: curve
@@ -117,10 +117,10 @@ contains
          if (element%laws(c)%has_curve) then
             call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' is given twice')
          else if (abs(rates(c)) > 0.0_wp) then
-            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' has a rate already; give 0 in '// &
-               merge('kt', 'kr', c <= 3)//' for it')
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' already has a rate; set its element of '// &
+               merge('kt', 'kr', c <= 3)//' to 0')
          else if (name == '') then
-            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' has no name of a curve')
+            call complain(draft, deck, k, 'curve', 'curve: '//components(c)//' names no curve')
          end if
          if (c <= 3) then
             call find_curve(draft, deck, k, 'curve', name, draft%units%length, draft%units%force, curve)
@@ -132,8 +132,8 @@ contains
       end do
    end subroutine find_laws
 
-   !> The marker axes: z leads, x is made perpendicular to it, y = z × x. One given alone, the other is
-   !> chosen by `perpendicular`; none given, they are the deck's global axes.
+   !> The marker axes: z is kept, x is made perpendicular to it, y = z × x. If only one is given, the other is
+   !> chosen by `perpendicular`; if none is given, they are the deck's global axes.
    subroutine find_axes(draft, deck, k, z_axis, z_vector, x_axis, x_vector, axes)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -151,7 +151,7 @@ contains
       axes(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp]
       if (.not. (has_x .or. has_z)) return
       if ((has_x .and. .not. is_x) .or. (has_z .and. .not. is_z)) return
-      ! chosen in deck axes, so that the choice reads the same in the deck's own frame
+      ! chosen in deck axes, so that the choice is the same in either frame
       if (.not. has_x) x = to_internal(draft, perpendicular(to_internal(draft, z)))
       if (.not. has_z) z = to_internal(draft, perpendicular(to_internal(draft, x)))
       angle = angle_between(x, z)
@@ -197,9 +197,9 @@ contains
          call find_point(draft, deck, k, 'at', trim(at), element%arm, is_found)
          call choice(draft, deck, k, 'factor', trim(factor), [character(8) :: 'constant', 'case'], c)
          if (.not. (has_key(deck, k, 'force') .or. has_key(deck, k, 'moment'))) &
-            call complain(draft, deck, k, '', "'force' is missing (and 'moment' as well)")
+            call complain(draft, deck, k, '', "give 'force' or 'moment'")
          element%is_case = c /= 1
-         ! kept also for a refused load: a case may ask whether it is scaled
+         ! stored for a rejected load too: a case may check whether it is scaled
          draft%cards(k)%is_used = element%is_case
          if (.not. draft%cards(k)%is_good) cycle
 

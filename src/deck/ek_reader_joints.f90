@@ -1,4 +1,4 @@
-!> &measure and &joint: the geometry of what is held, driven, coupled or read out.
+!> &measure and &joint: quantities that are constrained, driven, coupled or read out.
 module ek_reader_joints
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -16,7 +16,7 @@ module ek_reader_joints
 
    character(*), parameter :: measure_types(5) = [character(10) :: 'axes', 'gap', 'global_gap', 'distance', 'rotation']
    integer, parameter :: measure_kinds(5) = [axis_axis, body_gap, global_gap, distance, rotation]
-   real(wp), parameter :: angle_tolerance = 0.01_wp   !! deg, for axes said to be square or parallel
+   real(wp), parameter :: angle_tolerance = 0.01_wp   !! deg, for axes that must be perpendicular or parallel
 
 contains
 
@@ -59,20 +59,20 @@ contains
          case (distance, body_gap, global_gap)
             if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing")
          case default
-            call refuse(draft, deck, k, 'at', 'a measure of type '//quoted(type)//' has no point')
+            call refuse(draft, deck, k, 'at', 'a measure of type '//quoted(type)//' takes no points')
          end select
          if (kind == distance) call check_apart(draft, deck, k, at, ends, has_points, 'a distance')
          if (kind == distance) then
-            call refuse(draft, deck, k, 'axis', 'a distance has no axis')
-            call refuse(draft, deck, k, 'axis_vector', 'a distance has no axis')
+            call refuse(draft, deck, k, 'axis', 'a distance takes no axis')
+            call refuse(draft, deck, k, 'axis_vector', 'a distance takes no axis')
          else if (.not. has_u) then
-            call complain(draft, deck, k, '', "'axis' or 'axis_vector' is missing")
+            call complain(draft, deck, k, '', "give 'axis' or 'axis_vector'")
          end if
          if (kind /= axis_axis) then
-            call refuse(draft, deck, k, 'axis_2', 'only a measure of type '//quoted('axes')//' has a second axis')
-            call refuse(draft, deck, k, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' has a second axis')
+            call refuse(draft, deck, k, 'axis_2', 'only a measure of type '//quoted('axes')//' takes a second axis')
+            call refuse(draft, deck, k, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' takes a second axis')
          else if (.not. has_v) then
-            call complain(draft, deck, k, '', "'axis_2' or 'axis_2_vector' is missing")
+            call complain(draft, deck, k, '', "give 'axis_2' or 'axis_2_vector'")
          end if
 
          select case (kind)
@@ -147,7 +147,7 @@ contains
 
    contains
 
-      !> Bodies of a joint of unknown type count as held: no second message about them.
+      !> Bodies of a joint of unknown type count as attached: no second message about them.
       subroutine mark_bodies()
          integer :: numbers(2)
          logical :: is_found
@@ -189,7 +189,7 @@ contains
                   'axis and axis_2 must be parallel, found '//str(angle)//' deg between them')
             case ('constant_velocity')
                if (angle > 179.0_wp) call complain(draft, deck, k, '', &
-                  'axis and axis_2 point against each other; turn one of them round')
+                  'axis and axis_2 point in opposite directions; reverse one of them')
             end select
          end if
          if (.not. draft%cards(k)%is_good .or. .not. has_bodies) return
@@ -221,7 +221,7 @@ contains
             if (.not. draft%cards(k)%is_good .or. readout == 0) return
             if (.not. has_key(deck, k, 'stiffness')) then
                if (has_key(deck, k, 'balance')) call complain(draft, deck, k, 'balance', &
-                  'balance: a driver without a stiffness always takes part')
+                  'balance: only a driver with a stiffness takes this key')
                call add_driver(suspension, trim(name), where_of(deck, k), readout)
                return
             end if
@@ -235,7 +235,7 @@ contains
          end associate
       end subroutine make_driver
 
-      !> Σ ratio × value is held in deck units; the row is scaled so that the first ratio stays.
+      !> Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
       subroutine make_coupler()
          integer :: found(most_measures), readouts(most_measures), given, j
          real(wp) :: scaled(most_measures)
@@ -255,7 +255,7 @@ contains
          if (.not. draft%cards(k)%is_good .or. any(found(:given) == 0)) return
          do j = 1, given
             readouts(j) = draft%cards(found(j))%index
-            if (readouts(j) == 0) return      ! a measure that was refused
+            if (readouts(j) == 0) return      ! a measure that was rejected
             scaled(j) = ratios(j)*draft%cards(found(1))%factor/draft%cards(found(j))%factor
          end do
          call add_coupler(suspension, trim(name), where_of(deck, k), readouts(:given), scaled(:given))
@@ -271,19 +271,19 @@ contains
 
    end subroutine read_joints
 
-   !> The axis of a universal joint that the deck leaves open: level and square to the given one; where that one is vertical,
-   !> longitudinal. It is the same line on both sides of a mirrored axle.
+   !> The axis of a universal joint that is not given: horizontal and perpendicular to the given one; longitudinal if that one is
+   !> vertical. On a mirrored axle it is symmetric.
    pure function across(axis) result(chosen)
       real(wp), intent(in) :: axis(3)                 !! unit
       real(wp) :: chosen(3)
-      real(wp), parameter :: upright = 1.0e-3_wp      ! sine of the angle below which an axis has no level square of note
+      real(wp), parameter :: upright = 1.0e-3_wp      ! sine of the angle to the vertical: below it, longitudinal
 
       chosen = [-axis(2), axis(1), 0.0_wp]
       if (norm2(chosen) < upright) chosen = [1.0_wp, 0.0_wp, 0.0_wp] - axis(1)*axis
       chosen = chosen/norm2(chosen)
    end function across
 
-   !> Which keys a kind of joint must have, and which it cannot.
+   !> Checks which keys a type of joint requires and which it does not take.
    subroutine check_keys(draft, deck, k, kind)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -307,14 +307,14 @@ contains
       must(3:6) = .false.
       must(10:11) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint has no such key')
+         if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint does not take this key')
          if (must(j) .and. .not. has_key(deck, k, trim(joint_keys(j)))) &
             call complain(draft, deck, k, '', quoted(joint_keys(j))//' is missing')
       end do
       if (kind == 'universal') then
          if (.not. any([has_key(deck, k, 'axis'), has_key(deck, k, 'axis_vector'), has_key(deck, k, 'axis_2'), &
             has_key(deck, k, 'axis_2_vector')])) call complain(draft, deck, k, '', &
-            "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen square to it)")
+            "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
          return
       end if
       if (needs_axis(kind) .and. .not. (has_key(deck, k, 'axis') .or. has_key(deck, k, 'axis_vector'))) &
@@ -323,7 +323,7 @@ contains
          call complain(draft, deck, k, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
    end subroutine check_keys
 
-   !> A key that has no meaning here.
+   !> Rejects a key that has no meaning here.
    subroutine refuse(draft, deck, k, key, why)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -332,7 +332,7 @@ contains
       if (has_key(deck, k, key)) call complain(draft, deck, k, key, key//': '//why)
    end subroutine refuse
 
-   !> One or two points; the second is the first when there is only one.
+   !> One or two points; with one point, the second equals the first.
    subroutine find_points(draft, deck, k, at, ends, is_found)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
@@ -349,7 +349,7 @@ contains
       is_found = is_found .and. is_there
    end subroutine find_points
 
-   !> Two points, and not the same place.
+   !> Checks that two distinct points are given.
    subroutine check_apart(draft, deck, k, at, ends, is_found, what)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck

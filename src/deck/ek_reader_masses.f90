@@ -1,4 +1,4 @@
-!> &mass: further masses of a body, besides the one of &body.
+!> &mass: further masses of a body, in addition to that of &body.
 module ek_reader_masses
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -12,13 +12,13 @@ module ek_reader_masses
 
 contains
 
-   !> Adds each mass to its body. Their weights are parallel, so that one mass at the common centre does the same:
+   !> Adds each mass to its body. As their weights are parallel, one mass at the common centre of gravity is equivalent:
    !>
    !>     m = Σ m_k        centre = Σ m_k c_k / m        [kg, m]
    subroutine read_masses(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
-      type(suspension_t), intent(inout) :: suspension      !! on design points
+      type(suspension_t), intent(inout) :: suspension      !! with design points instead of arms
       character(word_length) :: name, body, at
       real(wp) :: kg, place(3)
       namelist /mass/ name, body, kg, at

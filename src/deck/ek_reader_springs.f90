@@ -15,9 +15,9 @@ module ek_reader_springs
    private
    public :: read_springs, read_dampers, read_stops, read_torsions
 
-   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: what the lip of a bump stop gives way
+   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
-   !> Where an element of two points is.
+   !> The bodies and points of an element between two points.
    type :: ends_t
       integer :: body(2) = 0
       real(wp) :: at(3, 2) = 0.0_wp        !! m, x rearward
@@ -37,7 +37,7 @@ contains
       type(spring_t) :: element
       type(ends_t) :: ends
       real(wp), allocatable :: free
-      type(curve_t), allocatable :: law      ! where there is none, or it was refused: an absent argument
+      type(curve_t), allocatable :: law      ! unallocated (none, or rejected): an absent argument
       real(wp) :: force_unit, value_unit     ! SI per unit of the deck
       integer :: k, found, status
 
@@ -60,8 +60,9 @@ contains
          if (has_key(deck, k, 'measure')) then
             call find_measure()
          else
-            if (.not. has_key(deck, k, 'bodies')) call complain(draft, deck, k, '', "'bodies' is missing (or 'measure')")
-            if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing (or 'measure')")
+            if (.not. has_key(deck, k, 'bodies')) call complain(draft, deck, k, '', &
+               "'bodies' is missing (give bodies and at, or measure)")
+            if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing (give bodies and at, or measure)")
             call find_ends(draft, deck, k, bodies, at, ends)
          end if
          call find_law(draft, deck, k, rate, trim(curve), value_unit, force_unit, law)
@@ -88,18 +89,18 @@ contains
 
    contains
 
-      !> The measure that the spring acts on, and the units of its value and its force.
+      !> The measure of the spring, and the units of its value and force.
       subroutine find_measure()
          character(*), parameter :: own(2) = [character(6) :: 'bodies', 'at']
          integer :: j
 
          do j = 1, size(own)
             if (has_key(deck, k, trim(own(j)))) call complain(draft, deck, k, trim(own(j)), &
-               trim(own(j))//': the measure has its own; give either measure, or bodies and at')
+               trim(own(j))//': not used with measure; give either measure, or bodies and at')
          end do
          call look_up(draft, deck, k, 'measure', measure_group, trim(measure), found)
          if (found == 0) return
-         if (draft%cards(found)%index == 0) then      ! refused itself
+         if (draft%cards(found)%index == 0) then      ! the measure was rejected
             draft%cards(k)%is_good = .false.
             return
          end if
@@ -107,13 +108,13 @@ contains
          associate (readout => suspension%readouts(draft%cards(found)%index))
             if (is_of_angle(readout%measure%kind)) force_unit = force_unit*draft%units%length
             if (has_key(deck, k, 'free_length') .and. readout%measure%kind /= distance) call complain(draft, deck, k, &
-               'free_length', 'free_length: only a spring on a distance has one; give its preload at design')
+               'free_length', 'free_length: only a spring on a distance takes this key; give preload instead')
          end associate
       end subroutine find_measure
 
    end subroutine read_springs
 
-   !> &damper: of a damper, statics know the force of its gas.
+   !> &damper: only the gas force acts in statics.
    subroutine read_dampers(deck, draft, suspension)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft
@@ -180,7 +181,7 @@ contains
          if (allocated(law)) then
             call look_up_curve(law, 0.0_wp, force, slope)
             if (abs(force) > 0.0_wp) call complain(draft, deck, k, 'curve', 'curve '//quoted(curve)// &
-               ' must be 0 at 0, as a stop without contact has no force; found '//str(force/draft%units%force))
+               ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force/draft%units%force))
          end if
          if (.not. draft%cards(k)%is_good) cycle
 
@@ -218,7 +219,7 @@ contains
 
          call find_bodies(draft, deck, k, bodies, number, has_bodies)
          call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, u, has_axis, is_axis)
-         if (.not. has_axis) call complain(draft, deck, k, '', "'axis' or 'axis_vector' is missing")
+         if (.not. has_axis) call complain(draft, deck, k, '', "give 'axis' or 'axis_vector'")
          call find_law(draft, deck, k, rate, trim(curve), draft%units%angle, moment_unit, law)
          if (.not. draft%cards(k)%is_good) cycle
 
@@ -227,7 +228,7 @@ contains
       end do
    end subroutine read_torsions
 
-   !> Two bodies and two points apart from each other.
+   !> Two different bodies and two distinct points.
    subroutine find_ends(draft, deck, k, bodies, at, ends)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck

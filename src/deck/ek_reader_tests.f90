@@ -1,4 +1,4 @@
-!> &case with a `test`: which keys a test of the rig takes, and what they must say. ek_rig mounts it.
+!> &case with a `test`: the keys of each rig test and their legal values. ek_rig mounts the test.
 module ek_reader_tests
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
@@ -20,7 +20,7 @@ module ek_reader_tests
 
 contains
 
-   !> Reads a test: what it needs, and nothing else. Every mistake goes to the draft's complaints.
+   !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported in the draft.
    subroutine read_test(deck, k, draft, words, this, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k
@@ -34,27 +34,27 @@ contains
       this%load = ''
       if (c == 0) return
       this%test = trim(words%test)
-      call refuse('load', .true., 'a test brings its own loads')
-      call refuse('drive', this%test /= 'steering', 'only the test ''steering'' drives one')
-      call refuse('phase', .not. any(load_tests == this%test), 'only tests with forces or torques have one')
-      call refuse('offset', this%test /= 'lateral_force', 'only the test ''lateral_force'' has one')
-      call refuse('file', this%test /= 'table', 'only the test ''table'' has one')
-      call refuse('from', this%test == 'table', 'a table says itself where it goes')
-      call refuse('to', this%test == 'table', 'a table says itself where it goes')
-      call refuse('increments', this%test == 'table', 'each of its rows is a state')
-      call refuse('target', this%test == 'table', 'a table has no path to search')
+      call refuse('load', .true., 'a test applies its own loads')
+      call refuse('drive', this%test /= 'steering', 'only test ''steering'' drives a joint')
+      call refuse('phase', .not. any(load_tests == this%test), 'only tests with forces or torques have a phase')
+      call refuse('offset', this%test /= 'lateral_force', 'only test ''lateral_force'' has an offset')
+      call refuse('file', this%test /= 'table', 'only test ''table'' reads a file')
+      call refuse('from', this%test == 'table', 'the table sets the range')
+      call refuse('to', this%test == 'table', 'the table sets the range')
+      call refuse('increments', this%test == 'table', 'each row of the table is one state')
+      call refuse('target', this%test == 'table', 'the rows of a table form no path to search')
 
       call count_wheels()
       call choice(draft, deck, k, 'vertical', trim(words%vertical), [character(6) :: 'centre', 'patch', 'force', 'road'], c)
       this%vertical = trim(words%vertical)
       if (this%test == 'roll') call refuse('vertical', c == 3, &
-         'the heights of a rolling axle are driven: ''centre'', ''patch'' or ''road''')
-      if (this%test == 'vertical_force') call refuse('vertical', c > 0 .and. c /= 3, 'this test sets the force')
+         'the test prescribes heights: ''centre'', ''patch'' or ''road''')
+      if (this%test == 'vertical_force') call refuse('vertical', c > 0 .and. c /= 3, 'the test prescribes the force')
       if (c == 4) call check_tyres()
       call choice(draft, deck, k, 'phase', trim(words%phase), [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
       if (this%is_anti .or. this%test == 'opposite_travel' .or. this%test == 'roll') then
-         if (any(wheels == 0)) call complain(draft, deck, k, 'test', 'a left and a right wheel are needed, the deck has '// &
+         if (any(wheels == 0)) call complain(draft, deck, k, 'test', 'a left and a right wheel are needed; the deck has '// &
             str(count(wheels > 0)))
       end if
       this%offset = words%offset*draft%units%length
@@ -88,11 +88,11 @@ contains
       subroutine refuse(key, is_wrong, why)
          character(*), intent(in) :: key, why
          logical, intent(in) :: is_wrong
-         if (is_wrong .and. has_key(deck, k, key)) call complain(draft, deck, k, key, key//' has no place in test '// &
+         if (is_wrong .and. has_key(deck, k, key)) call complain(draft, deck, k, key, key//' is not allowed in test '// &
             quoted(this%test)//': '//why)
       end subroutine refuse
 
-      !> At most one wheel a side, at least one.
+      !> At most one wheel per side, and at least one wheel.
       subroutine count_wheels()
          integer :: j, side
 
@@ -101,13 +101,13 @@ contains
             if (draft%cards(j)%group /= wheel_group) cycle
             side = merge(2, 1, lower(element(deck%records(j), 'side', 1)) == 'right')
             if (wheels(side) > 0) call complain(draft, deck, k, 'test', &
-               'the rig takes one axle, the deck has two wheels on one side')
+               'the rig tests one axle, but the deck has two wheels on one side')
             wheels(side) = draft%cards(j)%index
          end do
          if (all(wheels == 0)) call complain(draft, deck, k, 'test', 'the rig needs a &wheel')
       end subroutine count_wheels
 
-      !> A wheel stands on the road by its tyre.
+      !> With vertical = 'road', each wheel needs a tyre rate.
       subroutine check_tyres()
          integer :: j
 
@@ -119,7 +119,7 @@ contains
          end do
       end subroutine check_tyres
 
-      !> What is steered: the case's own word, else that of &steering, else the only driver.
+      !> The steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
       subroutine find_steering()
          character(word_length) :: only
          integer :: j, found
@@ -140,7 +140,7 @@ contains
          end do
          if (found == 1) this%drive = trim(only)
          if (this%drive == '') then
-            call complain(draft, deck, k, 'test', "what is steered? Give drive = '<driver joint>' or a &steering")
+            call complain(draft, deck, k, 'test', "the steered joint is unknown: give drive = '<driver joint>' or a &steering")
          else
             call find_driver(deck, k, draft, this%drive, [character(1) ::], factor)
          end if

@@ -1,4 +1,4 @@
-!> &wheel: what is looked at.
+!> &wheel: the wheels whose attitude is reported.
 module ek_reader_wheels
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -63,7 +63,7 @@ contains
          else if (has_centre .and. has_contact) then
             height = this%centre(3) - this%contact(3)
             if (.not. height > 0.0_wp) call complain(draft, deck, k, 'contact', &
-               'the contact point must lie below the centre, found it '//str(-height/draft%units%length)//' above')
+               'the contact point must lie below the wheel centre, found it '//str(-height/draft%units%length)//' above')
             if (.not. has_key(deck, k, 'radius')) this%radius = height
          end if
          if (.not. tyre_rate > 0.0_wp) &
@@ -95,7 +95,7 @@ contains
 
    contains
 
-      !> A left wheel on the right side would turn every sign of its results round.
+      !> A left wheel on the right side would reverse the signs of its results.
       subroutine check_side()
          if (this%side*this%centre(2) >= 0.0_wp) return
          call complain(draft, deck, k, 'side', 'side is '//quoted(side)//', but the centre '//quoted(centre)// &
@@ -104,12 +104,12 @@ contains
 
    end subroutine read_wheels
 
-   !> The axis of spin, from spin_vector or from toe and camber.
+   !> The spin axis, from spin_vector or from toe and camber.
    subroutine find_spin(draft, deck, k, spin_vector, toe, camber, side, this)
       type(draft_t), intent(inout) :: draft
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k                         !! record
-      real(wp), intent(in) :: spin_vector(3), toe, camber      !! as the deck has them; of a key that is not given, its default
+      real(wp), intent(in) :: spin_vector(3), toe, camber      !! as given in the deck, or the defaults
       character(*), intent(in) :: side
       type(wheel_t), intent(inout) :: this             !! side → spin, toe, camber
       real(wp) :: delta, gamma, w(3)
@@ -123,7 +123,7 @@ contains
          w = to_internal(draft, spin_vector)
          if (.not. draft%cards(k)%is_good) return
          if (.not. norm2(w) > 0.0_wp) then
-            call complain(draft, deck, k, 'spin_vector', 'spin_vector has no length')
+            call complain(draft, deck, k, 'spin_vector', 'spin_vector has zero length')
             return
          else if (.not. this%side*w(2) > 0.0_wp) then
             call complain(draft, deck, k, 'spin_vector', 'spin_vector must point outboard, to the '//trim(side)// &

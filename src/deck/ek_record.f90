@@ -1,4 +1,4 @@
-!> What a deck says, before anybody asks what it means: records (namelist groups) of entries
+!> The parsed content of a deck before interpretation: records (namelist groups) of entries
 !> (`key = values`), with the file and line of each.
 module ek_record
    use ek_text, only: str
@@ -9,7 +9,7 @@ module ek_record
    public :: value_t, entry_t, record_t
    public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_words, own_name
 
-   !> One value as it was written; a string without its quotes.
+   !> One value as written; a string without its quotes.
    type :: value_t
       character(:), allocatable :: text
       logical :: is_string = .false.
@@ -21,7 +21,7 @@ module ek_record
       character(:), allocatable :: key    !! lower case
       integer :: first = 1                !! subscript of the first value
       integer :: line = 0
-      character(:), allocatable :: setting   !! 'path=value' when it came from --set
+      character(:), allocatable :: setting   !! 'path=value' if it came from --set
       integer :: used = 0
       type(value_t), allocatable :: values(:)
    end type entry_t
@@ -29,10 +29,10 @@ module ek_record
    !> One group, from `&` to `/`.
    type :: record_t
       character(:), allocatable :: group  !! lower case, without the &
-      character(:), allocatable :: file   !! as messages name it
+      character(:), allocatable :: file   !! as shown in messages
       integer :: source = 1               !! number of that file, in the order of reading
       integer :: line = 0
-      integer :: twin = single            !! which side of what &mirror doubled
+      integer :: twin = single            !! side of a record duplicated by &mirror
       integer :: used = 0
       type(entry_t), allocatable :: entries(:)
    end type record_t
@@ -63,7 +63,7 @@ contains
       entry%values(entry%used)%is_empty = is_empty
    end subroutine add_value
 
-   !> Append an entry to a record; the values move over.
+   !> Append an entry to a record; the values are moved.
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(inout) :: entry   !! empty afterwards
@@ -94,7 +94,7 @@ contains
       from%used = 0
    end subroutine move_entry
 
-   !> Append a record to a list of which the first `used` are in use; the entries move over.
+   !> Append a record to a list whose first `used` elements are filled; the entries are moved.
    pure subroutine add_record(records, used, record)
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
@@ -127,7 +127,7 @@ contains
       from%used = 0
    end subroutine move_record
 
-   !> The entry that gives element `at` of a key (any element when `at` is 0); 0 if there is none.
+   !> The entry that contains element `at` of a key (any element if `at` is 0); 0 if there is none.
    pure integer function entry_index(record, key, at)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -160,14 +160,14 @@ contains
       if (k > 0) text = record%entries(k)%values(at - record%entries(k)%first + 1)%text
    end function element
 
-   !> Whether a record gives any element of a key.
+   !> Whether a record contains any element of a key.
    pure logical function is_given(record, key)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
       is_given = entry_index(record, key, 0) > 0
    end function is_given
 
-   !> The name of a record as the deck has it: a twin's without the prefix.
+   !> The name of a record as written in the deck: without the prefix of a twin.
    pure function own_name(record) result(name)
       type(record_t), intent(in) :: record
       character(:), allocatable :: name
@@ -177,7 +177,7 @@ contains
       if (index(name, trim(twin_prefix(record%twin))) == 1) name = name(len_trim(twin_prefix(record%twin)) + 1:)
    end function own_name
 
-   !> Where a record or one of its entries stands; --set comes after all files.
+   !> The location of a record or one of its entries; --set is sorted after all files.
    pure subroutine place_of(record, entry, place)
       type(record_t), intent(in) :: record
       integer, intent(in) :: entry            !! 0: the record itself
@@ -195,7 +195,7 @@ contains
       place%twin = record%twin
    end subroutine place_of
 
-   !> 'line 12' of a record; 'line 12 of wheels.nml' where the one whose message says so is in another file.
+   !> 'line 12' of a record; 'line 12 of wheels.nml' if the record with the message is in another file.
    pure function line_words(record, seen_from) result(words)
       type(record_t), intent(in) :: record, seen_from
       character(:), allocatable :: words

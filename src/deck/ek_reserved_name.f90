@@ -1,14 +1,14 @@
-!> Names that a deck may not give, and why: what each of them would collide with.
+!> Names that are not allowed in a deck, with the reason: the column with which each would collide.
 !>
-!> To add a column that is there anyway: its row in `columns`, when an element could make the same head by its own ending
-!> (_mm, _deg, _cosine of a measure, _length_mm, _force_n, … of the others); and the list of reserved names in input/README.md.
+!> To add a fixed column: add its row to `columns` if the column of an element could have the same name (a name of the deck
+!> with _mm, _deg, _cosine for a measure, _length_mm, _force_n, … for others), and update the list in input/README.md.
 module ek_reserved_name
    use ek_text, only: lower
    implicit none(type, external)
    private
    public :: reserved_because, reserved_columns, column_t
 
-   !> A name of an element, and the column that it would make a second time.
+   !> A name of an element, and the column name that it would duplicate.
    type :: column_t
       character(32) :: name      !! without left_, right_, instant_
       character(36) :: column
@@ -50,10 +50,10 @@ module ek_reserved_name
 
 contains
 
-   !> What is wrong with a name: '' when nothing is, else the message.
+   !> The message for a reserved name; '' if the name is allowed.
    pure function reserved_because(name, has_results) result(words)
       character(*), intent(in) :: name
-      logical, intent(in) :: has_results       !! things of its kind have columns in the results
+      logical, intent(in) :: has_results       !! elements of its kind have columns in the results
       character(*), parameter :: rate = '_per'
       character(:), allocatable :: words, head, rest
       integer :: k
@@ -61,20 +61,20 @@ contains
       words = ''
       select case (lower(name))
       case ('chassis', 'ground')
-         words = 'the name is reserved: it is that of the fixed body'
+         words = 'the name is reserved for the fixed body'
          return
       case ('wheel_travel')
-         words = "the name is reserved: drive = 'wheel_travel' means the height of a wheel, in the column wheel_travel_mm"
+         words = "the name is reserved: drive = 'wheel_travel' prescribes the height of a wheel (column wheel_travel_mm)"
          return
       end select
       if (index(lower(name), 'rig_') == 1) then
-         words = 'the name is reserved: rig_ begins the names of the test rig, as in the column rig_left_height_reaction_n'
+         words = 'the name is reserved: names of the test rig begin with rig_, as in the column rig_left_height_reaction_n'
          return
       end if
       if (.not. has_results) return
       if (len(name) > len(rate)) then
          if (lower(name(len(name) - len(rate) + 1:)) == rate) then
-            words = 'the name is reserved: _per ends the names of rates, as in the column wheel_rate_n_per_mm'
+            words = 'the name is reserved: names of rates end in _per, as in the column wheel_rate_n_per_mm'
             return
          end if
       end if
@@ -86,7 +86,7 @@ contains
       end do
    end function reserved_because
 
-   !> What columns of a wheel begin with (the side on an axle, instant_ for its instant steer axis), and the rest.
+   !> Splits off the prefix of a wheel column (the side on an axle, instant_ for its instant steer axis).
    pure subroutine split(name, head, rest)
       character(*), intent(in) :: name
       character(:), allocatable, intent(out) :: head, rest

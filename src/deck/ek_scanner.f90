@@ -1,12 +1,12 @@
-!> From the text of a deck to its records.
+!> Converts the text of a deck to records.
 !>
-!> The compiler's own namelist read passes misspelt groups, text between groups, keys given twice
-!> and records without an end in silence. So this scanner owns groups, keys, subscripts, repeat
-!> counts and line numbers; it goes on after every mistake and reports all of them.
+!> The compiler's namelist read silently accepts misspelt groups, text between groups, keys given twice
+!> and records without an end. Therefore this scanner handles groups, keys, subscripts, repeat
+!> counts and line numbers; it continues after every mistake and reports all of them.
 !>
 !>     &group key = value, value  key(2) = 3*0.0 /     ! a comment
 !>
-!> Values are separated by commas, blanks or line ends; strings stand in ' or ", doubled inside.
+!> Values are separated by commas, blanks or line ends; strings are enclosed in ' or ", doubled inside a string.
 module ek_scanner
    use ek_text, only: str, lower, quoted
    use ek_letters, only: is_wide, with_line_ends, save_as_utf8
@@ -19,19 +19,19 @@ module ek_scanner
    private
    public :: scan_text, scan_values
 
-   integer, parameter :: most_repeats = 1000   !! n in n*value; no key takes that many values
+   integer, parameter :: most_repeats = 1000   !! n in n*value; no key takes so many values
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
 contains
 
-   !> All records of a text. Mistakes go to `complaints`, as `file:line: what`. Lines end as on any system.
+   !> All records of a text. Mistakes are added to `complaints` as `file:line: what`. Line ends of any system are accepted.
    subroutine scan_text(written, file, records, used, complaints, source)
       character(*), intent(in) :: written
       character(*), intent(in) :: file                        !! name for messages
       type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
       integer, intent(out) :: used
       type(complaints_t), intent(inout) :: complaints
-      integer, intent(in), optional :: source                 !! number of the file, in the order of reading; 1
+      integer, intent(in), optional :: source                 !! number of the file, in the order of reading; default 1
       type(record_t) :: record
       type(cursor_t) :: cursor
       character(:), allocatable :: text, word
@@ -61,7 +61,7 @@ contains
                call complain(complaints, file, cursor, record%line, "'&end' without a group before it")
                cycle
             else if (word == '') then
-               call complain(complaints, file, cursor, record%line, "'&' without the name of a group")
+               call complain(complaints, file, cursor, record%line, "'&' without a group name")
             end if
             record%group = word
             record%file = file
@@ -70,7 +70,7 @@ contains
             call add_record(records, used, record)
          else
             call take_line(text, cursor, word)
-            ! one message a line is enough
+            ! one message per line is enough
             if (cursor%line /= last_stray) call complain(complaints, file, cursor, cursor%line, &
                'text outside any group: '//quoted(word)//" (a group begins with &, ends with /, a comment begins with !)")
             last_stray = cursor%line
@@ -78,11 +78,11 @@ contains
       end do
    end subroutine scan_text
 
-   !> The values of one key, as they stand after the = sign (for --set).
+   !> The values of one key, as written after the = sign (for --set).
    subroutine scan_values(text, entry, message)
       character(*), intent(in) :: text
       type(entry_t), intent(inout) :: entry               !! values are appended
-      character(:), allocatable, intent(out) :: message   !! '' if all is well
+      character(:), allocatable, intent(out) :: message   !! '' if there is no mistake
       type(complaints_t) :: complaints
       type(cursor_t) :: cursor
       character(:), allocatable :: unit
@@ -108,7 +108,7 @@ contains
       if (entry%used == 0) message = 'no value'
    end subroutine scan_values
 
-   !> One group, from behind its name to its end.
+   !> Reads one group, from after its name to its end.
    subroutine scan_record(text, file, cursor, record, complaints)
       character(*), intent(in) :: text, file
       type(cursor_t), intent(inout) :: cursor
@@ -125,7 +125,7 @@ contains
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) then
-            call complain(complaints, file, cursor, record%line, '&'//record%group//" is not ended by '/'")
+            call complain(complaints, file, cursor, record%line, '&'//record%group//" is not terminated by '/'")
             exit
          end if
          c = text(cursor%at:cursor%at)
@@ -139,7 +139,7 @@ contains
             if (lower(word) == 'end') exit
             cursor = start
             call complain(complaints, file, cursor, record%line, '&'//record%group// &
-               " is not ended by '/' before the next group in line "//str(cursor%line))
+               " is not terminated by '/' before the next group in line "//str(cursor%line))
             exit
          end if
 
@@ -152,7 +152,7 @@ contains
                cycle
             end if
             cursor = start
-            ! behind the values of a key the name of another one is no value
+            ! after the values of a key, the name of another key is not a value
             if ((.not. is_open .or. entry%used > 0) .and. lacks_equals(text, cursor, record%group)) then
                if (is_open) call close_entry()
                call open_entry()
@@ -166,7 +166,7 @@ contains
             start = cursor
             call scan_value(text, file, cursor, lost, after_comma, complaints)
             call complain(complaints, file, cursor, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
-               " where a key and '=' should be")
+               " where a key and '=' were expected")
          else if (c == '(') then
             call take_subscript(text, cursor, word)
             call add_value(entry, '('//word//')', .false., .false.)
@@ -220,10 +220,10 @@ contains
                ' is missing')
          end if
          is_open = .true.
-         after_comma = .true.           ! a comma right here leaves the first value empty
+         after_comma = .true.           ! a comma here leaves the first value empty
       end subroutine open_entry
 
-      !> Whether this character comes next.
+      !> Whether the next character is this one.
       logical function next_is(c)
          character, intent(in) :: c
          next_is = .false.
@@ -301,7 +301,7 @@ contains
 
    contains
 
-      !> A string from its quote to the next; it must end on its line.
+      !> Reads a string from its quote to the closing one, which must be on the same line.
       subroutine take_string(content)
          character(:), allocatable, intent(out) :: content
          character :: quote
@@ -321,14 +321,14 @@ contains
                   content = content(:used)
                   return
                end if
-            end if               ! a doubled quote stands for one
+            end if               ! a doubled quote is one quote
             used = used + 1
             content(used:used) = text(k:k)
             k = k + 1
          end do
          call complain(complaints, file, cursor, cursor%line, 'the string '//quote//content(:used)// &
             ' has no closing quote on its line')
-         ! go on behind its first word: most strings are names, and the rest of the line is then read as meant
+         ! continue after its first word: most strings are names, and the rest of the line is then read as intended
          first = cursor%at + 1
          cursor%at = first - 1 + scan(text(first:k - 1)//' ', ' ,/!'//tab)
          content = text(first:cursor%at - 1)
@@ -336,11 +336,11 @@ contains
 
    end subroutine scan_value
 
-   !> Notes a mistake in a line of the cursor's file.
+   !> Reports a mistake in a line of the cursor's file.
    subroutine complain(complaints, file, cursor, line, what)
       type(complaints_t), intent(inout) :: complaints
       character(*), intent(in) :: file, what
-      type(cursor_t), intent(in) :: cursor      !! tells the number of the file
+      type(cursor_t), intent(in) :: cursor      !! contains the number of the file
       integer, intent(in) :: line
       type(place_t) :: place
 

@@ -13,7 +13,7 @@ module ek_setting
 
 contains
 
-   !> 'path=value' at its first = sign.
+   !> Splits 'path=value' at its first = sign.
    subroutine split_setting(setting, path, value, error)
       character(*), intent(in) :: setting
       character(:), allocatable, intent(out) :: path, value
@@ -31,13 +31,13 @@ contains
       value = trim(adjustl(setting(mark + 1:)))
    end subroutine split_setting
 
-   !> Changes the record that the path names; `message` says why not, '' if all is well.
+   !> Changes the record given by the path; `message` describes a mistake, '' if there is none.
    subroutine apply_setting(records, used, path, text, message, is_found)
       type(record_t), intent(inout) :: records(:)
       integer, intent(in) :: used
       character(*), intent(in) :: path, text
       character(:), allocatable, intent(out) :: message
-      logical, intent(out) :: is_found     !! there is such a record, whatever else is wrong
+      logical, intent(out) :: is_found     !! the record exists, even if there is another mistake
       character(:), allocatable :: setting, name, key_name
       type(entry_t) :: given
       type(key_t) :: key
@@ -125,7 +125,7 @@ contains
          end do
       end subroutine read_values
 
-      !> Words without quotes, as a shell leaves them, split at commas.
+      !> Texts without quotes, as passed by a shell, split at commas.
       subroutine take_bare_words()
          integer :: begin, comma
 
@@ -168,7 +168,7 @@ contains
          return
       end if
       if (group == include_group) then
-         message = 'an &include is read before anything is set'
+         message = '--set cannot change an &include'
          return
       end if
       if (is_single(group) .neqv. dot == last) then
@@ -195,7 +195,7 @@ contains
       end if
    end subroutine split_path
 
-   !> Value number k of `given` replaces the element of the record, or is added to it.
+   !> Value k of `given` replaces the element of the record or is added to it.
    subroutine put_element(record, given, k, setting)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(in) :: given

@@ -1,4 +1,4 @@
-!> Slips of typing that the scanner meets between a key and its next: an = sign that is not there, and a unit behind a number.
+!> Typing mistakes between two keys that the scanner recognises: a missing = sign and a unit after a number.
 module ek_slip
    use ek_text, only: lower
    use ek_cursor, only: cursor_t, key_follows, skip_blanks, take_subscript, take_word, is_word_begin, tab
@@ -14,7 +14,7 @@ module ek_slip
 
 contains
 
-   !> Whether a key of a group stands here with a colon or a value behind it, and no = sign.
+   !> Whether a key of a group starts here, followed by a colon or a value instead of an = sign.
    pure logical function lacks_equals(text, cursor, group)
       character(*), intent(in) :: text, group
       type(cursor_t), intent(in) :: cursor
@@ -37,11 +37,11 @@ contains
       lacks_equals = index(':+-.0123456789''"', text(ahead%at:ahead%at)) > 0
    end function lacks_equals
 
-   !> Takes the unit behind the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' where there is none.
+   !> Takes the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
    pure subroutine drop_unit(text, cursor, entry, unit)
       character(*), intent(in) :: text
-      type(cursor_t), intent(inout) :: cursor          !! behind the value, afterwards behind the unit
-      type(entry_t), intent(inout) :: entry            !! its last value loses the unit that is written to it
+      type(cursor_t), intent(inout) :: cursor          !! in: after the value; out: after the unit
+      type(entry_t), intent(inout) :: entry            !! a unit attached to its last value is removed
       character(:), allocatable, intent(out) :: unit
       type(cursor_t) :: ahead
       character(:), allocatable :: value, more
@@ -78,13 +78,13 @@ contains
       end do
    end subroutine drop_unit
 
-   !> What is said of a unit.
+   !> The message about a unit.
    pure function unit_message(entry, unit) result(words)
       type(entry_t), intent(in) :: entry
       character(*), intent(in) :: unit
       character(:), allocatable :: words
-      words = entry%key//": found the unit '"//unit//"' behind "//entry%values(entry%used)%text// &
-         '; write the number alone (&model says in which units)'
+      words = entry%key//": found the unit '"//unit//"' after "//entry%values(entry%used)%text// &
+         '; write the number alone (&model sets the units)'
    end function unit_message
 
    !> Letters, the degree sign or % from here on.
@@ -106,7 +106,7 @@ contains
       end if
    end subroutine take_unit_word
 
-   !> /mm, *mm, ^2, /(…) written to a unit. A / that no letter follows ends the group.
+   !> /mm, *mm, ^2, /(…) following a unit. A / not followed by a letter ends the group.
    pure subroutine take_quotient(text, cursor, unit)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor

@@ -1,4 +1,4 @@
-!> What &mirror makes of a record of a left half: a twin for either side, whose name says so.
+!> The twins that &mirror creates from a record of the left half, one per side, with the side in their names.
 module ek_twin
    use ek_text, only: lower
    implicit none(type, external)

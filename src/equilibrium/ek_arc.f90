@@ -1,9 +1,9 @@
-!> Walking a path by its arc length, over limit points: places where the load, or the driven value, goes no further and
-!> the path turns back.
+!> Follows a path by its arc length across limit points, where the load or the driven value reaches an extremum and the
+!> path turns back.
 !>
-!> The place s is one more unknown, beside the bodies z and the reactions λ. Along a step of length Δl
+!> The place s is an additional unknown beside the bodies z and the reactions λ. Along a step of length Δl
 !>
-!>     F(z, λ, s) = 0,    t·(Δz, Δs) = Δl        t the unit tangent where the step begins (pseudo arc length)
+!>     F(z, λ, s) = 0,    t·(Δz, Δs) = Δl        t the unit tangent at the start of the step (pseudo arc length)
 !>
 !> and each correction solves the bordered system
 !>
@@ -14,12 +14,12 @@
 !>
 !>     a·b = Σ over bodies (a_r·b_r/L² + a_π·b_π) + a_s b_s/range²        L the size of the model
 !>
-!> so that they have no unit; reactions do not count. The tangent's sense is that of the one before it, and
-!> that takes the path over a fold. A position where joints lock is passed likewise; there the reactions are without bound.
+!> and are therefore dimensionless; reactions are ignored. The sense of the tangent is that of the previous one, which
+!> carries the path across a fold. A position where joints lock is passed likewise; there the reactions are unbounded.
 !>
-!> A step is sound when its tangents explain where it landed and differ by a small angle, or at a corner of a law.
-!> Steps are reproducible: walked again from the same state, a path has the same lengths.
-!> No memory is asked for after new_arc.
+!> A step is accepted if its tangents agree with the motion and differ by a small angle, or at a corner of a law.
+!> Steps are reproducible: followed again from the same state, a path has the same lengths.
+!> No memory is allocated after new_arc.
 module ek_arc
    use ek_kinds, only: wp
    use ek_measure, only: distance
@@ -35,31 +35,31 @@ module ek_arc
 
    real(wp), parameter :: first_step = 1.0e-2_wp      !! of the unit of length
    real(wp), parameter :: longest_step = 1.0e-1_wp
-   real(wp), parameter :: corner_step = 1.0e-5_wp     !! below it a turn is taken for the corner of a law
-   real(wp), parameter :: least_step = 1.0e-9_wp      !! where no step is found the path has ended
+   real(wp), parameter :: corner_step = 1.0e-5_wp     !! below it a change of direction is accepted as the corner of a law
+   real(wp), parameter :: least_step = 1.0e-9_wp      !! if no step of this length is found the path has ended
    real(wp), parameter :: most_turn = 0.17_wp         !! rad, 10 degrees: between the tangents at the ends of a step
-   real(wp), parameter :: good_turn = 0.1_wp          !! rad: what the next step is made for
-   real(wp), parameter :: most_of_corner = 1.5_wp     !! rad, 86 degrees: more would be another path
-   real(wp), parameter :: smooth = 1.0e-2_wp          !! of a step: what the trapezoidal rule may leave
-   integer, parameter :: most_iterations = 10         !! Newton is quadratic: more would not help
+   real(wp), parameter :: good_turn = 0.1_wp          !! rad: aim for the next step
+   real(wp), parameter :: most_of_corner = 1.5_wp     !! rad, 86 degrees: a larger angle means another path
+   real(wp), parameter :: smooth = 1.0e-2_wp          !! of a step: allowed error of the trapezoidal rule
+   integer, parameter :: most_iterations = 10         !! Newton's method converges quadratically: more would not help
 
-   !> A segment of the path, from a to b; where a probe of it is; and work space.
+   !> A segment of the path from a to b, the position of a probe on it, and work space.
    type :: arc_t
-      real(wp) :: range = 1.0_wp                     !! place that counts as much as the size of the model
+      real(wp) :: range = 1.0_wp                     !! range of places equivalent to the size of the model
       real(wp) :: size = 1.0_wp                      !! characteristic length, or the longest spring [m]
       real(wp) :: tolerance = 0.0_wp                 !! m
-      logical :: is_symmetric = .true.               !! no load leaves N unsymmetric
-      real(wp) :: length = 0.0_wp                    !! of the path from design to a
-      real(wp) :: width = 0.0_wp                     !! of the segment; 0: there is none yet
-      real(wp) :: step = first_step                  !! that is tried next
+      logical :: is_symmetric = .true.               !! no load makes the true matrix unsymmetric
+      real(wp) :: length = 0.0_wp                    !! length of the path from design to a
+      real(wp) :: width = 0.0_wp                     !! length of the segment; 0: there is none yet
+      real(wp) :: step = first_step                  !! length of the next attempt
       real(wp) :: place_a = 0.0_wp, place_b = 0.0_wp
       integer :: negative_a = 0, negative_b = 0      !! negative eigenvalues of N
       real(wp), allocatable :: packed_a(:), packed_b(:)      !! states, see ek_state
       real(wp), allocatable :: tangent_a(:), tangent_b(:)    !! [twists; reactions; place] per length
-      real(wp), allocatable :: tangent_0(:)                  !! likewise where the walk began
-      type(state_t) :: state                         !! of the last probe
+      real(wp), allocatable :: tangent_0(:)                  !! likewise at the start
+      type(state_t) :: state                         !! state of the last probe
       real(wp) :: place = 0.0_wp                     !! likewise
-      real(wp), allocatable :: tangent(:)            !! likewise, of find_tangent
+      real(wp), allocatable :: tangent(:)            !! its tangent, from find_tangent
       integer :: factorisations = 0                  !! spent so far
       type(state_t) :: other
       real(wp), allocatable :: motion(:)             !! [twists; 0; place]
@@ -70,10 +70,10 @@ module ek_arc
 
 contains
 
-   !> Room for a model.
+   !> Allocates the work space for a model.
    function new_arc(suspension, length, range, tolerance) result(self)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: length         !! characteristic, of ek_scale [m]
+      real(wp), intent(in) :: length         !! characteristic length from ek_scale [m]
       real(wp), intent(in) :: range          !! place, above 0
       real(wp), intent(in) :: tolerance      !! m
       type(arc_t) :: self
@@ -97,16 +97,16 @@ contains
       end do
    end function new_arc
 
-   !> To an equilibrium on the path, from which it is walked up or down.
+   !> Starts at an equilibrium on the path, in either direction.
    subroutine begin(self, suspension, schedule, packed, place, upward, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), contiguous, intent(in) :: packed(:)
       real(wp), intent(in) :: place
-      logical, intent(in) :: upward              !! the place grows at first
+      logical, intent(in) :: upward              !! the place increases at first
       type(kkt_t), intent(inout) :: kkt
-      logical, intent(out) :: is_found           !! there is one direction to go in
+      logical, intent(out) :: is_found           !! the direction of the path is unique
 
       self%length = 0.0_wp
       self%width = 0.0_wp
@@ -123,13 +123,13 @@ contains
       self%tangent_0 = self%tangent
    end subroutine begin
 
-   !> On to the next segment.
+   !> Goes to the next segment.
    subroutine advance(self, suspension, schedule, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
-      logical, intent(out) :: is_found           !! .false.: the path goes no further than a
+      logical, intent(out) :: is_found           !! .false.: the path ends at a
       real(wp) :: turn
 
       if (self%width > 0.0_wp) then
@@ -164,7 +164,7 @@ contains
 
    contains
 
-      !> What the trapezoidal rule leaves of the step, as a share of it.
+      !> The error of the trapezoidal rule as a share of the step.
       real(wp) function rest()
          real(wp) :: largest
          call find_motion(self, kkt, self%packed_a, self%place_a, largest)
@@ -174,7 +174,7 @@ contains
 
    end subroutine advance
 
-   !> The equilibrium at a length behind a, in self%state and self%place.
+   !> The equilibrium at a length beyond a, in self%state and self%place.
    subroutine probe(self, suspension, schedule, width, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -201,7 +201,7 @@ contains
          if (.not. is_found) return
          length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          is_found = .false.
-         ! a correction as long as the step is no correction, but behind a corner; nor is one longer than that before; nor one that is not a number
+         ! reject a correction as long as the step (except beyond a corner), longer than the one before, or not a number
          if (.not. length <= longest .or. length > 2.0_wp*before) return
          call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
          is_found = length*self%size <= self%tolerance
@@ -212,7 +212,7 @@ contains
 
    !> The unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
    !>
-   !> Where N is only the symmetric part of the true matrix the residual's own derivative along the tangent corrects it.
+   !> If N is only the symmetric part of the true matrix, the derivative of the residual along the tangent corrects it.
    subroutine find_tangent(self, suspension, schedule, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -248,7 +248,7 @@ contains
 
    contains
 
-      !> The residual a bit further along the tangent.
+      !> The residual at a small distance along the tangent.
       subroutine shifted_residual(by)
          real(wp), intent(in) :: by
          type(demand_t) :: there
@@ -274,7 +274,7 @@ contains
       real(wp), intent(in) :: along
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
-      real(wp), parameter :: part = 1.0e-5_wp      ! of the range: demands are smooth, most of them linear
+      real(wp), parameter :: part = 1.0e-5_wp      ! of the range: the inputs are smooth, most of them linear
       type(demand_t) :: low, high
       integer :: i, j, n, info
 
@@ -310,7 +310,7 @@ contains
 
    end subroutine solve_bordered
 
-   !> Bodies, reactions and place by a step.
+   !> Moves bodies, reactions and place by a step.
    pure subroutine move_all(self, kkt, step, state, place)
       type(arc_t), intent(in) :: self
       type(kkt_t), intent(in) :: kkt
@@ -336,7 +336,7 @@ contains
       end do
    end function inner
 
-   !> From a state and its place to the last probe: the step, in self%motion, and how far the body went that moved most.
+   !> The step from a state and its place to the last probe, in self%motion, and the largest motion of any body.
    subroutine find_motion(self, kkt, packed, place, largest)
       type(arc_t), intent(inout) :: self
       type(kkt_t), intent(in) :: kkt

@@ -1,6 +1,6 @@
-!> How long a path is from design to the end of a case, which limit points lie on it, and the states along it.
+!> Measures a path from design to the end of a case, finds the limit points on it, and visits the states along it.
 !>
-!> Two walks: `survey` measures, `go_to` comes to states at lengths that were asked for. Both take the same steps (ek_arc).
+!> Two passes: `survey` measures the path, `go_to` goes to states at given lengths. Both take the same steps (ek_arc).
 module ek_arc_survey
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -14,25 +14,25 @@ module ek_arc_survey
 
    integer, parameter, public :: arrived = 0        !! at the end of the case
    integer, parameter, public :: stuck = 1          !! no step was found
-   integer, parameter, public :: gone_far = 2       !! a body, or the place, went further than any suspension goes
+   integer, parameter, public :: gone_far = 2       !! a body, or the place, moved further than in any suspension
    integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
    integer, parameter, public :: gone_on = 4        !! too many steps
 
-   integer, parameter, public :: most_limits = 16   !! limit points, and bifurcations, that are told
-   integer, parameter, public :: most_steps = 20000 !! of one path
+   integer, parameter, public :: most_limits = 16   !! limit points, and bifurcations, that are reported
+   integer, parameter, public :: most_steps = 20000 !! per path
 
    real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
    real(wp), parameter :: farthest = 3.0_wp         !! m: no suspension moves that far
    real(wp), parameter :: far_off = 100.0_wp        !! ranges
    real(wp), parameter :: same_way = 0.9_wp         !! cosine
    real(wp), parameter :: same = 1.0e-14_wp         !! of the range
-   real(wp), parameter :: flat = 1.0e-10_wp         !! of the range: what a limit's place may be off before its parabola corrects it
+   real(wp), parameter :: flat = 1.0e-10_wp         !! of the range: error of a limit point before the correction by its parabola
 
-   !> What `survey` found.
+   !> The result of `survey`.
    type :: survey_t
       integer :: ending = stuck
-      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! of the path from design to either end of the states
-      real(wp) :: last_place = 0.0_wp                            !! where the path was followed to
+      real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! lengths of the path from design to either end of the states
+      real(wp) :: last_place = 0.0_wp                            !! the place to which the path was followed
       integer :: limits = 0
       real(wp) :: limit_place(most_limits) = 0.0_wp, limit_length(most_limits) = 0.0_wp
       integer :: crossings = 0
@@ -41,7 +41,7 @@ module ek_arc_survey
 
 contains
 
-   !> Walks from design until the place `far` is met for the first time.
+   !> Follows the path from design until the place `far` is reached for the first time.
    subroutine survey(arc, suspension, schedule, settled, near, far, kkt, found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
@@ -74,7 +74,7 @@ contains
          place = arc%place_b
          has_top = arc%tangent_a(kkt%n + 1)*arc%tangent_b(kkt%n + 1) < 0.0_wp
          if (has_top) call find_limit(arc, suspension, schedule, kkt, top, place)
-         ! a limit point of a load changes the inertia by one, what else changes it is a bifurcation
+         ! a limit point of a load changes the inertia by one; any other change is a bifurcation
          if (arc%negative_a /= arc%negative_b .and. .not. has_top) then
             found%crossings = min(found%crossings + 1, most_limits)
             call find_crossing(arc, suspension, schedule, kkt, found%crossing_place(found%crossings))
@@ -92,7 +92,7 @@ contains
 
    contains
 
-      !> Whether the path has gone as far as makes sense; the last probe is b. `arrived`: it has not.
+      !> Whether the path has left the useful range; the last probe is b. `arrived`: it has not.
       integer function ending()
          real(wp) :: moved, behind
 
@@ -106,7 +106,7 @@ contains
          found%far_length = arc%length + max(arc%width - behind, 0.0_wp)
       end function ending
 
-      !> Where the places near and far are met on a part of the segment over which the place does not turn.
+      !> Finds the places near and far on a part of the segment over which the place is monotonic.
       subroutine look_between(low, place_low, high, place_high)
          real(wp), intent(in) :: low, place_low, high, place_high
          real(wp) :: width
@@ -126,7 +126,7 @@ contains
 
    end subroutine survey
 
-   !> The length from design to state k, of those from `first` to `last`.
+   !> The length from design to state k, between states `first` and `last`.
    pure real(wp) function length_at(found, k, first, last) result(length)
       type(survey_t), intent(in) :: found
       integer, intent(in) :: k, first, last
@@ -135,13 +135,13 @@ contains
       if (k /= last) length = found%near_length + (found%far_length - found%near_length)*real(k - first, wp)/(last - first)
    end function length_at
 
-   !> Adds the limit points to a list; each with the state, from `first` to `last`, that is nearest.
+   !> Adds the limit points to a list, each with the nearest state between `first` and `last`.
    pure subroutine tell_limits(found, first, last, limits, places, states)
       type(survey_t), intent(in) :: found
       integer, intent(in) :: first, last
       integer, intent(inout) :: limits
       real(wp), intent(inout) :: places(:)
-      integer, intent(inout) :: states(:)    !! 0: nearer to design than the first
+      integer, intent(inout) :: states(:)    !! 0: closer to design than the first
       real(wp) :: share
       integer :: k
 
@@ -154,14 +154,14 @@ contains
       end do
    end subroutine tell_limits
 
-   !> Where the place turns on the segment at hand: the root of ds/dl.
+   !> The limit point on the current segment: the root of ds/dl.
    subroutine find_limit(arc, suspension, schedule, kkt, width, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
-      real(wp), intent(inout) :: width       !! of the segment → up to the limit point
-      real(wp), intent(inout) :: place       !! at the end of the segment → at the limit point
+      real(wp), intent(inout) :: width       !! in: length of the segment; out: length to the limit point
+      real(wp), intent(inout) :: place       !! in: at the end of the segment; out: at the limit point
       integer, parameter :: most_probes = 60
       real(wp) :: low, high, f_low, f_high, f, x, slope, before, f_before
       logical :: is_found
@@ -188,11 +188,11 @@ contains
          f_before = f
          call narrow(x, f, low, f_low, high, f_high, side)
       end do
-      ! what is left of the way is a bit of a parabola
+      ! the remaining distance is a piece of a parabola
       if (abs(slope)*(high - low) > abs(f)) place = place - 0.5_wp*arc%range*f**2/slope
    end subroutine find_limit
 
-   !> The place on the segment at hand where the inertia changes, by bisection.
+   !> The place on the current segment at which the inertia changes, by bisection.
    subroutine find_crossing(arc, suspension, schedule, kkt, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
@@ -224,15 +224,15 @@ contains
       place = 0.5_wp*(place_low + place_high)
    end subroutine find_crossing
 
-   !> Where a place is met on a part of the segment at hand.
+   !> Finds a place on a part of the current segment.
    subroutine find_place(arc, suspension, schedule, kkt, goal, from, place_from, to, place_to, width)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(in) :: goal
-      real(wp), intent(in) :: from, place_from, to, place_to     !! lengths behind a, and places, at both ends of the part
-      real(wp), intent(out) :: width                             !! length behind a
+      real(wp), intent(in) :: from, place_from, to, place_to     !! lengths beyond a, and places, at both ends of the part
+      real(wp), intent(out) :: width                             !! length beyond a
       integer, parameter :: most_probes = 80
       real(wp) :: low, high, f_low, f_high, f
       logical :: is_found
@@ -257,12 +257,11 @@ contains
       end do
    end subroutine find_place
 
-   !> One more value of a function between two of different sign: false position, where an end that stays put counts
-   !> half (Illinois).
+   !> One step of root finding between two values of different sign: false position; an end that is kept counts half (Illinois).
    pure subroutine narrow(x, f, low, f_low, high, f_high, side)
       real(wp), intent(in) :: x, f
       real(wp), intent(inout) :: low, f_low, high, f_high
-      integer, intent(inout) :: side         !! which end was moved last
+      integer, intent(inout) :: side         !! the end moved last
 
       if ((f < 0.0_wp) .eqv. (f_high < 0.0_wp)) then
          high = x
@@ -277,9 +276,9 @@ contains
       end if
    end subroutine narrow
 
-   !> On to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
+   !> Goes to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
    !>
-   !> `begin` comes first; lengths grow from call to call.
+   !> Call `begin` first; lengths must increase from call to call.
    subroutine go_to(arc, suspension, schedule, length, kkt, is_found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension

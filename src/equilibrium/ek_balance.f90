@@ -1,12 +1,13 @@
-!> Preloads that make the design position the equilibrium under the constant loads.
+!> Determines preloads for which the design position is in equilibrium under the constant loads.
 !>
 !> `spring`: the spring preloads with which the wheels settle at their design height.
-!> `all`: spring and bushing preloads with which every body stays exactly at design; among all that do,
-!> the bushing preloads of least complementary energy Σ f²/2k (k of a curve: its slope at design).
-!> Dampers, stops and torsion springs keep theirs, and springs with `balance = .false.`.
+!> `all`: spring and bushing preloads with which every body stays exactly at design; if there are several solutions,
+!> the one with the smallest complementary energy Σ f²/2k of the bushing preloads (k of a curve: its slope at design).
+!> Dampers, stops, torsion springs and springs with `balance = .false.` keep their preloads.
 !>
-!> A driver with a stiffness that acts on the body of a wheel (a tyre as a spring under the patch) would carry the wheel in place
-!> of the coil: it keeps out of `all` unless its joint says `balance = .true.`. Others (a rack, a column) take part.
+!> A driver with a stiffness that acts on the body of a wheel (a tyre modelled as a spring under the patch) would carry the
+!> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Others (a rack, a steering
+!> column) take part.
 module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
@@ -27,11 +28,11 @@ module ek_balance
 
 contains
 
-   !> Sets the preloads as suspension%balance says ('none': nothing is done).
+   !> Sets the preloads according to suspension%balance ('none': no change).
    subroutine balance(suspension, tolerance, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
-      type(error_t), allocatable, intent(out) :: error     !! exit_model: it cannot be done
+      type(error_t), allocatable, intent(out) :: error     !! exit_model: no solution
 
       select case (suspension%balance)
       case ('spring')
@@ -47,8 +48,8 @@ contains
       is_free = spring%kind == axial_spring .and. spring%is_balanced
    end function is_free
 
-   !> Whether a row may bear a force at design: always, but for drivers with a stiffness that act on the body of a wheel
-   !> (their joint may say otherwise, either way).
+   !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel
+   !> (`balance` of their joint overrides this).
    pure logical function takes_part(suspension, row)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: row
@@ -67,7 +68,7 @@ contains
       end do
    end function takes_part
 
-   !> What is to be said of a balance: drivers that keep out of it, a split that is not unique.
+   !> Remarks about a balance: excluded drivers, preloads that are not unique.
    subroutine balance_words(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
@@ -78,20 +79,20 @@ contains
          do k = 1, size(suspension%rows)
             if (takes_part(suspension, k)) cycle
             associate (joint => suspension%joints(suspension%rows(k)%joint))
-               call words%add('balance: driver '//quoted(joint%name)//' keeps out and bears nothing at design'// &
+               call words%add('balance: driver '//quoted(joint%name)//' is excluded and carries no force at design'// &
                   trim(merge('                                                                             ', &
-                  ' (it acts on the body of a wheel; balance = .true. in its &joint lets it in) ', joint%says_balance)))
+                  ' (it acts on the body of a wheel; balance = .true. in its &joint includes it)', joint%says_balance)))
             end associate
          end do
       case ('spring')
          springs = count(is_free(suspension%springs))
          if (springs > size(suspension%wheels)) call words%add('balance: '//str(springs)//' springs are balanced for '// &
-            plural(size(suspension%wheels), 'wheel', 'wheels')//', so that their preloads are not unique; the least change of '// &
-            'them is taken. Springs in series bear one force: balance = .false. in the &spring that is to keep its preload')
+            plural(size(suspension%wheels), 'wheel', 'wheels')//', so their preloads are not unique; the smallest change of '// &
+            'them is used. Springs in series carry one force: set balance = .false. in the &spring that is to keep its preload')
       end select
    end subroutine balance_words
 
-   !> '; driver … keeps out of it', for an error.
+   !> '; driver … is excluded', for an error message.
    function kept_out(suspension) result(text)
       type(suspension_t), intent(in) :: suspension
       character(:), allocatable :: text
@@ -101,14 +102,14 @@ contains
       do k = 1, size(suspension%rows)
          if (takes_part(suspension, k)) cycle
          text = text//'; driver '//quoted(suspension%joints(suspension%rows(k)%joint)%name)// &
-            ' keeps out of it, unless its &joint says balance = .true.'
+            ' is excluded unless its &joint sets balance = .true.'
       end do
    end function kept_out
 
-   !> Newton's method on the wheels' settled heights; the change of least norm where springs are many.
+   !> Newton's method on the wheel heights in equilibrium; with more springs than wheels, the change of minimum norm.
    !>
-   !> The first change is that of the linear problem at design, where the answer lies. A wheel that settles without enough
-   !> preload lies on its stop, and the slope there would ask for many times too much.
+   !> The first change is the solution of the linear problem at design, close to the final one. A wheel with too little preload
+   !> would settle on its stop, where the slope would give a change many times too large.
    subroutine balance_springs(suspension, tolerance, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance
@@ -153,19 +154,19 @@ contains
          call factorise(kkt)
          call lower_by(height, suspension, state, kkt)
       end do
-      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; off by "// &
-         str(maxval(abs(height))*1000.0_wp, 4)//' mm')
+      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; "// &
+         'the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm')
    end subroutine balance_springs
 
-   !> Changes the spring preloads so that, by the tangent at a state, the wheels come down by `height`.
+   !> Changes the spring preloads so that, according to the tangent at a state, the wheels move down by `height`.
    subroutine lower_by(height, suspension, state, kkt)
-      real(wp), intent(in) :: height(:)                    !! of every wheel [m]
+      real(wp), intent(in) :: height(:)                    !! per wheel [m]
       type(suspension_t), intent(inout) :: suspension
       type(state_t), intent(in) :: state
-      type(kkt_t), intent(inout) :: kkt                    !! factorised there
+      type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
       type(view_t) :: view
       real(wp) :: slope(size(suspension%wheels), size(suspension%springs))
-      real(wp) :: change(size(suspension%springs))         ! of springs; 0 of the other elements
+      real(wp) :: change(size(suspension%springs))         ! per spring; 0 for other elements
       integer :: s, w, at
 
       slope = 0.0_wp
@@ -173,7 +174,7 @@ contains
          if (.not. is_free(suspension%springs(s))) cycle
          associate (m => suspension%springs(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            kkt%rhs = 0.0_wp     ! a unit of preload pushes the ends apart
+            kkt%rhs = 0.0_wp     ! a unit preload pushes the ends apart
             at = 6*(m%body_i - 1)
             if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(1:6)
             at = 6*(m%body_j - 1)
@@ -190,7 +191,7 @@ contains
       end do
    end subroutine lower_by
 
-   !> How far a step of all bodies lifts the centre of a wheel [m].
+   !> The upward motion of a wheel centre in a step of all bodies [m].
    pure real(wp) function rise(suspension, state, wheel, step)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -204,7 +205,7 @@ contains
       rise = step(at + 3) + dot_product([0.0_wp, 0.0_wp, 1.0_wp], cross(step(at + 4:at + 6), arm))
    end function rise
 
-   !> One linear problem: min Σ f²/2k subject to Σ preloads + Φqᵀλ in balance with the loads at design.
+   !> Solves one linear problem: min Σ f²/2k, subject to equilibrium of preloads, Φqᵀλ and loads at design.
    subroutine balance_all(suspension, error)
       type(suspension_t), intent(inout) :: suspension
       type(error_t), allocatable, intent(out) :: error
@@ -263,8 +264,8 @@ contains
          free(:, k) = free(:, k)*kkt%scale(:kkt%nq)
       end do
 
-      ! what springs and joints can take for nothing is projected out; the rest is the bushings'. Where they can take everything,
-      ! what is left of `weighted` is rounding, which is no stiffness.
+      ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
+      ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
       allocate (x(nx), y(ny), projector(kkt%nq, kkt%nq))
       call complement(free, projector)
       call least_norm(matmul(projector, weighted), -matmul(projector, load), x, norm2(weighted))
@@ -279,7 +280,7 @@ contains
       do s = 1, size(suspension%springs)
          if (is_free(suspension%springs(s))) suspension%springs(s)%preload = y(s)
       end do
-      do k = 1, kkt%nc      ! what a driver with a stiffness is prescribed takes up its own deflection
+      do k = 1, kkt%nc      ! the prescribed value of a driver with a stiffness compensates its deflection
          suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(size(suspension%springs) + k)
       end do
       do b = 1, size(suspension%bushings)
@@ -289,7 +290,7 @@ contains
       end do
    end subroutine balance_all
 
-   !> What a unit of preload component k of bushing b does to the bodies at design.
+   !> The generalised force on the bodies at design of a unit preload component k of bushing b.
    subroutine bushing_column(suspension, b, k, column)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: b, k
@@ -336,12 +337,11 @@ contains
       end do
    end subroutine complement
 
-   !> Least squares of least norm (LAPACK dgelsd); singular values are dropped that are below 1e-11 of the largest, or of
-   !> `whole`.
+   !> Minimum-norm least squares (LAPACK dgelsd); singular values below 1e-11 of the largest, or of `whole`, are neglected.
    subroutine least_norm(a, b, x, whole)
       real(wp), intent(in) :: a(:, :), b(:)
       real(wp), intent(out) :: x(:)
-      real(wp), intent(in), optional :: whole        !! norm of what `a` is a projection of: by its rounding no rank is told
+      real(wp), intent(in), optional :: whole        !! norm of the unprojected matrix: its rounding must not count as rank
       real(wp), parameter :: threshold = 1.0e-11_wp
       real(wp) :: share
       real(wp) :: copy(size(a, 1), size(a, 2)), rhs(max(size(a, 1), size(a, 2)))
@@ -354,7 +354,7 @@ contains
       if (size(a) == 0) return
       share = threshold
       if (present(whole)) then
-         if (norm2(a) <= threshold*whole) return     ! dgelsd does not take a share of 1 or more
+         if (norm2(a) <= threshold*whole) return     ! dgelsd does not accept a share of 1 or more
          share = threshold*whole/norm2(a)
       end if
       copy = a

@@ -1,16 +1,17 @@
-!> Whether a step of a path ends on the branch that it began on.
+!> Checks that a step of a path ends on the branch on which it started.
 !>
-!> Newton's method converges to some equilibrium near its guess: behind a lock, a limit point or a bifurcation that is
-!> another assembly or another branch. A step from state a to state b of width h is only sound when
+!> Newton's method converges to some equilibrium near its guess: beyond a lock, a limit point or a bifurcation this is
+!> another assembly or another branch. A step from state a to state b of width h is accepted only if
 !>
-!> - the tangents dz/ds = N⁻¹ dF/ds at its ends explain where it landed: |d − h (t_a + t_b)/2| is small against |d|,
-!>   d the motion of the bodies from a to b (trapezoidal rule: of third order in h on a smooth path);
-!> - the matrix N has as many negative eigenvalues at b as at a: N is regular all along a smooth path;
-!> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are assembled the same way round. Where Φq loses rank N does not
-!>   change its inertia: its determinant goes with the square of that of Φq.
+!> - the tangents dz/ds = N⁻¹ dF/ds at its ends agree with the motion d of the bodies from a to b:
+!>   |d − h (t_a + t_b)/2| is small against |d| (trapezoidal rule: third order in h on a smooth path);
+!> - the matrix N has as many negative eigenvalues at b as at a: N is regular along a smooth path;
+!> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly. Where Φq loses rank, the inertia of N does not
+!>   change: its determinant is proportional to the square of that of Φq.
 !>
-!> A law with a corner bends the path. Where a law has one between a and b, or in a step that was halved often enough, d need
-!> only lie between h t_a and h t_b, and no body may turn off by more than 60 degrees. No memory is asked for after new_branch.
+!> A law with a corner bends the path. If a law has a corner between a and b, or if the step was halved often enough,
+!> d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60 degrees. No
+!> memory is allocated after new_branch.
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -24,47 +25,47 @@ module ek_branch
    public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, accept, note_crossing, go_along
    public :: same_branch, crossing, doubtful
 
-   integer, parameter :: same_branch = 1   !! the step is sound
-   integer, parameter :: crossing = 2      !! the path goes on smoothly, but inertia or assembly changed: a bifurcation between
-   integer, parameter :: doubtful = 3      !! the tangents do not explain the step: a jump, or a step too long to tell
+   integer, parameter :: same_branch = 1   !! the step is accepted
+   integer, parameter :: crossing = 2      !! the path continues smoothly, but inertia or assembly changed: a bifurcation
+   integer, parameter :: doubtful = 3      !! the tangents disagree with the step: a jump, or a step too long to decide
 
-   integer, parameter, public :: most_crossings = 8   !! that are told
+   integer, parameter, public :: most_crossings = 8   !! largest number of bifurcations reported
 
-   real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: what the trapezoidal rule may leave
-   real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times what Newton's method leaves
+   real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: allowed error of the trapezoidal rule
+   real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times the error of Newton's method
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
-   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise where the rubber of a stop is steep
-   !> Of the least step, an eighth of the range: longer steps are cut before a corner is believed
+   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise if the rubber of a stop is steep
+   !> Of the least step, 1/8 of the range: no corner is accepted in longer steps
    real(wp), parameter :: widest_corner = 1.25e8_wp
-   real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors made no further away give a good tangent
-   real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump over a gap leaves more, unless it is forty times wider
+   real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
+   real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
-   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies that are asked for their direction
+   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
    real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
 
-   !> What is known of the newest state of the path, and work space.
+   !> Data of the newest state of the path, and work space.
    type :: branch_t
       integer :: negative = -1              !! negative eigenvalues of N there; −1: not known
       logical :: has_tangent = .false.      !! tangent_a is that of the newest state
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
-      real(wp) :: width_before = 0.0_wp     !! place of a less that of the state before; 0: not known
+      real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
       type(orientation_t) :: orientation
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
-      logical :: is_symmetric = .true.      !! no load leaves the tangent unsymmetric
+      logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: before, shifted
-      logical :: was_bent = .false.         !! the step that was compared last goes round a corner of a law
-      logical :: knows_end = .false.        !! tangent_b is that of the state that was looked at last
-      integer :: factorisations = 0         !! that the last comparison needed
-      real(wp) :: least = 0.0_wp            !! shortest step that is tried before the path is said to end [place]
-      real(wp) :: width = 0.0_wp            !! of the step that is taken across a bifurcation [place]
+      logical :: was_bent = .false.         !! the step compared last passes a corner of a law
+      logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
+      integer :: factorisations = 0         !! number needed by the last comparison
+      real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [place]
+      real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [place]
       integer :: crossings = 0              !! bifurcations met so far
       real(wp) :: crossing_place(most_crossings) = 0.0_wp
    end type branch_t
 
 contains
 
-   !> Room for a model.
+   !> Allocates the work space for a model.
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
@@ -83,7 +84,7 @@ contains
       end do
    end function new_branch
 
-   !> The walk goes on from another state, of which only the inertia may be known.
+   !> Continues from another state, of which only the inertia may be known.
    pure subroutine leave(self, negative)
       type(branch_t), intent(inout) :: self
       integer, intent(in) :: negative     !! −1: not known
@@ -104,28 +105,28 @@ contains
       end do
    end function largest_motion
 
-   !> The same of one body.
+   !> The same for one body.
    pure real(wp) function body_motion(twist, length)
       real(wp), intent(in) :: twist(6), length
       body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
    end function body_motion
 
-   !> Compares both ends of a step. The factors of N at b, or near, must be at hand in kkt.
+   !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
-   !> Tried with these factors and a tangent of a that may be old; where that does not explain the step, with fresh ones.
-   !> After it self%tangent_b is that of b; `accept` makes it that of the newest state.
+   !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
+   !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
    subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
       is_short, missed, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       real(wp), contiguous, intent(in) :: packed_a(:)        !! state a
       type(demand_t), intent(in) :: demand_a, demand_b
-      real(wp), intent(in) :: width                          !! h: place of b less that of a
+      real(wp), intent(in) :: width                          !! h: place of b minus place of a
       real(wp), contiguous, intent(in) :: packed_before(:)   !! the state before a
-      real(wp), intent(in) :: width_before                   !! place of a less that of the state before; 0: there is none
+      real(wp), intent(in) :: width_before                   !! place of a minus place of the state before; 0: there is none
       type(state_t), intent(in) :: state_b
       logical, intent(in) :: is_short                        !! halved often enough for a bend
-      real(wp), intent(in) :: missed                         !! how far from b the factors at hand were made [m]
+      real(wp), intent(in) :: missed                         !! distance from b at which the factors were computed [m]
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: verdict
       type(demand_t) :: rate
@@ -149,7 +150,7 @@ contains
          rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
       else
          rest = three_point_rest(self, kkt%nq, width, kkt%length)
-         ! the way to a says nearly what its tangent would
+         ! the step to a approximates its tangent
          if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
       is_explained = rest <= smooth
@@ -192,7 +193,7 @@ contains
 
    contains
 
-      !> The tangent at a, from factors of its own.
+      !> The tangent at a, from new factors at a.
       subroutine at_beginning()
          call assemble(suspension, self%before, demand_a, whole_tangent, kkt)
          call factorise(kkt)
@@ -204,10 +205,10 @@ contains
 
    end subroutine compare
 
-   !> dz/ds = N⁻¹ dF/ds at a state, with the factors at hand; what it says of the bodies.
+   !> dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
    !>
-   !> Under a constant moment, a load that turns with its body, or the imbalance of design the true matrix is not
-   !> symmetric, N is its symmetric part. Then the residual's own derivative along the tangent corrects it.
+   !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
+   !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
    subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -245,7 +246,7 @@ contains
 
    contains
 
-      !> The residual a bit further along the tangent, demand unchanged.
+      !> The residual at a small distance along the tangent, with the same inputs.
       subroutine shifted_residual(distance)
          real(wp), intent(in) :: distance     !! place
 
@@ -257,7 +258,7 @@ contains
 
    end subroutine find_tangent
 
-   !> The step was taken: b is the newest state.
+   !> Accepts the step: b becomes the newest state.
    pure subroutine accept(self, negative, was_compared)
       type(branch_t), intent(inout) :: self
       integer, intent(in) :: negative            !! negative eigenvalues of N at b
@@ -268,7 +269,7 @@ contains
       if (self%has_tangent) self%tangent_a = self%tangent_b
    end subroutine accept
 
-   !> From the newest state along its tangent.
+   !> Extrapolates from the newest state along its tangent.
    pure subroutine go_along(self, width, state)
       type(branch_t), intent(in) :: self
       real(wp), intent(in) :: width              !! place
@@ -280,7 +281,7 @@ contains
       call move_as_screw(state, width*self%tangent_a(:nq))
    end subroutine go_along
 
-   !> A bifurcation was passed at a place.
+   !> Records a bifurcation at a place.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place
@@ -289,7 +290,7 @@ contains
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
 
-   !> What the trapezoidal rule leaves of the motion, as a share of it; huge when it is not a number.
+   !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
    pure real(wp) function trapezoidal_rest(self, nq, width, length) result(rest)
       type(branch_t), intent(in) :: self
       integer, intent(in) :: nq
@@ -311,7 +312,7 @@ contains
       end if
    end function trapezoidal_rest
 
-   !> The same of the parabola through the state before a, a and b: how far its slope at b is from the tangent there.
+   !> The same for the parabola through the state before a, a and b: the difference of its slope at b from the tangent there.
    pure real(wp) function three_point_rest(self, nq, width, length) result(rest)
       type(branch_t), intent(in) :: self
       integer, intent(in) :: nq
@@ -333,7 +334,7 @@ contains
       if (rest < huge(rest)) rest = rest/max(largest_motion(self%motion, length), nothing)
    end function three_point_rest
 
-   !> The motion lies between what the tangents at both ends say, and no body turns off.
+   !> Whether the motion lies between the tangents at both ends and no body changes direction.
    pure logical function is_bend(self, width, length)
       type(branch_t), intent(in) :: self
       real(wp), intent(in) :: width, length
@@ -366,7 +367,7 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> Whether the joints turn over in a step that was foreseen, which `compare` has not seen.
+   !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`.
    logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

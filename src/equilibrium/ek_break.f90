@@ -1,9 +1,9 @@
-!> Why a path ends: at its last equilibrium either the joints lock or the tangent stiffness vanishes.
+!> Determines why a path ends: at its last equilibrium either the joints lock or the tangent stiffness vanishes.
 !>
-!> Near the end of a path N is nearly singular, and so is one of two matrices, scaled as in ek_scale: Φq, whose least
-!> singular value goes to zero where the assembly of the joints closes (a lock), or Zᵀ T Z, Z a basis of the motions
-!> that the joints leave, whose least eigenvalue does where the load has its maximum (a limit point) or a body is let go
-!> (a mechanism: a slide leaves the stop that held it). Each is compared with itself at design.
+!> Near the end of a path N is nearly singular, and so is one of two matrices, scaled as in ek_scale: Φq, whose smallest
+!> singular value tends to zero where the joints cannot be assembled further (a lock), or Zᵀ T Z, Z a basis of the motions
+!> that the joints allow, whose smallest eigenvalue tends to zero where the load has its maximum (a limit point) or a body
+!> is released (a mechanism: a slide leaves the stop that held it). Each is compared with its value at design.
 module ek_break
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -16,21 +16,21 @@ module ek_break
 
    integer, parameter :: no_reason = 0, lock = 1, limit_point = 2, mechanism = 3
 
-   real(wp), parameter :: vanished = 1.0e-2_wp     !! of the value at design; at 1e-9 of the range from the end it is some 1e-4
-   real(wp), parameter :: gone = 1.0e-6_wp         !! likewise: not where a load has its maximum, but where nothing holds a body
-   real(wp), parameter :: takes_part = 0.3_wp      !! of the largest part of a left singular vector: joints that are named
+   real(wp), parameter :: vanished = 1.0e-2_wp     !! of the value at design; at 1e-9 of the range from the end it is about 1e-4
+   real(wp), parameter :: gone = 1.0e-6_wp         !! likewise: below it nothing holds a body (a load maximum leaves more)
+   real(wp), parameter :: takes_part = 0.3_wp      !! of the largest part of a left singular vector: joints that are listed
 
-   !> What is singular.
+   !> The singular matrix and its null vector.
    type :: break_t
       integer :: reason = no_reason
-      logical, allocatable :: locks(:)      !! joints that hold each other, of a lock
-      integer :: body = 0                   !! that moves most without stiffness
-      real(wp), allocatable :: motion(:)    !! without stiffness, scaled unknowns; of a limit point or a mechanism
+      logical, allocatable :: locks(:)      !! lock: the joints involved
+      integer :: body = 0                   !! the body that moves most without stiffness
+      real(wp), allocatable :: motion(:)    !! limit point or mechanism: motion without stiffness, scaled unknowns
    end type break_t
 
 contains
 
-   !> Examines the last equilibrium of a path. A few dense decompositions.
+   !> Examines the last equilibrium of a path. Cost: a few dense decompositions.
    subroutine why_it_ends(suspension, state, demand, kkt, found)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state            !! the last equilibrium
@@ -61,14 +61,14 @@ contains
       end if
    end subroutine why_it_ends
 
-   !> The least singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z nearest to zero with its motion.
+   !> The smallest singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z closest to zero with its motion.
    subroutine examine(suspension, state, demand, kkt, closing, stiffness, left_vector, motion)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: closing, stiffness
-      real(wp), intent(out) :: left_vector(:)       !! a row; 0 for rows with a stiffness
+      real(wp), intent(out) :: left_vector(:)       !! one element per row; 0 for rows with a stiffness
       real(wp), intent(out) :: motion(:)            !! scaled unknowns
       real(wp) :: tangent(kkt%nq, kkt%nq), gradient(kkt%nq)
       real(wp), allocatable :: jacobian(:, :), left(:, :), right(:, :), singular(:), reduced(:, :), value(:), work(:)

@@ -1,9 +1,9 @@
-!> Whether the states of a linear method lie on the path from design.
+!> Checks that the states of a linear method lie on the path from design.
 !>
-!> The recursive and the corrected increment take one step whatever comes of it, and may step over a lock onto
-!> another assembly. So the exact path is walked once more, in a few long steps that ek_reach makes sure of, and at
-!> each of them Newton's method is started from the state of the linear method: it has to end on the exact path.
-!> States behind the last place where it does are not reached.
+!> The recursive and the corrected increment take one step without a check, and may step across a lock onto
+!> another assembly. Therefore the exact path is followed again in a few long steps checked by ek_reach. At each of
+!> them Newton's method is started from the state of the linear method and must converge to the exact path.
+!> States beyond the last place where it does are marked as not reached.
 module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -19,12 +19,12 @@ module ek_confirm
    private
    public :: confirm
 
-   integer, parameter :: most_looks = 10          !! at the states of one direction
-   real(wp), parameter :: apart = 1.0e-6_wp       !! m: equilibria further from each other are two
+   integer, parameter :: most_looks = 10          !! number of comparisons per direction
+   real(wp), parameter :: apart = 1.0e-6_wp       !! m: equilibria further apart are different
 
 contains
 
-   !> Goes through states first, first + direction, …, last, and takes back what is not on the path.
+   !> Checks states first, first + direction, …, last, and rejects those that are not on the path.
    subroutine confirm(suspension, schedule, place, packed, first, last, direction, least, kkt, is_reached, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
@@ -34,7 +34,7 @@ contains
       real(wp), intent(in) :: least                  !! shortest step [place]
       type(kkt_t), intent(inout) :: kkt
       logical, intent(inout) :: is_reached(:)
-      type(failure_t), intent(inout) :: failure      !! state: the first that is taken back
+      type(failure_t), intent(inout) :: failure      !! state: the first rejected state
       type(state_t) :: exact, linear
       type(predictor_t) :: predictor
       type(branch_t) :: branch
@@ -74,7 +74,7 @@ contains
       do
          call reach(suspension, schedule, place(k), default_tolerance, predictor, branch, exact, kkt, iterations, lost)
          if (lost%state > 0) then
-            ! what is before the end of the path may stand
+            ! states before the end of the path are kept
             do while (sure /= k)
                if (abs(place(sure + direction)) > abs(lost%reached)) exit
                sure = sure + direction

@@ -1,16 +1,16 @@
-!> What is wrong with a model: mechanisms and redundant constraints, by name; and its condition.
+!> Detects mechanisms and redundant constraints of a model, with the names of the parts, and its condition number.
 !>
-!> A mechanism is a motion that keeps every joint and meets no stiffness: a null vector of Zᵀ T Z,
-!> Z a basis of the null space of Φq. A redundant constraint is a left null vector of Φq. Both are
-!> found by LAPACK's singular and eigenvalue decompositions of the scaled matrices.
+!> A mechanism is a motion that satisfies every joint and has no stiffness: a null vector of Zᵀ T Z,
+!> where Z is a basis of the null space of Φq. A redundant constraint is a left null vector of Φq. Both are
+!> found by LAPACK's singular value and eigenvalue decompositions of the scaled matrices.
 !>
-!> No stiffness is what is below the rounding of the very sums that make it, vᵀ T v against |v|ᵀ |T| |v|, or below 1e-7 of
-!> the softest spring or bushing (hardpoints to a tenth of a millimetre leave such levers), less where many bodies take
-!> part. The characteristic stiffness does not count: a coil of 30 N/mm beside bushings of 1e10 N/mm, or the bending of a
-!> chain of 160 bodies, is soft beyond comparison, but no mechanism.
+!> A stiffness counts as zero if it is below the rounding error of its own sums, vᵀ T v against |v|ᵀ |T| |v|, or below 1e-7
+!> of the softest spring or bushing (hardpoints rounded to a tenth of a millimetre leave such levers); the limit is lower if
+!> many bodies take part. It is not compared with the characteristic stiffness: a coil of 30 N/mm beside bushings of
+!> 1e10 N/mm, or the bending of a chain of 160 bodies, is extremely soft in comparison, but not a mechanism.
 !>
-!> T has the geometric stiffness of preloads in it. A motion for which the elastic elements alone (K, material) have none
-!> is held by preload only, and told apart.
+!> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preload only and
+!> is reported separately.
 module ek_diagnosis
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -28,21 +28,21 @@ module ek_diagnosis
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
    real(wp), parameter :: no_stiffness = 1.0e-7_wp        !! of the softest element: a mechanism of one body
-   real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! of a sum of n parts, for each of them: below it is nothing
-   real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! of the characteristic stiffness: worth a warning
+   real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! per part of a sum of n parts: smaller values count as zero
+   real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! of the characteristic stiffness: below it a warning is given
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a null vector
 
    !> Findings about a model at a state.
    type :: diagnosis_t
       integer :: unknowns = 0
-      integer :: constraints = 0, rank = 0       !! of rows that hold for certain: a driver with a stiffness is elastic
-      integer :: freedoms = 0                    !! unknowns − rank: motions held by elastic elements or not at all
+      integer :: constraints = 0, rank = 0       !! number and rank of the rigid rows (a driver with a stiffness is elastic)
+      integer :: freedoms = 0                    !! unknowns − rank: motions held by elastic elements or free
       real(wp) :: rcond = 0.0_wp                 !! reciprocal condition number of the scaled KKT matrix
-      real(wp) :: softest = 0.0_wp               !! least stiffness of a free motion, of the characteristic one
+      real(wp) :: softest = 0.0_wp               !! smallest stiffness of a free motion, relative to the characteristic one
       type(message_list_t) :: mechanisms         !! one line each
       type(message_list_t) :: redundancies       !! one line each
       type(message_list_t) :: warnings           !! soft or unstable motions
-      type(message_list_t) :: preload_held       !! motions that nothing but preloads hold
+      type(message_list_t) :: preload_held       !! motions held by preloads only
    contains
       procedure :: is_solvable
       procedure :: words
@@ -56,7 +56,7 @@ contains
       is_solvable = self%mechanisms%count() == 0 .and. self%redundancies%count() == 0
    end function is_solvable
 
-   !> All defects, one a line.
+   !> All defects, one per line.
    pure function words(self) result(text)
       class(diagnosis_t), intent(in) :: self
       character(:), allocatable :: text
@@ -68,16 +68,16 @@ contains
 
    !> Examines a model at a state (design, or where a solution failed).
    !>
-   !> `driven` rows count as held. Costs a few dense decompositions: for a check, not for an increment.
+   !> Driven rows count as constraints. Cost: a few dense decompositions; suitable for a check, not for an increment.
    subroutine diagnose(suspension, state, kkt, diagnosis, wants_preload_held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt              !! work space of this model
       type(diagnosis_t), intent(out) :: diagnosis
-      logical, intent(in), optional :: wants_preload_held    !! motions that preload alone holds are looked for, too
+      logical, intent(in), optional :: wants_preload_held    !! also search motions held by preload only
       real(wp) :: tangent(kkt%nq, kkt%nq), material(kkt%nq, kkt%nq), right(kkt%nq, kkt%nq)
       real(wp), allocatable :: jacobian(:, :), left(:, :), singular(:)
-      integer, allocatable :: rows(:)      ! that hold for certain: those without compliance
+      integer, allocatable :: rows(:)      ! the rigid rows: those without compliance
       integer :: i, j, rank
 
       rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
@@ -112,7 +112,7 @@ contains
       call name_preload_held(suspension, state, tangent, material, right(:, rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> Stiffness of the system that was assembled last, scaled and whole.
+   !> The full scaled stiffness matrix of the last assembled system.
    subroutine scaled_stiffness(suspension, kkt, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
@@ -152,7 +152,7 @@ contains
    subroutine name_redundancies(suspension, basis, rows, diagnosis)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: basis(:, :)
-      integer, intent(in) :: rows(:)             !! the rows of the suspension that these are
+      integer, intent(in) :: rows(:)             !! their numbers in the suspension
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: vectors(size(basis, 1), size(basis, 2))
       logical :: is_part(size(suspension%joints)), seen(size(suspension%joints), size(basis, 2))
@@ -189,22 +189,22 @@ contains
                text = 'redundant: joint '//text//' constrains '//plural(times(g), 'motion', 'motions')// &
                   ' that cannot happen anyway'
             else
-               text = 'redundant: joints '//text//' hold the same '//plural(times(g), 'motion', 'motions')// &
-                  ' more than once; '//remedy(suspension, seen(:, g))
+               text = 'redundant: joints '//text//' over-constrain '//plural(times(g), 'direction', 'directions')// &
+                  '; '//remedy(suspension, seen(:, g))
             end if diagnosis_line
             call diagnosis%redundancies%add(text)
          end block
       end do
    end subroutine name_redundancies
 
-   !> What to do about joints that hold the same.
+   !> Advice for joints that over-constrain the same direction.
    pure function remedy(suspension, is_part) result(text)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: is_part(:)
       character(:), allocatable :: text
       integer :: first, last
 
-      text = 'replace one by a weaker type or by a bushing, or remove it'
+      text = 'replace one by a weaker joint type or by a bushing, or remove it'
       first = findloc(is_part, .true., dim=1)
       last = findloc(is_part, .true., dim=1, back=.true.)
       if (count(is_part) /= 2) return
@@ -217,7 +217,7 @@ contains
       end associate
    end function remedy
 
-   !> Names the motions without stiffness, and warns of soft and unstable ones.
+   !> Lists the motions without stiffness, and warns of soft and unstable ones.
    subroutine name_mechanisms(suspension, state, tangent, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -242,7 +242,7 @@ contains
          if (eigenvalue(k) < -noise(k)) call diagnosis%warnings%add('unstable at design (negative stiffness): '// &
             motion_words(suspension, state, kkt, motions(:, k)))
       end do
-      k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest that is held at all
+      k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest motion with a stiffness
       if (k > 0) then
          if (eigenvalue(k) < soft_stiffness) call diagnosis%warnings%add('very soft ('//str(eigenvalue(k), 2)// &
             ' of the characteristic stiffness'//softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '// &
@@ -251,7 +251,7 @@ contains
       end if
    end subroutine name_mechanisms
 
-   !> Motions that meet no material stiffness, but some of preloads that keeps them where they are.
+   !> Lists the motions without material stiffness that are held by preloads.
    subroutine name_preload_held(suspension, state, tangent, material, basis, kkt, diagnosis)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -271,12 +271,13 @@ contains
       allocate (motions_held, source=pick(held, stiffness > least))
       call make_sparse(motions_held)
       do k = 1, size(motions_held, 2)
-         call diagnosis%preload_held%add('held by preloads or loads alone, no spring, bushing or link stops it: '// &
+         call diagnosis%preload_held%add('held by preloads or loads alone; no spring, bushing or link resists it: '// &
             motion_words(suspension, state, kkt, motions_held(:, k)))
       end do
    end subroutine name_preload_held
 
-   !> Eigenvectors of a stiffness within a space of motions, softest first, and below what each is none.
+   !> Eigenvectors of a stiffness within a space of motions, softest first, and for each the limit below which its stiffness
+   !> counts as zero.
    subroutine modes(stiffness, basis, least, motions, eigenvalue, noise)
       real(wp), intent(in) :: stiffness(:, :), basis(:, :)
       real(wp), intent(in) :: least              !! rate of the softest element, scaled
@@ -295,7 +296,7 @@ contains
       end do
    end subroutine modes
 
-   !> How many bodies share a motion: (Σ p)²/Σ p² of their parts p, 1 for one alone.
+   !> The number of bodies that share a motion: (Σ p)²/Σ p² of their parts p; 1 for a single body.
    pure real(wp) function bodies_in(motion) result(bodies)
       real(wp), intent(in) :: motion(:)
       real(wp) :: part(size(motion)/6)
@@ -307,7 +308,7 @@ contains
       bodies = sum(part)**2/max(sum(part**2), tiny(1.0_wp))
    end function bodies_in
 
-   !> Least rate of the springs and bushings, of the characteristic stiffness; at most 1.
+   !> Smallest rate of the springs and bushings relative to the characteristic stiffness; at most 1.
    real(wp) function softest_rate(suspension, kkt) result(least)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
@@ -343,7 +344,7 @@ contains
       end do
    end function pick
 
-   !> ", 3E+10 times softer than bushing 'x'", or nothing where no bushing is that much stiffer.
+   !> ", 3E+10 times softer than bushing 'x'"; empty if no bushing is much stiffer.
    function softer_than(suspension, stiffness) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: stiffness           !! N/m
@@ -372,8 +373,8 @@ contains
       if (count > 0) text = '; and '//plural(count, 'motion', 'motions')//' more'
    end function others
 
-   !> Gauss–Jordan with column pivoting on the columns: the same space, each vector with few parts, so
-   !> that two independent defects are told as two.
+   !> Gauss–Jordan elimination with column pivoting: the same space, spanned by vectors with few nonzero parts, so
+   !> that two independent defects are reported separately.
    pure subroutine make_sparse(vectors)
       real(wp), intent(inout) :: vectors(:, :)
       integer :: k, l, r

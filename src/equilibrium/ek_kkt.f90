@@ -1,14 +1,14 @@
-!> The one dense system of an increment: assembly and its factorisation by LAPACK.
+!> The dense linear system of an increment: assembly, and factorisation by LAPACK.
 !>
 !>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
 !>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           one step of Newton's method for f_ext = f_el + Φqᵀλ, Φ = c
 !>
-!> C is zero but for drivers with a stiffness k: 1/k on the diagonal, Φ = c + λ/k. With C ≥ 0 a stable equilibrium still
-!> has one negative eigenvalue for each row.
+!> C is zero except for drivers with a stiffness k: 1/k on the diagonal, Φ = c + λ/k. With C ≥ 0 a stable equilibrium still
+!> has exactly one negative eigenvalue per row.
 !> T is the Hessian of the energy along screw motions (see `move_as_screw` in ek_state): the increment of a
-!> body is then the same motion whatever point was made its reference.
-!> Unknowns: 6 a body [Δr Δπ], then the rows of Φ. Only the lower triangle is kept. The matrix is
-!> scaled symmetrically, D S D, before it is factorised; D is made in ek_scale.
+!> body is then independent of its reference point.
+!> Unknowns: 6 per body [Δr Δπ], then the rows of Φ. Only the lower triangle is stored. The matrix S is
+!> scaled symmetrically, D S D, before factorisation; D is computed in ek_scale.
 module ek_kkt
    use ek_kinds, only: wp
    use ek_measure, only: view_t, look, add_measure_hessian, distance, rotation
@@ -29,24 +29,24 @@ module ek_kkt
 
    integer, parameter :: whole_tangent = 1   !! T with geometric stiffness: corrected, equilibrium
    integer, parameter :: material_only = 2   !! K = −(19) of the paper: recursive
-   integer, parameter :: residual_only = 3   !! right-hand side alone
+   integer, parameter :: residual_only = 3   !! right-hand side only
 
-   !> The system and its work space, allocated once for a model.
+   !> The system and its work space, allocated once per model.
    type :: kkt_t
-      integer :: nq = 0, nc = 0, n = 0       !! unknowns, rows, both
+      integer :: nq = 0, nc = 0, n = 0       !! number of unknowns, of rows, and their sum
       real(wp), allocatable :: matrix(:, :)  !! lower triangle; after `factorise` its factors
       real(wp), allocatable :: rhs(:)        !! [N, N m; m, -, rad]; after `solve` [Δq; Δλ]
       real(wp), allocatable :: gradients(:, :)   !! (12, term): coefficient × gradient of each term
-      real(wp), allocatable :: values(:)     !! Φ(q) − c − Cλ of each row [m, -, rad]: how far the joints are open
+      real(wp), allocatable :: values(:)     !! Φ(q) − c − Cλ of each row [m, -, rad]: constraint violation
       real(wp), allocatable :: scale(:)      !! D
-      real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for relief
+      real(wp), allocatable :: imbalance(:)  !! f_ext − f_el at design, for the homotopy of settling
       integer, allocatable :: pivots(:), iwork(:)
       real(wp), allocatable :: work(:)
       real(wp) :: length = 1.0_wp            !! characteristic length [m]
       real(wp) :: stiffness = 1.0_wp         !! characteristic stiffness [N/m]
-      real(wp) :: norm = 0.0_wp              !! 1-norm of the last matrix that `condition` was asked of
+      real(wp) :: norm = 0.0_wp              !! 1-norm of the last matrix passed to `condition`
       integer :: negative = 0                !! negative eigenvalues of the last matrix
-      real(wp) :: pivot_ratio = 1.0_wp       !! least over largest pivot of the last matrix: a cheap condition estimate
+      real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
       logical :: is_singular = .false.       !! the last factorisation met a zero pivot
    end type kkt_t
 
@@ -73,7 +73,7 @@ contains
       type(load_t), intent(in) :: load
       type(pose_t), intent(in) :: pose
       real(wp), intent(out) :: force(3), moment(3)   !! N, N m
-      real(wp), intent(out) :: arm(3)                !! of the point of attack, global axes [m]
+      real(wp), intent(out) :: arm(3)                !! arm of the point of application, global axes [m]
 
       arm = rotated(pose%a, load%arm)
       if (load%follows) then
@@ -88,7 +88,7 @@ contains
 
    !> Matrix (by `mode`) and right-hand side at a state. λ enters T and the residual.
    !>
-   !> For material_only the residual is complete too; the recursion replaces it by its own.
+   !> The residual is complete for material_only too; the recursion replaces it.
    pure subroutine assemble(suspension, state, demand, mode, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -119,7 +119,7 @@ contains
       if (mode /= residual_only) then
          do k = 1, n
             matrix(k:n, k) = 0.0_wp
-            ! diagonal 3×3 blocks are added whole, two numbers above the diagonal
+            ! diagonal 3×3 blocks are added in full, including elements above the diagonal
             if (k > 2) matrix(k - 2:k - 1, k) = 0.0_wp
             if (k == 2) matrix(1, 2) = 0.0_wp
          end do
@@ -137,7 +137,7 @@ contains
          rhs(at_j + 4:at_j + 6) = rhs(at_j + 4:at_j + 6) + value*moment
          if (mode == whole_tangent) then
             if (suspension%loads(k)%follows) then
-               ! δf = π×f: T_rπ = f̃, of which the symmetric part is half in r π and half in π r
+               ! δf = π×f: T_rπ = f̃; its symmetric part is distributed half to rπ and half to πr
                call add_block(0.5_wp*skew(force), at_j, at_j + 3, n, matrix)
             else
                call add_diagonal_block(-s_matrix(arm, force), at_j + 3, at_j, n, matrix)
@@ -218,19 +218,19 @@ contains
       end do
 
       if (mode == whole_tangent) then
-         ! screw increments: r moves by Δr + ½ Δπ×Δr + …, so that the unbalanced force g brings ½ g̃
+         ! screw increments: r moves by Δr + ½ Δπ×Δr + …, so the unbalanced force g contributes ½ g̃
          do at_j = 0, nq - 6, 6
             call add_block(-0.5_wp*skew(rhs(at_j + 1:at_j + 3)), at_j, at_j + 3, n, matrix)
          end do
       end if
    end subroutine assemble_into
 
-   !> Right-hand side for a unit of place: what the demand grows by, at a state. Solved with the factors of T it becomes
-   !> the tangent of the path [Δq; Δλ] per place.
+   !> Right-hand side for a unit of the path coordinate: the derivative of the inputs, at a state. The solution with the
+   !> factors of T is the tangent of the path, [Δq; Δλ] per unit of the path coordinate.
    pure subroutine assemble_rate(suspension, state, rate, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: rate         !! demand per place
+      type(demand_t), intent(in) :: rate         !! derivative of the inputs with the path coordinate
       type(kkt_t), intent(inout) :: kkt          !! rhs
       real(wp) :: force(3), moment(3), arm(3)
       integer :: k, at
@@ -250,7 +250,7 @@ contains
       end do
    end subroutine assemble_rate
 
-   !> What a case load is scaled by: 0 where the demand does not name it.
+   !> The scale factor of a case load: 0 if the inputs do not include it.
    pure real(wp) function load_factor(demand, load)
       type(demand_t), intent(in) :: demand
       integer, intent(in) :: load      !! number of the load
@@ -273,7 +273,7 @@ contains
 
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
    !>
-   !> A zero pivot is told by is_singular; the caller asks the diagnosis for its name.
+   !> A zero pivot sets is_singular; the caller obtains its cause from the diagnosis.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
       integer :: info
@@ -284,7 +284,7 @@ contains
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
 
-   !> D S D of the lower triangle.
+   !> Scales the lower triangle: D S D.
    pure subroutine scale_lower(n, scale, matrix)
       integer, intent(in) :: n
       real(wp), intent(in) :: scale(n)
@@ -296,10 +296,10 @@ contains
       end do
    end subroutine scale_lower
 
-   !> Negative eigenvalues, and least over largest |eigenvalue| of the block-diagonal factor.
+   !> Number of negative eigenvalues, and smallest over largest |eigenvalue| of the block-diagonal factor.
    !>
-   !> Sylvester: the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
-   !> exactly one for each constraint row.
+   !> By Sylvester's law the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
+   !> exactly one per constraint row.
    pure subroutine count_inertia(n, matrix, pivots, negative, ratio)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrix(n, n)
@@ -335,7 +335,7 @@ contains
       if (most > 0.0_wp) ratio = least/most
    end subroutine count_inertia
 
-   !> Solves with the last factors; kkt%rhs becomes [Δq; Δλ].
+   !> Solves with the last factors; on return kkt%rhs is [Δq; Δλ].
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
 
@@ -350,7 +350,7 @@ contains
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
       type(kkt_t), intent(inout) :: kkt
-      real(wp), intent(out) :: rcond             !! 0: singular; 1: as good as the unit matrix
+      real(wp), intent(out) :: rcond             !! 0: singular; 1: unit matrix
       real(wp) :: column
       integer :: i, j, info
 

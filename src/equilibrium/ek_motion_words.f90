@@ -1,4 +1,4 @@
-!> A motion of the bodies of a model in words: which bodies, along which line, through which hardpoints.
+!> Describes a motion of the bodies as text: the bodies, the line of the motion, and the hardpoints on it.
 module ek_motion_words
    use ek_kinds, only: wp
    use ek_units, only: millimetre
@@ -15,7 +15,7 @@ module ek_motion_words
 
 contains
 
-   !> ' (file:line)' or nothing.
+   !> ' (file:line)', or empty.
    pure function place(where) result(text)
       character(*), intent(in) :: where
       character(:), allocatable :: text
@@ -23,7 +23,7 @@ contains
       if (len(where) > 0) text = ' ('//where//')'
    end function place
 
-   !> Which body moves most, how, and which others go with it.
+   !> Text on the body that moves most, its motion, and the bodies that move with it.
    function motion_words(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -75,7 +75,7 @@ contains
       if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
    end function one_body_words
 
-   !> The axis with rounding dust taken off and its largest part positive.
+   !> The axis with rounding errors removed and its largest component positive.
    pure function tidy(axis) result(clean)
       real(wp), intent(in) :: axis(3)
       real(wp) :: clean(3)
@@ -97,7 +97,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: axis(3), through(3)
       character(:), allocatable :: text
-      real(wp), parameter :: near = 0.5e-3_wp     ! m: an engineer calls that the same line
+      real(wp), parameter :: near = 0.5e-3_wp     ! m: points this close count as on the line
       integer :: k, found
 
       text = ''

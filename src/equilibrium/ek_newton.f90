@@ -1,8 +1,8 @@
-!> A state of equilibrium by Newton's method, from a guess.
+!> Finds a state of equilibrium by Newton's method from an initial guess.
 !>
-!> Each iteration assembles T, factorises once, and takes one full step. When the step was already
-!> small, the same factors serve further, cheaper steps with fresh residuals, as long as each is much shorter
-!> than the one before: its length is what was still missing, so convergence is measured, not hoped for.
+!> Each iteration assembles T, factorises once, and takes one full step. After a small step, the same
+!> factors are reused for cheaper steps with new residuals, as long as each is much shorter than the one
+!> before. The length of the last step estimates the remaining error, so convergence is measured, not assumed.
 module ek_newton
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -12,12 +12,12 @@ module ek_newton
    private
    public :: outcome_t, find_equilibrium
 
-   integer, parameter :: most_iterations = 15   !! Newton is quadratic: more would not help
+   integer, parameter :: most_iterations = 15   !! Newton's method converges quadratically: more would not help
    integer, parameter :: most_chords = 4        !! steps with old factors: three cost less than one factorisation
-   real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance: what a state found with old factors may be off
-   real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with less gain new factors are cheaper
+   real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance: allowed error of a state found with old factors
+   real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with slower convergence new factors are cheaper
 
-   !> How an iteration ended.
+   !> The outcome of an iteration.
    type :: outcome_t
       logical :: is_converged = .false.
       logical :: is_singular = .false.    !! a matrix could not be factorised
@@ -42,7 +42,7 @@ contains
       integer :: iteration, chord
       logical :: is_done
 
-      ! a correction longer than a quarter of the mechanism is no correction: halve the increment
+      ! a correction longer than a quarter of the mechanism is useless: halve the increment
       largest = 0.25_wp*kkt%length + 0.05_wp
       previous = huge(previous)
       do iteration = 1, most_iterations
@@ -55,7 +55,7 @@ contains
          if (outcome%is_singular) return
          call take_step(state, kkt, huge(largest), outcome%last)
          if (iteration == 1) outcome%first = outcome%last
-         if (.not. outcome%last <= largest) return      ! also when it is not a number
+         if (.not. outcome%last <= largest) return      ! also if it is not a number
          if (outcome%last <= tolerance) exit
          if (0.5_wp*outcome%last > previous) return   ! not 2*previous: huge at first
          previous = outcome%last
@@ -66,7 +66,7 @@ contains
             call assemble(suspension, state, demand, residual_only, kkt)
             call take_step(state, kkt, before, outcome%last)
             if (.not. outcome%last <= good_chord*before) exit
-            ! the next step would be shorter in the same proportion
+            ! the next step would be shorter by the same ratio
             is_done = outcome%last**2 <= rest*tolerance*before
             if (is_done) exit
          end do
@@ -75,7 +75,7 @@ contains
       outcome%is_converged = outcome%last <= tolerance
    end subroutine find_equilibrium
 
-   !> Solves with the factors at hand, measures the step, and moves the state unless the step is too long.
+   !> Solves with the current factors, measures the step, and moves the state unless the step is too long.
    pure subroutine take_step(state, kkt, limit, length)
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
@@ -100,7 +100,7 @@ contains
       do k = 1, size(step), 6
          square = max(square, step(k)**2 + step(k + 1)**2 + step(k + 2)**2, &
             length**2*(step(k + 3)**2 + step(k + 4)**2 + step(k + 5)**2))
-         ! max() may drop a NaN: let it through
+         ! max() may drop a NaN: return it
          if (.not. step(k) + step(k + 3) < huge(square)) square = huge(square)
       end do
       step_length = sqrt(square)

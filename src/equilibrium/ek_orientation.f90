@@ -1,7 +1,7 @@
-!> Whether the joints of two states are assembled the same way round: det(Φq(a) Φq(b)ᵀ) > 0, of the rows that hold for certain.
+!> Checks that the joints of two states are in the same assembly: det(Φq(a) Φq(b)ᵀ) > 0, for the rigid rows.
 !>
-!> Where Φq loses rank between them, a row has turned over: the determinant changes its sign, while the matrix N of equilibrium
-!> keeps its inertia, for its determinant goes with the square of that of Φq. No memory is asked for after new_orientation.
+!> If Φq loses rank between them, the determinant changes sign, while the inertia of the matrix N of equilibrium is unchanged:
+!> its determinant is proportional to the square of that of Φq. No memory is allocated after new_orientation.
 module ek_orientation
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -12,7 +12,7 @@ module ek_orientation
    private
    public :: orientation_t, new_orientation, is_turned_over
 
-   !> The rows that hold for certain (those of a driver with a stiffness do not), and work space.
+   !> The rigid rows (all except drivers with a stiffness), and work space.
    type :: orientation_t
       private
       real(wp), allocatable :: rows_a(:, :), rows_b(:, :), product(:, :), unit(:, :)   !! scaled Φq
@@ -22,7 +22,7 @@ module ek_orientation
 
 contains
 
-   !> Room for a model.
+   !> Allocates the work space for a model.
    function new_orientation(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(orientation_t) :: self
@@ -47,7 +47,7 @@ contains
       end do
    end function new_orientation
 
-   !> det(Φq(a) Φq(b)ᵀ) < 0.
+   !> Whether det(Φq(a) Φq(b)ᵀ) < 0.
    logical function is_turned_over(self, suspension, state_a, state_b, demand_a, demand_b, kkt)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -74,7 +74,7 @@ contains
             end do
          end do
       end do
-      ! for the LU factors; without a right-hand side OpenBLAS would not make them
+      ! for the LU factors; without a right-hand side OpenBLAS would not compute them
       self%unit = 0.0_wp
       call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
       if (info /= 0) return
@@ -84,7 +84,7 @@ contains
       end do
    end function is_turned_over
 
-   !> Φq from the gradients of the last assembly, scaled; of the rows that hold for certain.
+   !> Scaled Φq of the rigid rows, from the gradients of the last assembly.
    pure subroutine gather_rows(self, suspension, kkt, rows)
       type(orientation_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension

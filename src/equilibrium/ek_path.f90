@@ -1,8 +1,8 @@
-!> A sweep: from design outward to either end of a case, one state after the other.
+!> A sweep: from design outward to both ends of a case, one state after the other.
 !>
-!> A state that is not found is approached by halved increments; if that fails too, the sweep in
-!> that direction ends there, and everything before it is kept. The rows of a table are states of their own:
-!> where one is not found, the next is reached from design.
+!> A state that does not converge is approached by halved increments; if that fails too, the sweep in
+!> that direction ends, and the states before it are kept. The rows of a table are independent states:
+!> if one does not converge, the next is reached from design.
 module ek_path
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
@@ -22,12 +22,12 @@ module ek_path
    private
    public :: path_t, sweep, new_path, walk, progress_procedure
 
-   real(wp), parameter :: least_step = 1.0e-9_wp      !! of the range: where a path ends is found that sharply
+   real(wp), parameter :: least_step = 1.0e-9_wp      !! of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
    real(wp), parameter :: least_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
 
    abstract interface
-      !> Told now and then how many states of how many are there.
+      !> Called at intervals with the number of states done and the total.
       subroutine progress_procedure(done, total)
          integer, intent(in) :: done, total
       end subroutine progress_procedure
@@ -43,12 +43,12 @@ module ek_path
       logical, allocatable :: is_stable(:)        !! no negative stiffness
       integer, allocatable :: iterations(:)       !! factorisations spent on a state
       real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate; where that is tiny, the true one
-      real(wp), allocatable :: settled(:)         !! packed state under the constant loads alone
+      real(wp), allocatable :: settled(:)         !! packed state under the constant loads only
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
-      logical :: is_table = .false.               !! rows of a table, each a state of its own
-      integer :: crossings = 0                    !! bifurcations that the path goes through
+      logical :: is_table = .false.               !! rows of a table, each an independent state
+      integer :: crossings = 0                    !! number of bifurcations on the path
       real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
-      integer :: limits = 0                       !! limit points, where the path is walked by its arc length; and their places
+      integer :: limits = 0                       !! number of limit points (follow = 'arc'), and their places
       real(wp) :: limit_place(2*most_limits) = 0.0_wp
       integer :: limit_state(2*most_limits) = 0   !! index of the nearest state; 0: before the range begins
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
@@ -56,7 +56,7 @@ module ek_path
 
 contains
 
-   !> Sweeps a case; failures are told by path%failure, never by stopping.
+   !> Sweeps a case; failures are returned in path%failure and never stop the program.
    subroutine sweep(suspension, case, path, kkt, progress)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -69,7 +69,7 @@ contains
       if (case%method /= 'equilibrium') call confirm_path(suspension, case, path, kkt)
    end subroutine sweep
 
-   !> States of a linear method that are not on the path from design are taken back.
+   !> Rejects states of a linear method that are not on the path from design.
    subroutine confirm_path(suspension, case, path, kkt)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -78,7 +78,7 @@ contains
       real(wp) :: least
 
       least = least_step*span(path)
-      if (path%is_table) return        ! its rows are not one path
+      if (path%is_table) return        ! its rows do not form one path
       if (path%start > 0) then
          call one_way(path%start, path%states, 1, path%failure(1))
          call one_way(path%start, 1, -1, path%failure(2))
@@ -100,9 +100,9 @@ contains
 
    end subroutine confirm_path
 
-   !> Places of all states, and room for them.
+   !> Sets the places of all states and allocates storage for them.
    !>
-   !> A range around design is walked outward in both directions, its increments shared in proportion.
+   !> A range around design is swept outward in both directions, its increments divided in proportion.
    subroutine new_path(suspension, case, path)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -111,7 +111,7 @@ contains
 
       n = case%increments
       if (case%from*case%to <= 0.0_wp) then
-         ! the half is rounded on the same side of design whichever way the case is walked
+         ! the half is rounded on the same side of design for either direction of the case
          before = nint(n*abs(min(case%from, case%to))/(abs(case%from) + abs(case%to)))
          if (case%from > case%to) before = n - before
          if (abs(case%from) > 0.0_wp) before = max(before, 1)
@@ -140,7 +140,7 @@ contains
       if (path%start == 0) path%value(n + 1) = case%to      ! not just nearly, as from + (to − from) is
    end subroutine new_path
 
-   !> Walks the whole path of new_path.
+   !> Follows the whole path of new_path.
    subroutine walk(suspension, case, path, kkt, progress)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -200,7 +200,7 @@ contains
 
    contains
 
-      !> Stores the state at hand as state k.
+      !> Stores the current state as state k.
       subroutine keep(k)
          integer, intent(in) :: k
          real(wp), parameter :: suspect = 1.0e-12_wp
@@ -221,13 +221,13 @@ contains
          end if
       end subroutine keep
 
-      !> From design to the nearer end of a range that leaves design out, in increments of the same size.
+      !> Goes from design to the nearer end of a range that excludes design, in increments of the same size.
       subroutine approach(k)
          integer, intent(in) :: k
          integer :: step, steps
          real(wp) :: size_of_one
 
-         if (is_along_arc) return      ! walk_arc goes there itself
+         if (is_along_arc) return      ! walk_arc starts at design
          size_of_one = abs(path%value(2) - path%value(1))
          steps = max(1, nint(abs(path%value(k))/size_of_one))
          call restart()
@@ -238,7 +238,7 @@ contains
          call keep(k)
       end subroutine approach
 
-      !> From row to row of a table, and from design again behind a row that is not found; `lost` is the first of those.
+      !> Goes from row to row of a table, and from design again after a row that did not converge; `lost` is the first of those.
       subroutine walk_rows(lost)
          type(failure_t), intent(inout) :: lost
          type(failure_t) :: failure
@@ -259,7 +259,7 @@ contains
          end do
       end subroutine walk_rows
 
-      !> From state `first` (known) to state `last`.
+      !> Goes from state `first` (known) to state `last`.
       subroutine walk_branch(first, last, direction, failure)
          integer, intent(in) :: first, last, direction
          type(failure_t), intent(inout) :: failure
@@ -278,7 +278,7 @@ contains
          end do
       end subroutine walk_branch
 
-      !> States `first` to `last`, at equal distances along the path; the last is left out where the path does not come there.
+      !> States `first` to `last` at equal distances along the path; the last is omitted if the path does not reach it.
       subroutine walk_arc(first, last, direction, failure)
          integer, intent(in) :: first, last, direction
          type(failure_t), intent(inout) :: failure
@@ -301,7 +301,7 @@ contains
             if (.not. is_found) exit
             state%poses(:) = arc%state%poses
             state%reaction(:) = arc%state%reaction
-            if (k /= first .and. k /= last) path%value(k) = arc%place     ! those are but for rounding
+            if (k /= first .and. k /= last) path%value(k) = arc%place     ! the ends are exact
             path%iterations(k) = arc%factorisations - spent + 1
             call keep(k)
          end do
@@ -313,7 +313,7 @@ contains
          failure%last = arc%packed_a
       end subroutine walk_arc
 
-      !> Back to the settled state, at the place where nothing is asked for.
+      !> Returns to the settled state, where all inputs are zero.
       subroutine restart()
          call unpack_state(path%settled, state)
          here = schedule%rest
@@ -324,7 +324,7 @@ contains
          call leave(branch, settled_negative)
       end subroutine restart
 
-      !> The other branch, walked before, helps to guess the first states of this one.
+      !> Uses the states of the other direction to predict the first states of this one.
       subroutine seed(first, direction)
          integer, intent(in) :: first, direction
          integer :: k, last
@@ -341,7 +341,7 @@ contains
          end do
       end subroutine seed
 
-      !> One increment to `value`, by the method of the case.
+      !> One increment to `value` with the method of the case.
       subroutine advance(value, k, failure)
          real(wp), intent(in) :: value
          integer, intent(in) :: k
@@ -369,7 +369,7 @@ contains
 
    end subroutine walk
 
-   !> The range of a path, or 1 row of a table [place].
+   !> The range of a path; for a table, 1 row [place].
    pure real(wp) function span(path)
       type(path_t), intent(in) :: path
       span = 1.0_wp

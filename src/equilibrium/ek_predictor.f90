@@ -1,31 +1,31 @@
-!> Guesses the next state from earlier ones: the polynomial through the last few, in Lagrange's form.
+!> Predicts the next state from earlier ones by a polynomial through the last few, in Lagrange's form.
 !>
-!> Positions, quaternions and reactions are all smooth along a path, so each packed number is
-!> extrapolated by itself; the quaternions are brought back to unit length afterwards. Smooth but for the places where a
-!> stop is met or a curve has a corner: behind those a polynomial through many states swings out widely. So after a guess
-!> that was not good, the number of states that would have guessed best is taken for the next one.
+!> Positions, quaternions and reactions are smooth along a path, so each packed number is extrapolated separately; the
+!> quaternions are normalised afterwards. At a stop contact or a corner of a curve the path is not smooth: beyond it a
+!> polynomial through many states oscillates. After a poor prediction, the next one therefore uses the number of states
+!> that would have predicted best.
 module ek_predictor
    use ek_kinds, only: wp
    implicit none(type, external)
    private
    public :: predictor_t, new_predictor, remember, predict, judge, forget
 
-   integer, parameter, public :: depth = 6   !! states kept; more would amplify rounding (Σ|w| = 2^depth − 1)
+   integer, parameter, public :: depth = 6   !! states stored; more would amplify rounding (Σ|w| = 2^depth − 1)
 
-   real(wp), parameter :: too_near = 1.0e-6_wp   !! of the way ahead: further on, rounding grows beyond a sound guess
+   real(wp), parameter :: too_near = 1.0e-6_wp   !! of the step ahead: closer states amplify rounding too much
 
-   !> The last states, newest first in age order through `slot`.
+   !> The last states; `slot` lists them from newest to oldest.
    type :: predictor_t
       real(wp), allocatable :: packed(:, :)   !! (coordinate, slot)
       real(wp), allocatable :: guess(:)       !! work space: one packed state
       real(wp) :: abscissa(depth) = 0.0_wp
       integer :: newest = 0, count = 0
-      integer :: trusted = depth              !! how many states to guess from
+      integer :: trusted = depth              !! number of states used for the prediction
    end type predictor_t
 
 contains
 
-   !> Room for states of `length` numbers.
+   !> Allocates storage for states of `length` numbers.
    pure function new_predictor(length) result(self)
       integer, intent(in) :: length
       type(predictor_t) :: self
@@ -40,7 +40,7 @@ contains
       self%trusted = depth
    end subroutine forget
 
-   !> Add a state at a place of the path.
+   !> Add a state at a value of the path coordinate.
    pure subroutine remember(self, abscissa, packed)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa
@@ -52,8 +52,8 @@ contains
       self%packed(:, self%newest) = packed
    end subroutine remember
 
-   !> The state expected at a place, in self%guess, from at most `most` earlier ones (the newest alone:
-   !> no change). At least one must be remembered.
+   !> Predicts the state at a value of the path coordinate, in self%guess, from at most `most` earlier ones (with
+   !> one state: no change). At least one must be stored.
    pure subroutine predict(self, abscissa, most)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa
@@ -69,8 +69,8 @@ contains
       end do
    end subroutine predict
 
-   !> Learns from a state that was found, before it is remembered: after a good guess one state more is trusted, after a
-   !> bad one as many as would have been best. `used`: how many numbers of a packed state are compared, the poses.
+   !> Adapts to a state that was found, before it is stored: after a good prediction one more state is used, after a poor
+   !> one the best number of states. `used`: the number of packed values that are compared, the poses.
    pure subroutine judge(self, abscissa, packed, used, is_good)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa
@@ -100,12 +100,12 @@ contains
          least = error
          self%trusted = n
       end do
-      ! the state itself will be one more; all that are there were best: nothing is wrong with the polynomial
+      ! the new state will be one more; if all stored states were best, the polynomial is adequate
       if (self%trusted == most) self%trusted = depth
    end subroutine judge
 
-   !> How many of the newest states can say what is at a place: those behind two that are nearly at one place, seen from
-   !> there, cannot. A range from 80 to -1e-18 has such.
+   !> How many of the newest states are fit for extrapolation: weights of states older than two nearly coincident ones
+   !> amplify rounding. A range from 80 to -1e-18 has such states.
    pure integer function usable(self, abscissa)
       type(predictor_t), intent(in) :: self
       real(wp), intent(in) :: abscissa
@@ -124,7 +124,7 @@ contains
       end do
    end function usable
 
-   !> Lagrange's weights at a place, of the newest n states, and where these are kept.
+   !> Lagrange weights of the newest n states at a value of the path coordinate, and their storage slots.
    pure subroutine find_weights(self, abscissa, n, slot, weight)
       type(predictor_t), intent(in) :: self
       real(wp), intent(in) :: abscissa

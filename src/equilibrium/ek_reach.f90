@@ -1,5 +1,5 @@
-!> Reaching an equilibrium along a path: predict, iterate, halve the way where that fails, and say what
-!> went wrong where even that does.
+!> Reaches an equilibrium along a path: predict, iterate, halve the step if that fails, and report the
+!> cause if that fails too.
 module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -14,30 +14,30 @@ module ek_reach
    private
    public :: failure_t, reach, settle
 
-   integer, parameter :: bend_halvings = 5            !! behind so many a corner of a law is taken for what it is
-   real(wp), parameter :: shortest_bend = 1.0e6_wp    !! of the least step: the longest that may go round an unknown corner
-   real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a guess that near has seen the path coming
+   integer, parameter :: bend_halvings = 5            !! after so many halvings a bend is accepted as the corner of a law
+   real(wp), parameter :: shortest_bend = 1.0e6_wp    !! of the least step: the longest step that may pass an unknown corner
+   real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a prediction this close confirms that the path is smooth
    real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
-   integer, parameter :: most_attempts = 400          !! of one increment
+   integer, parameter :: most_attempts = 400          !! per increment
 
    !> Where and how a sweep stopped.
    type :: failure_t
-      integer :: state = 0                 !! index of the state that was not found, 0: all were
-      real(wp) :: value = 0.0_wp           !! place that was last tried
+      integer :: state = 0                 !! index of the first state that did not converge, 0: none
+      real(wp) :: value = 0.0_wp           !! place of the last attempt
       real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
       logical :: is_singular = .false.
-      logical :: is_off_path = .false.     !! a linear method went on, but not along the path from design
+      logical :: is_off_path = .false.     !! a linear method continued, but not along the path from design
       integer :: ending = 0                !! how a walk by arc length ended, see ek_arc_survey; 0: it was none
-      integer :: body = 0                  !! which moved most in the failed attempt
-      real(wp) :: moved = 0.0_wp           !! how far [m]
-      integer :: row = 0                   !! constraint furthest from its value
-      real(wp) :: gap = 0.0_wp             !! by how much [m, - or rad]
+      integer :: body = 0                  !! body that moved most in the failed attempt
+      real(wp) :: moved = 0.0_wp           !! its motion [m]
+      integer :: row = 0                   !! constraint with the largest violation
+      real(wp) :: gap = 0.0_wp             !! its violation [m, - or rad]
       real(wp), allocatable :: last(:)     !! packed state of the last equilibrium
    end type failure_t
 
 contains
 
-   !> Reaches equilibrium at a place of the path from the states remembered, halving the way when needed.
+   !> Reaches equilibrium at a place of the path from the stored states, halving the step if needed.
    !>
    !> On failure `state` is the last equilibrium.
    subroutine reach(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, iterations, failure)
@@ -46,7 +46,7 @@ contains
       real(wp), intent(in) :: goal               !! place
       real(wp), intent(in) :: tolerance          !! m
       type(predictor_t), intent(inout) :: predictor
-      type(branch_t), intent(inout) :: branch    !! of the newest state remembered
+      type(branch_t), intent(inout) :: branch    !! branch of the newest stored state
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: iterations         !! factorisations spent
@@ -55,10 +55,10 @@ contains
       call follow(suspension, schedule, goal, .false., tolerance, predictor, branch, state, kkt, iterations, failure)
    end subroutine reach
 
-   !> From design to equilibrium under the constant loads and preloads alone.
+   !> Goes from design to equilibrium under the constant loads and preloads only.
    !>
-   !> Tried at once; if that fails the imbalance of the design position is let in little by little: its share is
-   !> the place on the path.
+   !> In one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
+   !> is the place on the path.
    subroutine settle(suspension, tolerance, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance          !! m
@@ -79,15 +79,15 @@ contains
       call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, branch, state, kkt, iterations, failure)
    end subroutine settle
 
-   !> Walks from the newest state remembered to the place `goal` of a path, in one step where the path allows it.
+   !> Goes from the newest stored state to the place `goal` of a path, in one step if the path allows it.
    !>
-   !> A step is halved when no equilibrium is found, or one that the path does not lead to (ek_branch); it is doubled
-   !> again behind one that was taken. What is shorter than branch%least has come to the end of the path.
+   !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
+   !> accepted step. A step shorter than branch%least means the end of the path.
    subroutine follow(suspension, schedule, goal, is_settling, tolerance, predictor, branch, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal
-      logical, intent(in) :: is_settling         !! the place is the share of the imbalance, else that of the schedule
+      logical, intent(in) :: is_settling         !! the place is the share of the imbalance; otherwise that of the schedule
       real(wp), intent(in) :: tolerance
       type(predictor_t), intent(inout) :: predictor
       type(branch_t), intent(inout) :: branch
@@ -98,7 +98,7 @@ contains
       type(demand_t) :: here_demand, demand
       type(outcome_t) :: outcome
       real(wp) :: here, place, step, bend
-      real(wp) :: before      ! place of the newest state less that of the one before it
+      real(wp) :: before      ! place of the newest state minus that of the one before it
       integer :: points, attempt, verdict, older
       real(wp) :: beyond      ! the nearest place known behind a bifurcation
       logical :: was_compared, here_is_goal, is_long, knows_beyond, is_last_try
@@ -166,7 +166,7 @@ contains
             if (is_last_try) knows_beyond = .false.
             is_last_try = .false.
          else
-            points = min(points, 2)     ! a bold guess may itself be the trouble
+            points = min(points, 2)     ! the prediction may itself be the cause
             step = 0.5_wp*(place - here)
             if (abs(step) < branch%least) then
                if (abs(goal - here) <= branch%width .and. .not. is_settling) call step_over()
@@ -225,10 +225,10 @@ contains
 
    end subroutine follow
 
-   !> The guess from earlier states came near enough, and the inertia is what it was: nothing has happened on the way.
+   !> Whether the prediction from earlier states was close and the inertia is unchanged: the path was smooth.
    logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length, is_long)
       type(predictor_t), intent(in) :: predictor     !! with the guess
-      type(state_t), intent(in) :: state             !! where Newton's method went from it
+      type(state_t), intent(in) :: state             !! result of Newton's method from it
       integer, intent(in) :: negative, negative_before
       real(wp), intent(in) :: tolerance, length      !! m
       logical, intent(out) :: is_long                !! it may yet have passed over a narrow gap of the assembly
@@ -255,7 +255,7 @@ contains
       end if
    end function is_foreseen
 
-   !> Hands an equilibrium to the predictor, and whether the guess of it was good.
+   !> Passes an equilibrium to the predictor, which also learns how good its prediction was.
    pure subroutine store(predictor, place, state, is_good)
       type(predictor_t), intent(inout) :: predictor
       real(wp), intent(in) :: place
@@ -267,8 +267,8 @@ contains
       call remember(predictor, place, predictor%guess)
    end subroutine store
 
-   !> Says which body moved most in a failed attempt, and which constraint is furthest off; `state` goes back to
-   !> the last equilibrium.
+   !> Determines which body moved most in a failed attempt and which constraint is violated most; `state` is reset
+   !> to the last equilibrium.
    subroutine blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor

@@ -9,7 +9,7 @@ module ek_recursion
    private
    public :: carry_t, start_recursion, recursive_increment, corrected_increment, check_increment
 
-   !> What the recursion hands from increment to increment: Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹ [N, N m].
+   !> The data that the recursion passes from increment to increment: Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹ [N, N m].
    type :: carry_t
       real(wp), allocatable :: pull(:)
    end type carry_t
@@ -18,7 +18,7 @@ contains
 
    !> Before the first increment: λ⁻¹ is the reaction in the design state (zero without preload).
    !>
-   !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes where the preloads
+   !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes if the preloads
    !> balance the constant loads.
    subroutine start_recursion(suspension, state, kkt, carry)
       type(suspension_t), intent(in) :: suspension
@@ -40,11 +40,11 @@ contains
    !>
    !>     [K(qⁿ) Φqᵀ; Φq −C][Δqⁿ; λⁿ] = [Δf; Δc] + [Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹; −Cλⁿ⁻¹],  K = −(19)
    !>
-   !> (the paper knows no C: that is 1/stiffness of a driver that has one, zero otherwise)
-   !> It never looks at the elastic force or at Φ(q) where the bodies are now; its bias is the paper's.
+   !> (C is not in the paper: 1/stiffness of a driver with a stiffness, zero otherwise)
+   !> It never evaluates the elastic forces or Φ(q) in the new configuration; this is a property of the paper's formula.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, carry)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: before, after     !! the demand at either end, the same things in the same order
+      type(demand_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(carry_t), intent(inout) :: carry
@@ -64,7 +64,7 @@ contains
       call move(state, kkt%rhs(:kkt%nq))
    end subroutine recursive_increment
 
-   !> One full Newton step towards the next demand, once per increment: same matrix size, one solve.
+   !> One full Newton step towards the next inputs, once per increment: same matrix size, one solution.
    !>
    !>     [T Φqᵀ; Φq 0][Δq; Δλ] = [f_ext(Fₙ₊₁, qⁿ) − f_el(qⁿ) − Φqᵀλⁿ; cₙ₊₁ − Φ(qⁿ)]
    pure subroutine corrected_increment(suspension, after, state, kkt)
@@ -100,13 +100,13 @@ contains
       end do
    end subroutine gather
 
-   !> An increment of the linear methods has failed when the matrix was singular or a body flew away.
+   !> An increment of the linear methods has failed if the matrix was singular or a body moved too far.
    subroutine check_increment(kkt, state_number, before, value, failure)
       type(kkt_t), intent(in) :: kkt
       integer, intent(in) :: state_number
       real(wp), intent(in) :: before, value      !! place at either end of the increment
       type(failure_t), intent(inout) :: failure
-      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, in one increment least of all
+      real(wp), parameter :: far = 3.0_wp        ! m: no suspension moves that far, certainly not in one increment
       real(wp) :: moved
       integer :: k
 

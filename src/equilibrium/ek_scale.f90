@@ -1,9 +1,9 @@
-!> The scale of a model: a length and a stiffness that are typical of it, and from them the scaling of the system.
+!> The scale of a model: a characteristic length and stiffness, and the scaling of the system derived from them.
 !>
 !>     D S D     with D = 1/√k for Δr, 1/(L√k) for Δπ, √k for rows in metres, L√k for rows between directions
 !>
-!> L [m] and k [N/m] make all blocks of the matrix of the order of one, so that pivots and condition mean the same
-!> whatever the size of the model. Rounded to powers of two: the scaling is then exact.
+!> With L [m] and k [N/m] all blocks of the matrix are of order one, so that pivots and condition numbers are independent of
+!> the size of the model. D is rounded to powers of two, which makes the scaling exact.
 module ek_scale
    use ek_kinds, only: wp
    use ek_measure, only: axis_axis, rotation
@@ -21,12 +21,12 @@ contains
    subroutine characteristic(suspension, length, stiffness)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm
-      real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil where nothing is elastic
+      real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil spring if nothing is elastic
       real(wp) :: sum_log, least, tension, slope, rates(6)
-      real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil, for a model that nothing elastic holds
+      real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil spring, for a model without elastic elements
       integer :: k, count, axis
 
-      least = 1.0e-3_wp     ! a model of points all in one place still needs a length: 1 mm
+      least = 1.0e-3_wp     ! a model whose points all coincide still needs a length: 1 mm
       length = 0.0_wp
       count = 0
       do k = 1, size(suspension%terms)
@@ -47,7 +47,7 @@ contains
       count = 0
       do k = 1, size(suspension%springs)
          if (suspension%springs(k)%kind /= axial_spring .and. suspension%springs(k)%kind /= measure_spring) cycle
-         if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and bars hold no wheel at design
+         if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and anti-roll bars carry no wheel at design
          call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
          call include_rate(slope)
       end do
@@ -63,7 +63,7 @@ contains
 
    contains
 
-      !> A model that nothing but torsion springs and rubber in rotation holds.
+      !> The stiffness of a model with torsion springs and rotational bushing rates only.
       subroutine include_angles()
          integer :: k, axis
 
@@ -95,11 +95,11 @@ contains
 
    end subroutine characteristic
 
-   !> D of a model: six numbers a body, then one a row of Φ.
+   !> D of a model: six numbers per body, then one per row of Φ.
    pure subroutine scale_factors(suspension, length, stiffness, scale)
       type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: length, stiffness     !! of `characteristic`
-      real(wp), intent(out) :: scale(:)             !! of as many numbers as the system has unknowns and rows
+      real(wp), intent(in) :: length, stiffness     !! from `characteristic`
+      real(wp), intent(out) :: scale(:)             !! length: unknowns + rows of the system
       integer :: nq, k
 
       nq = suspension%unknowns()

@@ -1,7 +1,7 @@
-!> What a case asks for at every place of its path: which loads and which rows, and how far.
+!> The inputs of a case along its path: which loads and rows, and their values.
 !>
-!> A place is one number: the factor of a load, the travel of a wheel, the roll angle, or the row of a
-!> table. Everything a case drives follows it by a law of its own.
+!> The path coordinate (place) is one number, the swept value: the factor of a load, the travel of a wheel, the roll angle,
+!> or the row number of a table. Each actuation of a case is a function of it.
 module ek_schedule
    use ek_kinds, only: wp
    use ek_case, only: case_t, course_t, follows_tangent, follows_table
@@ -11,17 +11,17 @@ module ek_schedule
    private
    public :: schedule_t, new_schedule, demand_at
 
-   !> The courses of a case with their names looked up.
+   !> The actuations of a case, with their names resolved.
    type :: schedule_t
       integer :: loads = 0, rows = 0
-      integer :: rest = 0               !! the row of a table that stands for nothing at all: the next is reached from there
-      integer :: load(most_driven) = 0, row(most_driven) = 0     !! numbers in the suspension
+      integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
+      integer :: load(most_driven) = 0, row(most_driven) = 0     !! their numbers in the suspension
       type(course_t), allocatable :: load_course(:), row_course(:)
    end type schedule_t
 
 contains
 
-   !> Looks up what a case drives. The suspension holds all its loads and rows already (see ek_rig).
+   !> Resolves the names of the actuations of a case. The suspension must already contain all loads and rows (see ek_rig).
    function new_schedule(suspension, case) result(schedule)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -62,7 +62,7 @@ contains
 
    end function new_schedule
 
-   !> The demand at a place.
+   !> The inputs at a value of the path coordinate.
    pure subroutine demand_at(schedule, place, demand)
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: place
@@ -81,8 +81,8 @@ contains
       end do
    end subroutine demand_at
 
-   !> share × place, share × tan(place), or the table's value there: linear between its rows, and from 0 at
-   !> place `rest` to the row behind it (at first from place 0 to row 1).
+   !> share × place, share × tan(place), or the value of the table: linear between its rows, and from 0 at
+   !> place `rest` to the next row (initially from place 0 to row 1).
    pure real(wp) function value_at(course, place, rest) result(value)
       type(course_t), intent(in) :: course
       real(wp), intent(in) :: place

@@ -1,4 +1,4 @@
-!> A state of a suspension (where the bodies are, what the joints take) and what is demanded of it.
+!> A state of a suspension (poses of the bodies and reactions of the joints) and the inputs to it.
 module ek_state
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
@@ -9,31 +9,31 @@ module ek_state
    public :: state_t, demand_t, most_driven, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
    public :: demand_rate, motion_between
 
-   integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads a wheel and some more
+   integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
 
-   !> Poses of bodies 0 … n (index 1 is the chassis, which never moves) and the reactions λ.
+   !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
    type :: state_t
       type(pose_t), allocatable :: poses(:)
-      real(wp), allocatable :: reaction(:)   !! λ, one a constraint row [N, or N m for a row without length]
+      real(wp), allocatable :: reaction(:)   !! λ, one per constraint row [N, or N m for a row without length]
    end type state_t
 
-   !> What the surroundings ask for at one state: scaled loads and prescribed values, besides the constant
-   !> loads. Of fixed size, so that handing it on costs no memory.
+   !> The inputs of one state: scaled loads and prescribed values, in addition to the constant loads. The size
+   !> is fixed, so that passing it allocates no memory.
    type :: demand_t
-      integer :: loads = 0, rows = 0               !! how many of each
+      integer :: loads = 0, rows = 0               !! number of each
       integer :: load(most_driven) = 0             !! numbers of the scaled loads
       integer :: row(most_driven) = 0              !! numbers of the driven constraint rows
       real(wp) :: factor(most_driven) = 0.0_wp     !! of each load [-]
       real(wp) :: change(most_driven) = 0.0_wp     !! of each row's value [m, rad]
-      real(wp) :: relief = 0.0_wp       !! share of the design imbalance taken away, 1 at design, 0 in truth
+      real(wp) :: relief = 0.0_wp       !! homotopy: share of the design imbalance removed, 1 at design, 0 in the real problem
    end type demand_t
 
 contains
 
-   !> What two demands of the same things differ by, per place.
+   !> The difference of two sets of inputs of the same items, per unit of the path coordinate.
    pure function demand_rate(a, b, width) result(rate)
       type(demand_t), intent(in) :: a, b
-      real(wp), intent(in) :: width      !! place of b less that of a; not 0
+      real(wp), intent(in) :: width      !! place of b minus place of a; not 0
       type(demand_t) :: rate
 
       rate = b
@@ -42,7 +42,7 @@ contains
       rate%relief = (b%relief - a%relief)/width
    end function demand_rate
 
-   !> The motion of every body from one state to another: Δr of its reference point, and its rotation vector, global axes.
+   !> The motion of every body between two states: Δr of its reference point, and its rotation vector, global axes.
    pure subroutine motion_between(a, b, motion)
       type(state_t), intent(in) :: a, b
       real(wp), contiguous, intent(out) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
@@ -70,13 +70,13 @@ contains
       allocate (state%reaction(suspension%constraints()), source=0.0_wp)
    end function design_state
 
-   !> Length of a packed state: 7 numbers a body and the reactions.
+   !> Length of a packed state: 7 numbers per body, and the reactions.
    pure integer function coordinates(suspension)
       type(suspension_t), intent(in) :: suspension
       coordinates = 7*size(suspension%bodies) + suspension%constraints()
    end function coordinates
 
-   !> [r, q] of each body, then λ.
+   !> Packs a state: [r, q] of each body, then λ.
    pure subroutine pack_state(state, packed)
       type(state_t), intent(in) :: state
       real(wp), contiguous, intent(out) :: packed(:)
@@ -91,7 +91,7 @@ contains
       packed(at + 1:) = state%reaction
    end subroutine pack_state
 
-   !> Back from packed numbers; quaternions are brought to unit length.
+   !> Unpacks a state; quaternions are normalised.
    pure subroutine unpack_state(packed, state)
       real(wp), contiguous, intent(in) :: packed(:)
       type(state_t), intent(inout) :: state
@@ -130,8 +130,8 @@ contains
    !>
    !>     r ← r + V(Δπ) Δr,   V = I + (1 − cos θ)/θ² Δπ̃ + (θ − sin θ)/θ³ Δπ̃²,   A ← exp(Δπ̃) A
    !>
-   !> Agrees with `move` to first order. Other than there, it does not matter which point of the body
-   !> is its reference: a twist and its exponential belong to the body, not to a point.
+   !> Agrees with `move` to first order. In contrast to `move`, the result does not depend on the reference
+   !> point of the body: a twist and its exponential belong to the body, not to a point.
    pure subroutine move_as_screw(state, step)
       type(state_t), intent(inout) :: state
       real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]

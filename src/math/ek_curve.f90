@@ -1,15 +1,15 @@
-!> A curve through points: the law of a rubber, a progressive spring, a bump stop.
+!> A curve through points: the law of a rubber bushing, a progressive spring or a bump stop.
 !>
-!> Piecewise cubics y = c1 + c2 t + c3 t² + c4 t³, t = x − x_k, between the points; a straight line with the end slope
-!> beyond them. The kinds differ in the slopes d_k at the points only (`linear` has two at each, left and right):
+!> Between the points: piecewise cubics y = c1 + c2 t + c3 t² + c4 t³, t = x − x_k. Beyond them: a straight line with the
+!> end slope. The kinds differ only in the slopes d_k at the points (`linear` has two at each point, left and right):
 !>
 !> | kind   | slopes                                                              | smooth |
 !> |--------|---------------------------------------------------------------------|--------|
-!> | linear | those of the chords; corners stay corners                           | C0     |
+!> | linear | slopes of the chords; corners are kept                              | C0     |
 !> | akima  | weighted means of neighbouring chords: H. Akima, J. ACM 17 (1970) 589–602 | C1 |
-!> | cubic  | natural spline: no curvature at the ends, so that the straight continuation fits | C2 |
+!> | cubic  | natural spline: zero curvature at the ends, continuous with the straight line | C2 |
 !>
-!> Akima's follows five points at a time: no waves from a corner far away, and flat data stay flat.
+!> An Akima curve depends on five neighbouring points: a distant corner causes no oscillation, and flat data stay flat.
 module ek_curve
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -18,7 +18,7 @@ module ek_curve
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
 
-   !> Units: those of its points.
+   !> A curve, in the units of its points.
    type :: curve_t
       character(:), allocatable :: name            !! for messages; may be unallocated
       real(wp), allocatable :: breaks(:)           !! x of the n points, increasing
@@ -68,7 +68,7 @@ contains
       curve%end_slope = right(n - 1)
    end function new_curve
 
-   !> The same curve in other units: x times x_unit, y times y_unit, both above 0.
+   !> The same curve in other units: x is multiplied by x_unit and y by y_unit, both above 0.
    pure function scaled_curve(curve, x_unit, y_unit) result(scaled)
       type(curve_t), intent(in) :: curve
       real(wp), intent(in) :: x_unit, y_unit
@@ -85,7 +85,7 @@ contains
       scaled%end_slope = curve%end_slope*(y_unit/x_unit)
    end function scaled_curve
 
-   !> Value and slope at a place; at a corner of a linear curve the slope is that to the right.
+   !> Value and slope at x; at a corner of a linear curve, the slope to the right.
    pure subroutine look_up_curve(curve, x, value, slope)
       type(curve_t), intent(in) :: curve
       real(wp), intent(in) :: x
@@ -172,14 +172,14 @@ contains
       end do
    end function piece_of
 
-   !> ∫ of a piece from its beginning over a length t.
+   !> ∫ y dx of a piece from its start over a length t.
    pure real(wp) function piece_area(c, t) result(area)
       real(wp), intent(in) :: c(4), t
       area = t*(c(1) + t*(c(2)/2 + t*(c(3)/3 + t*(c(4)/4))))
    end function piece_area
 
    !> Akima (1970), eqs. 1, 8 and 9: d = (|m4 − m3| m2 + |m2 − m1| m3)/(|m4 − m3| + |m2 − m1|), m1 … m4 the two chords
-   !> on either side; where both differences vanish, the mean of m2 and m3. Two chords more are made up beyond each end.
+   !> on either side; if both differences vanish, the mean of m2 and m3. Two chords are extrapolated beyond each end.
    pure function akima_slopes(chord) result(slope)
       real(wp), intent(in) :: chord(:)
       real(wp) :: slope(size(chord) + 1), m(-1:size(chord) + 2), before, after, least
@@ -187,12 +187,12 @@ contains
 
       n = size(chord)
       m(1:n) = chord
-      ! a parabola through the last three points, continued; with two points the line
+      ! extrapolation of the parabola through the last three points; with two points, of the line
       m(0) = 2.0_wp*m(1) - m(min(2, n))
       m(-1) = 2.0_wp*m(0) - m(1)
       m(n + 1) = 2.0_wp*m(n) - m(max(n - 1, 1))
       m(n + 2) = 2.0_wp*m(n + 1) - m(n)
-      least = 1.0e-9_wp*maxval(abs(m))     ! chords that differ by rounding are alike
+      least = 1.0e-9_wp*maxval(abs(m))     ! chords that differ only by rounding count as equal
       do k = 1, n + 1
          before = abs(m(k - 1) - m(k - 2))
          after = abs(m(k + 1) - m(k))
@@ -204,12 +204,12 @@ contains
       end do
    end function akima_slopes
 
-   !> Slopes of the natural cubic spline: continuous curvature, none at the ends.
+   !> Slopes of the natural cubic spline: continuous curvature, zero at the ends.
    !>
    !>     d_{k−1}/h_{k−1} + 2 d_k (1/h_{k−1} + 1/h_k) + d_{k+1}/h_k = 3 (m_{k−1}/h_{k−1} + m_k/h_k)
    !>
-   !> and 2 d_1 + d_2 = 3 m_1 at the first point, alike at the last; tridiagonal, solved without pivoting as the
-   !> diagonal dominates.
+   !> and 2 d_1 + d_2 = 3 m_1 at the first point, likewise at the last; the tridiagonal system is diagonally dominant and
+   !> solved without pivoting.
    pure function natural_slopes(x, chord) result(slope)
       real(wp), intent(in) :: x(:), chord(:)
       real(wp) :: slope(size(x)), diagonal(size(x)), inverse(size(chord)), factor

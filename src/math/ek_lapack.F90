@@ -1,11 +1,11 @@
-!> The LAPACK routines in use, with floating-point traps kept to our own code.
+!> The LAPACK routines in use, with floating-point traps restricted to our own code.
 !>
-!> In a build whose compiler traps invalid operations (EK_TRAPS, the debug preset) each routine is wrapped: no trap while the
-!> library computes. Vector kernels compute on lanes that nobody reads: the SSE3 dsymv of OpenBLAS, taken on a processor that it
-!> does not know, ends a program with traps by SIGFPE on sound numbers. Elsewhere the names are the routines themselves, at no cost.
+!> In a build that traps invalid operations (EK_TRAPS, the debug preset) each routine is wrapped so that no trap is active
+!> inside the library. Vector kernels also compute on unused lanes: the SSE3 dsymv of OpenBLAS, its fallback for unknown
+!> processors, raises SIGFPE on valid numbers. In other builds the names refer to the routines directly, at no cost.
 !>
-!> A wrapper changes the halting modes, and the processor restores them when it returns (Fortran 2018, 17.6). Flags that the
-!> library raised are cleared before, or they would trap as modes are restored.
+!> A wrapper changes the halting modes, which are restored on return (Fortran 2018, 17.6). Flags raised by the library are
+!> cleared first, as they would otherwise trap when the modes are restored.
 module ek_lapack
 #ifdef EK_TRAPS
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
@@ -137,7 +137,7 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgeqp3
 
-   !> Least squares of least norm, any rank.
+   !> Minimum-norm least squares, any rank.
    pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
       integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
       real(wp), intent(inout) :: a(lda, *), b(ldb, *)

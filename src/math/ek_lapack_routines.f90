@@ -1,6 +1,6 @@
-!> Explicit interfaces to the LAPACK routines in use: argument mistakes are found by the compiler.
+!> Explicit interfaces to the LAPACK routines in use, so that the compiler detects argument mistakes.
 !>
-!> To be called through ek_lapack, which keeps floating-point traps out of the library.
+!> Call them through ek_lapack, which disables floating-point traps inside the library.
 module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -106,7 +106,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgeqp3
 
-      !> Least squares of least norm, any rank.
+      !> Minimum-norm least squares, any rank.
       pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
          import :: wp
          implicit none(type, external)

@@ -1,7 +1,7 @@
 !> Small rotations and vectors: quaternions (scalar first), rotation vectors, skew matrices.
 !>
-!> A unit quaternion q = (cos φ/2, n sin φ/2) carries the rotation matrix A(q) that maps
-!> body axes to global axes. Products follow A(p⊗q) = A(p) A(q).
+!> A unit quaternion q = (cos φ/2, n sin φ/2) represents the rotation matrix A(q), which maps
+!> body axes to global axes. Products satisfy A(p⊗q) = A(p) A(q).
 module ek_rotation
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -33,15 +33,15 @@ contains
       matrix(:, 3) = [p(2), -p(1), 0.0_wp]
    end function skew
 
-   !> v/|v|; v must not be zero (checked where it enters).
+   !> v/|v|; v must not be zero (checked by the reader).
    pure function unit_vector(v) result(u)
       real(wp), intent(in) :: v(3)
       real(wp) :: u(3)
       u = v/norm2(v)
    end function unit_vector
 
-   !> A unit vector across z, chosen deterministically: the global axis least along z,
-   !> made perpendicular to it.
+   !> A unit vector perpendicular to z, chosen deterministically: the global axis with the smallest
+   !> component along z, made perpendicular to it.
    pure function perpendicular(z) result(x)
       real(wp), intent(in) :: z(3)   !! unit vector
       real(wp) :: x(3)
@@ -80,8 +80,8 @@ contains
       end if
    end function quaternion_of_vector
 
-   !> exp(ṽ) applied on the left of q, then brought back to unit length: rounding never
-   !> accumulates, over any number of increments.
+   !> exp(ṽ) applied on the left of q, then normalised, so that rounding does not accumulate
+   !> over any number of increments.
    pure function rotate_quaternion(v, q) result(turned)
       real(wp), intent(in) :: v(3)     !! rotation vector, global axes [rad]
       real(wp), intent(in) :: q(4)

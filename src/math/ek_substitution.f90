@@ -1,8 +1,8 @@
-!> The solve behind a factorisation P L D Lᵀ Pᵀ of LAPACK's dsytrf, for one right-hand side.
+!> The solution with the factors P L D Lᵀ Pᵀ of LAPACK's dsytrf, for one right-hand side.
 !>
-!> LAPACK's own dsytrs makes two calls of BLAS for every column; at the few dozen unknowns of a suspension the calls
-!> cost more than the arithmetic: 2.3 against 0.8 µs at 27 unknowns, 8 against 4 at 85. This is the same algorithm in
-!> plain loops. For many right-hand sides dsytrs is the better one.
+!> LAPACK's dsytrs makes two BLAS calls per column; at the few dozen unknowns of a suspension these calls cost more than
+!> the arithmetic: 2.3 against 0.8 µs at 27 unknowns, 8 against 4 at 85. This is the same algorithm in plain loops. For
+!> many right-hand sides dsytrs is faster.
 module ek_substitution
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -13,8 +13,8 @@ contains
 
    !> x ← A⁻¹ x with the factors and pivots of dsytrf('L', …), info = 0.
    !>
-   !> Column k of `factors` holds that of L below the diagonal; a pair with pivots(k) = pivots(k+1) < 0 has a 2 × 2 block
-   !> of D, of which factors(k+1, k) is the off-diagonal element.
+   !> Column k of `factors` holds column k of L below the diagonal; a pair with pivots(k) = pivots(k+1) < 0 has a 2 × 2 block
+   !> of D, whose off-diagonal element is factors(k+1, k).
    pure subroutine substitute(n, factors, pivots, x)
       integer, intent(in) :: n
       real(wp), intent(in) :: factors(n, n)
@@ -34,7 +34,7 @@ contains
          else
             call swap(n, x, k + 1, -pivots(k))
             x(k + 2:n) = x(k + 2:n) - factors(k + 2:n, k)*x(k) - factors(k + 2:n, k + 1)*x(k + 1)
-            ! the block over its off-diagonal element, which is the largest: no overflow
+            ! divide the block by its off-diagonal element, the largest, to avoid overflow
             upper = factors(k, k)/factors(k + 1, k)
             lower = factors(k + 1, k + 1)/factors(k + 1, k)
             determinant = upper*lower - 1.0_wp
@@ -72,7 +72,7 @@ contains
       x(j) = kept
    end subroutine swap
 
-   !> Σ a b in eight partial sums, which the compiler may add side by side.
+   !> Σ a b in eight partial sums, which the compiler can vectorise.
    pure real(wp) function product_sum(n, a, b) result(total)
       integer, intent(in) :: n
       real(wp), intent(in) :: a(n), b(n)

@@ -1,5 +1,5 @@
-!> One thread for the linear algebra: matrices of this size gain nothing from more, and OpenBLAS's second
-!> thread, once woken, spins on a processor that another job of a batch queue could use. See also src/ek_one_thread.f90.
+!> One thread for the linear algebra: matrices of this size gain nothing from more, and a second thread of OpenBLAS,
+!> once active, occupies a processor that another job of a batch queue could use. See also src/ek_one_thread.f90.
 module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use ek_kinds, only: i8
@@ -9,8 +9,8 @@ module ek_threads
    private
    public :: use_one_thread
 
-   !> Bytes of the work space that OpenBLAS asks for with its first call, 128 MB and a little. It asks for ever where it
-   !> does not get them.
+   !> Bytes of the work space that OpenBLAS allocates at its first call, slightly more than 128 MB. If the allocation fails,
+   !> OpenBLAS retries forever.
    integer(i8), parameter :: work_space = 2_i8**27 + 2_i8**22
 
    abstract interface
@@ -22,7 +22,7 @@ module ek_threads
    end interface
 
    interface
-      !> Address of a symbol in what is loaded (handle null: anywhere).
+      !> Address of a loaded symbol (null handle: search everywhere).
       type(c_funptr) function dlsym(handle, name) bind(c, name='dlsym')
          import :: c_char, c_funptr, c_ptr
          implicit none(type, external)
@@ -33,7 +33,7 @@ module ek_threads
 
 contains
 
-   !> Tells OpenBLAS, if that is the library this process runs with; another has no such switch, and no such work space.
+   !> Sets one thread in OpenBLAS, if it is the loaded library; other libraries have neither this function nor the work space.
    subroutine use_one_thread(error)
       type(error_t), allocatable, intent(out) :: error        !! exit_file: too little memory for it
       type(c_funptr) :: address

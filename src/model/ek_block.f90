@@ -1,7 +1,7 @@
 !> Adding 3×3 blocks to the lower triangle of a matrix of bodies, six unknowns each: [Δr Δπ].
 !>
-!> `at` counts the unknowns before a block, `at_i` those before body i; negative: the chassis, which has none.
-!> Diagonal blocks are added whole, for the sake of straight code; what lies above the diagonal is never read.
+!> `at` is the number of unknowns before a block, `at_i` the number before body i; a negative value means the chassis, which
+!> has no unknowns. Diagonal blocks are added as full 3×3 blocks for simplicity; the part above the diagonal is never read.
 module ek_block
    use ek_kinds, only: wp
    use ek_rotation, only: cross
@@ -73,7 +73,7 @@ contains
          call add_block(-m, at_i, at_j, ld, matrix)
          call add_block(mb, at_i, at_j + 3, ld, matrix)
          call add_block(x, at_i + 3, at_j + 3, ld, matrix)
-         x = transpose(ma)      ! handed over as an expression, gfortran would put it on the heap
+         x = transpose(ma)      ! passed as an expression, gfortran would allocate it on the heap
          call add_block(x, at_i + 3, at_j, ld, matrix)
       end if
    end subroutine add_link_stiffness
@@ -99,7 +99,7 @@ contains
       call add_block(dyad_rest(b, f), at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_gap_hessian
 
-   !> matrix(at+1:at+3, at+1:at+3) += block, nothing when the body has no unknowns.
+   !> matrix(at+1:at+3, at+1:at+3) += block; no action if the body has no unknowns.
    pure subroutine add_diagonal_block(block, at, body_at, ld, matrix)
       real(wp), intent(in) :: block(3, 3)
       integer, intent(in) :: at, body_at, ld

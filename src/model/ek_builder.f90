@@ -1,5 +1,5 @@
-!> Makes a suspension, part by part: the `add_*` procedures in any order (measures before the joints that use them),
-!> then `complete` of ek_completion. Points are design positions, global, SI; `complete` turns them into arms.
+!> Builds a suspension part by part: call the `add_*` procedures in any order (measures before the joints that use them),
+!> then `complete` of ek_completion. Points are design positions in global axes, SI; `complete` converts them to arms.
 module ek_builder
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, global_gap
@@ -14,7 +14,7 @@ module ek_builder
 
 contains
 
-   !> A body; without `origin` its reference point will be the mean of its attachment points.
+   !> Add a body; without `origin` its reference point is the mean of its attachment points.
    pure subroutine add_body(self, name, where, origin, mass, centre)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
@@ -33,12 +33,12 @@ contains
       self%bodies = [self%bodies, body]
    end subroutine add_body
 
-   !> A named hardpoint, for the words of `check`: elements bring points of their own.
+   !> Add a named hardpoint, used in the messages of `check`; elements store their own points.
    pure subroutine add_point(self, name, where, at, is_used)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
       real(wp), intent(in) :: at(3)      !! m
-      logical, intent(in) :: is_used     !! something in the deck names it
+      logical, intent(in) :: is_used     !! an element of the deck refers to it
       type(point_t) :: point
 
       point%name = name
@@ -49,7 +49,7 @@ contains
       self%points = [self%points, point]
    end subroutine add_point
 
-   !> Any joint that is made from geometry (all but driver and coupler).
+   !> Add a joint that is defined by geometry (all types except driver and coupler).
    subroutine add_joint(self, name, where, kind, geometry)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where, kind
@@ -62,7 +62,7 @@ contains
       self%joints(size(self%joints))%arm_j = geometry%point_j
    end subroutine add_joint
 
-   !> A driver: readout number `readout` = its design value + what the case prescribes, + λ/stiffness if that is given.
+   !> Add a driver: readout = its design value + the change prescribed by the case (+ λ/stiffness if a stiffness is given).
    pure subroutine add_driver(self, name, where, readout, stiffness)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
@@ -77,7 +77,7 @@ contains
       self%joints(size(self%joints))%is_of_measures = .true.
    end subroutine add_driver
 
-   !> A coupler: Σ ratio × readout = its design value.
+   !> Add a coupler: Σ ratio × readout = its design value.
    pure subroutine add_coupler(self, name, where, readouts, ratios)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
@@ -95,8 +95,8 @@ contains
       self%joints(size(self%joints))%is_of_measures = .true.
    end subroutine add_coupler
 
-   !> A driver of the height of a wheel's centre against the body, joint name 'wheel_travel'; on a
-   !> completed model. Its value is the wheel travel [m].
+   !> Add a driver of the height of a wheel centre relative to the vehicle body, joint name 'wheel_travel', to a completed
+   !> model. Its value is the wheel travel [m].
    pure subroutine add_travel_driver(self, wheel)
       type(suspension_t), intent(inout) :: self
       integer, intent(in) :: wheel
@@ -104,17 +104,17 @@ contains
       call add_height_driver(self, 'wheel_travel', self%wheels(wheel)%where, [wheel], [1.0_wp], .false.)
    end subroutine add_travel_driver
 
-   !> A driver of Σ sign × height against the body, of wheel centres or of contact patches; on a completed
-   !> model. Its value is the change from design [m]. It belongs to the rig, not to the suspension.
-   !> Given the rates of the tyres, it is the road that is driven: the patches give way to their loads by the tyres, so
-   !> that Σ sign × height = value + λ Σ sign²/rate.
+   !> Add a driver of Σ sign × height relative to the vehicle body, of wheel centres or contact patches, to a completed model.
+   !> Its value is the change from design [m]. It belongs to the rig, not to the suspension.
+   !> With tyre rates given, the road is driven: the tyres deflect under the loads at the patches, so that
+   !> Σ sign × height = value + λ Σ sign²/rate.
    pure subroutine add_height_driver(self, name, where, wheels, signs, is_at_patch, tyre_rate)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where
       integer, intent(in) :: wheels(:)
-      real(wp), intent(in) :: signs(:)         !! one a wheel
+      real(wp), intent(in) :: signs(:)         !! one per wheel
       logical, intent(in) :: is_at_patch
-      real(wp), intent(in), optional :: tyre_rate(:)   !! of each of the wheels, above 0 [N/m]
+      real(wp), intent(in), optional :: tyre_rate(:)   !! of each wheel, above 0 [N/m]
       type(term_t) :: terms(size(wheels))
       real(wp) :: arm(3)
       integer :: k
@@ -137,7 +137,7 @@ contains
       end associate
    end subroutine add_height_driver
 
-   !> A joint with its terms: terms_of_row says how many of them make each row.
+   !> Append a joint with its terms; terms_of_row gives the number of terms in each row.
    pure subroutine append_joint(self, name, where, kind, terms, terms_of_row, is_driver)
       type(suspension_t), intent(inout) :: self
       character(*), intent(in) :: name, where, kind
@@ -170,7 +170,7 @@ contains
       self%joints = [self%joints, joint]
    end subroutine append_joint
 
-   !> A spring between two design points (global; `complete` makes them arms).
+   !> Add a spring between two design points (global; `complete` converts them to arms).
    !> free_length > 0 sets the preload from the design length.
    pure subroutine add_spring(self, name, where, body_i, body_j, point_i, point_j, rate, preload, free_length)
       type(suspension_t), intent(inout) :: self
@@ -184,7 +184,7 @@ contains
       call add_element(self, new_spring(name, where, body_i, body_j, point_i, point_j, rate, preload, free_length))
    end subroutine add_spring
 
-   !> Any element of one measure: new_spring, new_damper, new_stop, new_torsion or new_measure_spring of ek_spring.
+   !> Add an element on one measure, made by new_spring, new_damper, new_stop, new_torsion or new_measure_spring of ek_spring.
    pure subroutine add_element(self, element)
       type(suspension_t), intent(inout) :: self
       type(spring_t), intent(in) :: element
@@ -193,7 +193,7 @@ contains
       self%springs = [self%springs, element]
    end subroutine add_element
 
-   !> A bushing: everything set by the caller but the derived parts; arms as design points.
+   !> Add a bushing. The caller sets all components except the derived ones; arms are given as design points.
    pure subroutine add_bushing(self, bushing)
       type(suspension_t), intent(inout) :: self
       type(bushing_t), intent(in) :: bushing
@@ -202,7 +202,7 @@ contains
       self%bushings = [self%bushings, bushing]
    end subroutine add_bushing
 
-   !> A load; arm as design point.
+   !> Add a load; its arm is given as a design point.
    pure subroutine add_load(self, load)
       type(suspension_t), intent(inout) :: self
       type(load_t), intent(in) :: load
@@ -211,9 +211,9 @@ contains
       self%loads = [self%loads, load]
    end subroutine add_load
 
-   !> The weight of every body with a mass, as a constant load at its centre of gravity; on design points.
+   !> Add the weight of every body with a mass as a constant load at its centre of gravity, given as a design point.
    !>
-   !> Its name has blanks, so that it is never one of the deck's.
+   !> Its name contains blanks, so that it cannot coincide with a name in the deck.
    pure subroutine add_gravity(self, gravity)
       type(suspension_t), intent(inout) :: self
       real(wp), intent(in) :: gravity       !! m/s², acts along −z
@@ -234,7 +234,7 @@ contains
       end do
    end subroutine add_gravity
 
-   !> A wheel; centre, contact and steer axis as design points.
+   !> Add a wheel; centre, contact and steer axis are given as design points.
    pure subroutine add_wheel(self, wheel)
       type(suspension_t), intent(inout) :: self
       type(wheel_t), intent(in) :: wheel
@@ -243,7 +243,7 @@ contains
       self%wheels = [self%wheels, wheel]
    end subroutine add_wheel
 
-   !> A named measure; arms as design points. Before the drivers and couplers that use it.
+   !> Add a named measure, before the drivers and couplers that use it; its arms are given as design points.
    pure subroutine add_readout(self, readout)
       type(suspension_t), intent(inout) :: self
       type(readout_t), intent(in) :: readout

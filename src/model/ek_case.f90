@@ -1,4 +1,4 @@
-!> A load case: something is driven from one place to another in increments.
+!> A load case: a load or a driven value goes from one value to another in increments.
 module ek_case
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -8,14 +8,14 @@ module ek_case
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
-   integer, parameter :: most_increments = 1000000   !! a state takes about 3 kB on its way to the file
+   integer, parameter :: most_increments = 1000000   !! a state needs about 3 kB of memory
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
 
-   integer, parameter :: follows_place = 1     !! share × place
-   integer, parameter :: follows_tangent = 2   !! share × tan(place): heights of an axle that rolls
-   integer, parameter :: follows_table = 3     !! the value in row `place` of a table
+   integer, parameter :: follows_place = 1     !! share × swept value
+   integer, parameter :: follows_tangent = 2   !! share × tan(swept value): heights of a rolling axle
+   integer, parameter :: follows_table = 3     !! the value in a row of a table, the row number being the swept value
 
-   !> How one load or one driver follows the place on the path. One of `load` and `drive` is empty.
+   !> How one load or one driver follows the swept value. One of `load` and `drive` is empty.
    type :: course_t
       character(:), allocatable :: load       !! name of the load that is scaled
       character(:), allocatable :: drive      !! name of the driver joint
@@ -24,35 +24,35 @@ module ek_case
       real(wp), allocatable :: values(:)      !! of follows_table, SI
    end type course_t
 
-   !> What the deck says of a case, SI. Without a `test` either `load` or `drive` is not empty.
+   !> A case as given in the deck, SI. Without a `test` either `load` or `drive` is not empty.
    type :: case_t
       character(:), allocatable :: name, where
       character(:), allocatable :: load     !! name of the load scaled by the case
       character(:), allocatable :: drive    !! 'wheel_travel', or the name of a driver joint
-      integer :: wheel = 1                  !! whose travel is driven
-      real(wp) :: from = 0.0_wp, to = 0.0_wp   !! places: factor of the load [-], or change of the driven value [m, rad]
+      integer :: wheel = 1                  !! number of the wheel whose travel is driven
+      real(wp) :: from = 0.0_wp, to = 0.0_wp   !! swept values: factor of the load [-], or change of the driven value [m, rad]
       integer :: increments = 100
       character(:), allocatable :: method   !! one of method_names
-      logical :: follows_arc = .false.      !! states at equal distances along the path, which may turn back; else at equal places
-      real(wp) :: tolerance = default_tolerance   !! last Newton correction of a state, at most [m]
+      logical :: follows_arc = .false.      !! states at equal distances along the path; else at equal swept values
+      real(wp) :: tolerance = default_tolerance   !! largest last Newton correction of a state [m]
       ! a test of the rig, see ek_rig
-      character(:), allocatable :: test     !! its name; not allocated or empty: none
-      character(:), allocatable :: vertical !! what holds the wheels: 'centre', 'patch', 'road', 'force', or '' for the test's own
-      logical :: is_anti = .false.          !! the right wheel is loaded the other way
+      character(:), allocatable :: test     !! name of the test; not allocated or empty: none
+      character(:), allocatable :: vertical !! how wheels are held: 'centre', 'patch', 'road', 'force'; '': default of the test
+      logical :: is_anti = .false.          !! opposed: the load on the right wheel is reversed
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force behind the patch [m]
-      character(:), allocatable :: file     !! of a table of loads
+      character(:), allocatable :: file     !! name of a load table
       character(:), allocatable :: target   !! 'column=value', '' for none
-      logical :: is_good = .true.           !! .false.: the deck has a mistake in it, and it cannot be put on the rig
-      logical :: has_all = .false.          !! the compliance matrix and all it gives, at every state
-      ! what the case drives, once it stands on the rig; not allocated: `load` or `drive` alone
+      logical :: is_good = .true.           !! .false.: the case has a mistake and cannot be mounted on the rig
+      logical :: has_all = .false.          !! write the compliance matrix and the quantities derived from it at every state
+      ! the actuations of a case mounted on the rig; not allocated: `load` or `drive` alone
       type(course_t), allocatable :: courses(:)
-      real(wp) :: unit = 1.0_wp             !! SI value of a place's unit
+      real(wp) :: unit = 1.0_wp             !! SI value of the unit of the swept value
       character(:), allocatable :: unit_name, place_name   !! 'mm', 'wheel travel'
    end type case_t
 
 contains
 
-   !> One more thing that a case drives: a load, or a driver joint; the other name is empty.
+   !> Add an actuation to a case: a load or a driver joint; the other name is empty.
    pure subroutine append_course(courses, load, drive, share, law, values)
       type(course_t), allocatable, intent(inout) :: courses(:)
       character(*), intent(in) :: load, drive

@@ -1,4 +1,4 @@
-!> Completes a suspension of which all parts have been added (ek_builder): reference points, arms, design values.
+!> Completes a suspension after all parts have been added (ek_builder): reference points, arms, design values.
 module ek_completion
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
@@ -12,8 +12,8 @@ module ek_completion
 
 contains
 
-   !> Settles reference points, turns design points into arms, and computes design values: the targets of the rows and
-   !> the design values of the readouts. To be called once, after the last add; it cannot fail.
+   !> Sets the reference points, converts design points to arms, and computes design values: the targets of the rows and
+   !> the design values of the readouts. Call it once, after the last add; it cannot fail.
    subroutine complete(self)
       type(suspension_t), intent(inout) :: self
       type(pose_t), allocatable :: poses(:)
@@ -79,7 +79,7 @@ contains
       end do
    end subroutine complete
 
-   !> The reference point of each body that has none: the mean of the points it is held by.
+   !> Sets the reference point of each body that has none: the mean of its attachment points.
    subroutine settle_origins(self)
       type(suspension_t), intent(inout) :: self
       real(wp) :: total(3, 0:size(self%bodies))
@@ -91,7 +91,7 @@ contains
          t = self%rows(self%joints(k)%first_row)%first
          select case (self%joints(k)%kind)
          case ('parallel', 'perpendicular', 'driver', 'coupler')
-            ! angles are measured nowhere: they say nothing about where a body is
+            ! angles have no point: they do not locate a body
             if (any(self%terms(t)%measure%kind == [axis_axis, rotation])) cycle
          end select
          call include_measure(self%terms(t)%measure)
@@ -125,7 +125,7 @@ contains
 
    end subroutine settle_origins
 
-   !> Design points of a measure → arms.
+   !> Converts the design points of a measure to arms.
    pure subroutine subtract_origins(self, measure)
       type(suspension_t), intent(in) :: self
       type(measure_t), intent(inout) :: measure
@@ -133,7 +133,7 @@ contains
       measure%arm_j = measure%arm_j - origin_of(self, measure%body_j)
    end subroutine subtract_origins
 
-   !> Reference point of a body at design [m]; that of the chassis is the global origin.
+   !> Reference point of a body at design [m]; for the chassis, the global origin.
    pure function origin_of(self, body) result(origin)
       type(suspension_t), intent(in) :: self
       integer, intent(in) :: body
@@ -142,7 +142,7 @@ contains
       if (body > 0) origin = self%bodies(body)%origin
    end function origin_of
 
-   !> What was never added is there, but empty.
+   !> Allocates components that were never added, as empty.
    pure subroutine ensure_allocated(self)
       type(suspension_t), intent(inout) :: self
       if (.not. allocated(self%bodies)) allocate (self%bodies(0))

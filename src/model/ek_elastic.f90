@@ -1,11 +1,11 @@
 !> Elastic elements: measures with a law, each with an energy, so that all forces balance.
 !>
-!> Springs: one measure, a distance or a rotation (ek_spring); named here too.
+!> Springs: one measure, a distance or a rotation (ek_spring); re-exported here.
 !> Bushing: V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ, d the gap from marker I to marker J and θ the
 !>          relative rotation vector, both in the axes of marker I (fixed in body i). A component may have a
-!>          curve c instead of its rate: then ∫c in place of ½ k d².
+!>          curve c instead of a rate; ∫c then takes the place of ½ k d².
 !>
-!> "Pull" below means the gradient of the energy, dV/dz: the force ON the bodies is minus that.
+!> "Pull" below means the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic
    use ek_kinds, only: wp
    use ek_law, only: law_t, look_up_law
@@ -20,41 +20,41 @@ module ek_elastic
    public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> A six-axis bushing from marker I on body i to marker J on body j. The markers are parallel
-   !> at design; where two points are given they may lie apart, and the design gap is free of force.
+   !> at design. If two points are given they may be apart; the design gap causes no force.
    type :: bushing_t
       character(:), allocatable :: name, where
       integer :: body_i = 0, body_j = 0
       real(wp) :: arm_i(3) = 0.0_wp, arm_j(3) = 0.0_wp   !! markers from the reference points [m]
       real(wp) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
       real(wp) :: kt(3) = 0.0_wp             !! N/m along the marker axes
-      real(wp) :: kr(3) = 0.0_wp             !! N m/rad about them
+      real(wp) :: kr(3) = 0.0_wp             !! N m/rad about the marker axes
       real(wp) :: preload_force(3) = 0.0_wp  !! on body j at design, marker axes [N]
-      real(wp) :: preload_moment(3) = 0.0_wp !! likewise [N m]
-      ! derived by set_bushing_axes: the same law in the axes of body i
+      real(wp) :: preload_moment(3) = 0.0_wp !! on body j at design, marker axes [N m]
+      ! set by set_bushing_axes: the same law in the axes of body i
       real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
       real(wp) :: force0(3) = 0.0_wp, moment0(3) = 0.0_wp
       real(wp) :: gap0(3) = 0.0_wp           !! design gap, axes of body i [m]
-      ! curves instead of rates, for some components: along x, y, z, about x, y, z of the marker
+      ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
       logical :: has_curves = .false.
-      type(law_t), allocatable :: laws(:)    !! six where has_curves; one without a curve leaves the rate in place
+      type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve keeps its rate
    end type bushing_t
 
    !> A bushing at one pair of poses.
    type :: bushing_view_t
       real(wp) :: a(3) = 0.0_wp, b(3) = 0.0_wp, d(3) = 0.0_wp   !! arms and gap, global [m]
       real(wp) :: frame(3, 3) = identity3                      !! A_i
-      real(wp) :: gap(3) = 0.0_wp        !! gap less the design gap, axes of body i [m]
+      real(wp) :: gap(3) = 0.0_wp        !! gap minus design gap, axes of body i [m]
       real(wp) :: force(3) = 0.0_wp      !! dV/dd, global [N]
       real(wp) :: moment(3) = 0.0_wp     !! dV/dθ, axes of body i [N m]
       type(turn_t) :: turn
-      ! only with curves: the slopes here, in the axes of body i
+      ! only with curves: the slopes at this deflection, in the axes of body i
       real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
    end type bushing_view_t
 
 contains
 
-   !> Brings rates and preloads from marker axes to the axes of body i (A_i = I at design):
-   !> K = E diag(k) Eᵀ. To be called after any change of axes, rates or preload.
+   !> Transforms rates and preloads from marker axes to the axes of body i (A_i = I at design):
+   !> K = E diag(k) Eᵀ. Call it after any change of axes, rates or preload.
    pure subroutine set_bushing_axes(bushing)
       type(bushing_t), intent(inout) :: bushing
 
@@ -99,7 +99,7 @@ contains
       view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
    end subroutine look_bushing
 
-   !> Force, moment and slopes of a bushing with curves, component by component in marker axes.
+   !> Force, moment and slopes of a bushing with curves, evaluated per component in marker axes.
    pure subroutine look_curves(bushing, view)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(inout) :: view
@@ -112,7 +112,7 @@ contains
       view%stiffness_r = in_body(bushing%axes, slope_r)
    end subroutine look_curves
 
-   !> dV/d(component) in marker axes, the preload taken off; and the slopes.
+   !> dV/d(component) in marker axes, minus the preload; and the slopes.
    pure subroutine look_components(bushing, view, force, moment, slope_t, slope_r)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view
@@ -134,8 +134,9 @@ contains
       moment = moment - bushing%preload_moment
    end subroutine look_components
 
-   !> The law of the bushing on body j, marker axes: preload less what the rates or curves resist with [N, N m]. The force
-   !> is what body j feels; the moment works on θ (−dV/dθ), and turns body j with ∂θ/∂δᵀ before it, as in bushing_pull.
+   !> Force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N, N m].
+   !> The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times it, as in
+   !> bushing_pull.
    pure subroutine bushing_load(bushing, view, force, moment)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view      !! of look_bushing
@@ -155,7 +156,7 @@ contains
       end do
    end subroutine bushing_load
 
-   !> The six rates at design, marker axes: slopes where there are curves [N/m, N m/rad].
+   !> The six rates at design, marker axes; for curves, their slopes [N/m, N m/rad].
    pure function design_rates(bushing) result(rates)
       type(bushing_t), intent(in) :: bushing
       real(wp) :: rates(6), force
@@ -195,7 +196,7 @@ contains
       end if
    end subroutine add_bushing_tangent
 
-   !> The same with stiffnesses in the axes of body i.
+   !> The same, with stiffnesses in the axes of body i.
    pure subroutine add_tangent(stiffness_t, stiffness_r, view, at_i, at_j, ld, matrix)
       real(wp), intent(in) :: stiffness_t(3, 3), stiffness_r(3, 3)
       type(bushing_view_t), intent(in) :: view
@@ -220,8 +221,8 @@ contains
       call add_turn_hessian(view%turn, view%moment, inner, view%frame, at_i, at_j, ld, matrix)
    end subroutine add_tangent
 
-   !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], u over the three
-   !> marker axes. No force enters, and the frame's own turning (u×d) is left out.
+   !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], for u = each of the three
+   !> marker axes. Forces do not enter, and the rotation of the marker frame itself (u×d) is neglected.
    pure subroutine add_bushing_material(bushing, view, at_i, at_j, ld, matrix)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view
@@ -235,7 +236,7 @@ contains
       end if
    end subroutine add_bushing_material
 
-   !> The same with stiffnesses in the axes of body i.
+   !> The same, with stiffnesses in the axes of body i.
    pure subroutine add_material(stiffness_t, stiffness_r, view, at_i, at_j, ld, matrix)
       real(wp), intent(in) :: stiffness_t(3, 3), stiffness_r(3, 3)
       type(bushing_view_t), intent(in) :: view
@@ -250,7 +251,7 @@ contains
       if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_material
 
-   !> A K Aᵀ; the chassis (at_i < 0) never turns.
+   !> A K Aᵀ; the chassis (at_i < 0) never rotates.
    pure function in_world(a, k, at_i) result(world)
       real(wp), intent(in) :: a(3, 3), k(3, 3)
       integer, intent(in) :: at_i

@@ -14,11 +14,11 @@
 !> | in_line           | 2 gaps across a direction of the first body              | 2       |
 !> | perpendicular     | axis·axis2                                               | 1       |
 !> | parallel          | 2 axis·axis                                              | 2       |
-!> | driver            | a measure = its design value + what the case prescribes (+ λ/stiffness) | 1 |
+!> | driver            | a measure = its design value + prescribed change (+ λ/stiffness) | 1 |
 !> | coupler           | Σ ratio × measure = its design value                     | 1       |
 !>
-!> To add a joint: its rows in `joint_terms`, its name in `joint_kinds`, its row in the table above,
-!> and its test. Neither the solver nor the output knows the names.
+!> To add a joint: add its rows to `joint_terms`, its name to `joint_kinds`, its row to the table above,
+!> and a test. The solver and the output do not depend on the names.
 module ek_joint
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, axis_axis, body_gap, global_gap, distance
@@ -28,26 +28,26 @@ module ek_joint
    public :: joint_t, row_t, term_t, joint_geometry_t, joint_terms, joint_kinds
    public :: needs_axis, needs_second_axis, max_terms
 
-   integer, parameter :: max_terms = 6   !! the most terms a joint makes (fixed)
+   integer, parameter :: max_terms = 6   !! largest number of terms of a joint (fixed)
 
    character(*), parameter :: joint_kinds(14) = [character(17) :: &
       'spherical', 'universal', 'constant_velocity', 'revolute', 'cylindrical', 'translational', &
       'fixed', 'distance', 'in_plane', 'in_line', 'perpendicular', 'parallel', 'driver', 'coupler']
 
-   !> A named joint: what the deck said, and which rows of Φ are its own.
+   !> A named joint: its definition in the deck, and its rows of Φ.
    type :: joint_t
       character(:), allocatable :: name
       character(:), allocatable :: kind      !! one of joint_kinds
       character(:), allocatable :: where     !! 'file:line' for messages
       integer :: body_i = 0, body_j = 0
-      real(wp) :: arm_j(3) = 0.0_wp          !! where its force acts on body j, body axes [m]
+      real(wp) :: arm_j(3) = 0.0_wp          !! point where its force acts on body j, body axes [m]
       integer :: first_row = 0, rows = 0
-      integer :: chosen_axis = 0             !! of a universal: 1 or 2 where the deck left this axis to the program; 0: none
-      real(wp) :: axis(3, 2) = 0.0_wp        !! of a universal: axis and axis_2, unit, global at design
+      integer :: chosen_axis = 0             !! universal: 1 or 2 if the program chose this axis; 0: both given
+      real(wp) :: axis(3, 2) = 0.0_wp        !! universal: axis and axis_2, unit vectors, global at design
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
-      logical :: says_balance = .false.      !! of a driver with a stiffness: the deck says whether it takes part in balance
-      logical :: is_balanced = .true.        !! what it says
-      logical :: is_rig = .false.            !! of the test rig: what it exerts is a force of the ground on a wheel
+      logical :: says_balance = .false.      !! driver with a stiffness: the deck gives `balance`
+      logical :: is_balanced = .true.        !! the value of `balance`
+      logical :: is_rig = .false.            !! part of the test rig: its reaction is a force of the ground on a wheel
    end type joint_t
 
    !> coefficient × measure
@@ -58,17 +58,17 @@ module ek_joint
 
    !> One equation Σ terms = target.
    type :: row_t
-      integer :: first = 0, terms = 1      !! terms first … first+terms−1 of the suspension
+      integer :: first = 0, terms = 1      !! its terms are first … first+terms−1 of the suspension
       real(wp) :: target = 0.0_wp          !! value at design [m, - or rad]
-      integer :: joint = 0                 !! whose row this is
+      integer :: joint = 0                 !! number of the joint
       logical :: is_driver = .false.
-      real(wp) :: compliance = 0.0_wp      !! of a driver with a stiffness: Σ terms = target + compliance × λ [m/N, rad/(N m)]
+      real(wp) :: compliance = 0.0_wp      !! driver with a stiffness: Σ terms = target + compliance × λ [m/N, rad/(N m)]
    end type row_t
 
-   !> What a joint is made from: design position, global axes, SI.
+   !> The geometry that defines a joint: design position, global axes, SI.
    type :: joint_geometry_t
       integer :: body_i = 0, body_j = 0
-      real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! equal unless two points were given
+      real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! equal unless two points are given
       real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body i
       real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body j
    end type joint_geometry_t
@@ -86,16 +86,16 @@ contains
       end select
    end function needs_axis
 
-   !> Whether a kind needs a direction on each of its bodies.
+   !> Whether a kind needs a direction on each body.
    pure logical function needs_second_axis(kind)
       character(*), intent(in) :: kind
       needs_second_axis = kind == 'universal' .or. kind == 'constant_velocity' .or. kind == 'perpendicular'
    end function needs_second_axis
 
-   !> The terms of a joint in row order, and how many terms each row has.
+   !> The terms of a joint in row order, and the number of terms of each row.
    !>
-   !> Arms are left as design points (global); the suspension subtracts the reference points
-   !> of its bodies. Driver and coupler are made from named measures by the suspension.
+   !> Arms are design points (global); `complete` subtracts the reference points of the bodies.
+   !> Drivers and couplers are built from named measures by the builder.
    subroutine joint_terms(kind, geometry, terms, terms_of_row, rows)
       character(*), intent(in) :: kind
       type(joint_geometry_t), intent(in) :: geometry
@@ -176,8 +176,8 @@ contains
 
    end subroutine joint_terms
 
-   !> The direction across shaft j that x, across shaft i, becomes when shaft i is swung onto
-   !> shaft j by the shortest rotation. With it u1·v2 − u2·v1 = 0 at design.
+   !> The direction perpendicular to shaft j obtained from x, perpendicular to shaft i, by the shortest
+   !> rotation that carries shaft i onto shaft j. With it u1·v2 − u2·v1 = 0 at design.
    pure function shaft_frame(z_i, z_j, x) result(v)
       real(wp), intent(in) :: z_i(3), z_j(3), x(3)
       real(wp) :: v(3), axis(3), c

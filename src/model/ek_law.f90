@@ -1,9 +1,9 @@
-!> The law of one scalar measure that is not simply rate × deflection: along a curve, one-sided, reflected.
+!> A law of one scalar measure other than rate × deflection: along a curve, one-sided, or reflected.
 !>
 !>     force = s y(p),   p = e or its one-sided part,   e = s (value − reference)
 !>
-!> s = ±1 reflects the law through the origin: s = −1 with the length of a spring as value makes e its compression.
-!> y is rate × p or a curve of p. One-sided, rounded over r so that the force has no corner at contact (C1):
+!> s = −1 reflects the law through the origin: with the length of a spring as value, e is then its compression.
+!> y is rate × p or a curve of p. A one-sided law is rounded over the length r so that the force has no corner at contact (C1):
 !>
 !>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
 module ek_law
@@ -16,11 +16,11 @@ module ek_law
 
    integer, parameter :: no_bend = 0, steep = 1, corner = 2
 
-   !> Units by the measure: m and N, or rad and N m.
+   !> Units depend on the measure: m and N, or rad and N m.
    type :: law_t
       real(wp) :: sign = 1.0_wp             !! s
       real(wp) :: reference = 0.0_wp        !! value at which e = 0
-      real(wp) :: rate = 0.0_wp             !! without a curve
+      real(wp) :: rate = 0.0_wp             !! used without a curve
       logical :: has_curve = .false.
       logical :: is_one_sided = .false.
       real(wp) :: rounding = 0.0_wp         !! r of a one-sided law, above 0
@@ -29,7 +29,7 @@ module ek_law
 
 contains
 
-   !> Force, the derivative of the energy, at a value of the measure; and its slope.
+   !> Force (derivative of the energy) at a value of the measure, and its slope.
    pure subroutine look_up_law(law, value, force, slope)
       type(law_t), intent(in) :: law
       real(wp), intent(in) :: value
@@ -58,15 +58,15 @@ contains
       slope = slope*share
    end subroutine look_up_law
 
-   !> e: compression of a spring, penetration of a stop (below 0: its gap).
+   !> e: compression of a spring, penetration of a stop (negative: its gap).
    pure real(wp) function deflection(law, value)
       type(law_t), intent(in) :: law
       real(wp), intent(in) :: value
       deflection = law%sign*(value - law%reference)
    end function deflection
 
-   !> How sharply the law bends between two values of the measure: not at all, as rubber in contact does that is steep from
-   !> one state to the next, or at a corner (where a stop is met, or a curve has one).
+   !> How sharply the law bends between two values of the measure: not at all, like rubber in contact whose stiffness differs
+   !> between the states, or at a corner (contact of a stop, or a corner of a curve).
    pure integer function bend_between(law, from, to) result(bend)
       type(law_t), intent(in) :: law
       real(wp), intent(in) :: from, to
@@ -84,7 +84,7 @@ contains
 
    contains
 
-      !> Before contact, in its rounding, behind it.
+      !> Before contact, within the rounding, or beyond it.
       pure integer function zone(e)
          real(wp), intent(in) :: e
          zone = 0

@@ -1,7 +1,7 @@
-!> The heart: five scalar functions of the poses of two bodies, with gradient and Hessian.
+!> The core of the model: five scalar functions of the poses of two bodies, with gradient and Hessian.
 !>
-!> A joint is a list of measures held at a value, an elastic element a list of measures with
-!> a law, a driver a measure with a prescribed value, an output a measure read out.
+!> A joint is a list of measures held at a value, an elastic element is a list of measures with
+!> a law, a driver is a measure with a prescribed value, a readout is a measure written to the results.
 !>
 !> Coordinates: z = [Δr_i Δπ_i Δr_j Δπ_j], translation and rotation vector in GLOBAL axes,
 !> r ← r + Δr, A ← exp(Δπ̃) A (Kang 2005, eq. 4). A point on arm s moves by Δr − s̃ Δπ (eq. 12).
@@ -16,8 +16,8 @@
 !>
 !> u is fixed in body i and v in body j, n is a global direction; a, b are the arms of the two
 !> points, d = x_j − x_i; θ = log(A_iᵀ A_j) in the axes of body i, m a constant vector there.
-!> S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I, p̃ the skew matrix of p. Hessians are those in the
-!> exponential coordinates above, hence symmetric; every block was derived by hand and is checked
+!> S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I, p̃ the skew matrix of p. Hessians refer to the
+!> exponential coordinates above and are therefore symmetric; every block was derived by hand and is checked
 !> against central differences in tests/model/test_measure.pf.
 module ek_measure
    use ek_kinds, only: wp
@@ -37,17 +37,17 @@ module ek_measure
    integer, parameter :: rotation = 5     !! component of the relative rotation vector [rad]
 
    !> One scalar measure between body i and body j (0 is the chassis). At design all body axes
-   !> are parallel to the global ones, so directions and arms are those of the design position.
+   !> are parallel to the global axes, so directions and arms are given in the design position.
    type :: measure_t
       integer :: kind = 0                 !! one of the five above
       integer :: body_i = 0, body_j = 0
       real(wp) :: u(3) = 0.0_wp           !! direction in i (body_gap, axis_axis: unit), n, or m
       real(wp) :: v(3) = 0.0_wp           !! direction in j (axis_axis)
       real(wp) :: arm_i(3) = 0.0_wp       !! point on i from its reference point, body axes [m]
-      real(wp) :: arm_j(3) = 0.0_wp       !! point on j likewise
+      real(wp) :: arm_j(3) = 0.0_wp       !! point on j from its reference point, body axes [m]
    end type measure_t
 
-   !> A measure's vectors in global axes at one pair of poses: computed once, used for
+   !> An evaluation: the vectors of a measure in global axes at one pair of poses, computed once and used for
    !> value, gradient and Hessian.
    type :: view_t
       real(wp) :: value = 0.0_wp
@@ -62,12 +62,12 @@ contains
 
    !> Value and gradient of a measure, and its vectors for the Hessian.
    !>
-   !> Degenerate: a distance of 0 has no direction (checked when the model is built); a rotation
+   !> Degenerate cases: a distance of 0 has no direction (checked when the model is built); a rotation
    !> of exactly π has no unique axis.
    pure subroutine look(measure, pose_i, pose_j, view)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
-      type(view_t), intent(inout) :: view     !! only what this kind needs is set
+      type(view_t), intent(inout) :: view     !! only the components that this kind needs are set
       real(wp) :: g(3), w(3)
 
       select case (measure%kind)
@@ -137,10 +137,10 @@ contains
    !> Adds weight × Hessian to the lower triangle of a matrix.
    !>
    !> at_i, at_j: number of unknowns before those of body i, j; negative: the body has none.
-   !> Diagonal 3×3 blocks are added whole.
+   !> Diagonal 3×3 blocks are added in full.
    pure subroutine add_measure_hessian(kind, view, weight, at_i, at_j, ld, matrix)
       integer, intent(in) :: kind
-      type(view_t), intent(in) :: view          !! of `look`, at the same poses
+      type(view_t), intent(in) :: view          !! from `look`, at the same poses
       real(wp), intent(in) :: weight
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)

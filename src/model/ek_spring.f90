@@ -4,7 +4,7 @@
 !> | kind    | tension T (dV/dvalue)                                                                 |
 !> |---------|---------------------------------------------------------------------------------------|
 !> | spring  | rate (L − L_design) − preload, or −c(compression) − preload with a curve              |
-!> | damper  | gas_rate (L − L_design) − gas_force: statics know nothing else of it                  |
+!> | damper  | gas_rate (L − L_design) − gas_force; damping does not act in statics                  |
 !> | stop    | −f(e), e = (L_design − clearance) − L (bump); f(e), e = L − (L_design + clearance) (rebound) |
 !> | torsion | rate φ − preload, or c(φ) − preload; φ = m·θ, the rotation about its axis             |
 !> | measure | as a spring, of a gap; as a torsion spring, of a rotation or a cosine, φ = value − design value |
@@ -22,7 +22,7 @@ module ek_spring
    public :: axial_spring, damper, stop_spring, torsion_spring, measure_spring, is_of_angle
    public :: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material, add_measure_material
 
-   integer, parameter :: axial_spring = 1    !! its preload may be found by balance
+   integer, parameter :: axial_spring = 1    !! its preload may be set by balance
    integer, parameter :: damper = 2
    integer, parameter :: stop_spring = 3
    integer, parameter :: torsion_spring = 4
@@ -32,20 +32,20 @@ module ek_spring
    type :: spring_t
       character(:), allocatable :: name, where
       integer :: kind = axial_spring
-      type(measure_t) :: measure            !! its length, its angle, or whatever it acts on
-      real(wp) :: rate = 0.0_wp             !! N/m, N m/rad; without a law of its own
-      real(wp) :: design_length = 0.0_wp    !! value at design: m, rad, -; 0 rad of a torsion spring
+      type(measure_t) :: measure            !! the length, angle or other measure on which it acts
+      real(wp) :: rate = 0.0_wp             !! N/m, N m/rad; used if has_law is .false.
+      real(wp) :: design_length = 0.0_wp    !! value at design: m, rad, -; 0 rad for a torsion spring
       real(wp) :: preload = 0.0_wp          !! compression at design [N], moment on body j about the axis [N m]
-      logical :: is_balanced = .true.       !! of a spring: balance may change its preload
-      logical :: has_law = .false.          !! `law` takes the place of rate and design length
+      logical :: is_balanced = .true.       !! spring: balance may change its preload
+      logical :: has_law = .false.          !! `law` replaces rate and design length
       type(law_t) :: law
    end type spring_t
 
 contains
 
-   !> A spring between two design points (global; `complete` of the builder makes them arms).
+   !> A spring between two design points (global; `complete` of the builder converts them to arms).
    !>
-   !> free_length > 0 sets the preload from the design length; of a curve it is where compression counts from.
+   !> free_length > 0 sets the preload from the design length; with a curve, compression is measured from the free length.
    pure function new_spring(name, where, body_i, body_j, point_i, point_j, rate, preload, free_length, curve) result(spring)
       character(*), intent(in) :: name, where
       integer, intent(in) :: body_i, body_j
@@ -72,7 +72,7 @@ contains
       end if
    end function new_spring
 
-   !> What a damper does at rest: the force of its gas on the rod.
+   !> A damper at rest: the gas force on the rod.
    pure function new_damper(name, where, body_i, body_j, point_i, point_j, gas_rate, gas_force) result(spring)
       character(*), intent(in) :: name, where
       integer, intent(in) :: body_i, body_j
@@ -112,7 +112,7 @@ contains
       spring%law%curve = curve
    end function new_stop
 
-   !> A torsion spring about an axis fixed in body i, free at design but for its preload.
+   !> A torsion spring about an axis fixed in body i; at design it exerts only its preload.
    pure function new_torsion(name, where, body_i, body_j, axis, rate, preload, curve) result(spring)
       character(*), intent(in) :: name, where
       integer, intent(in) :: body_i, body_j
@@ -137,14 +137,14 @@ contains
 
    !> A spring on a measure; its arms as design points, its design value set by `complete` of the builder.
    !>
-   !> On a distance it is the spring between the two points, in every respect. On a gap compression is positive, as there:
-   !> the preload opens the gap. On a rotation or a cosine the law is that of a torsion spring: the preload raises the value.
+   !> On a distance it is identical to a spring between the two points. On a gap compression is positive too: the preload
+   !> opens the gap. On a rotation or a cosine the law is that of a torsion spring: the preload increases the value.
    pure function new_measure_spring(name, where, measure, rate, preload, free_length, curve) result(spring)
       character(*), intent(in) :: name, where
       type(measure_t), intent(in) :: measure              !! design points, unit directions
       real(wp), intent(in) :: rate                        !! N/m, N m/rad, N m
       real(wp), intent(in), optional :: preload           !! N, N m, at design
-      real(wp), intent(in), optional :: free_length       !! m; of a distance
+      real(wp), intent(in), optional :: free_length       !! m; for a distance only
       type(curve_t), intent(in), optional :: curve        !! force over compression, moment over φ; instead of the rate
       type(spring_t) :: spring
 
@@ -167,7 +167,7 @@ contains
       spring%law%curve = curve
    end function new_measure_spring
 
-   !> Tells a spring on a measure the value at design, from which its deflection counts.
+   !> Sets the design value of a spring on a measure, from which its deflection is measured.
    pure subroutine set_measure_design(spring, value)
       type(spring_t), intent(inout) :: spring
       real(wp), intent(in) :: value       !! m, rad, -
@@ -176,13 +176,13 @@ contains
       if (spring%has_law) spring%law%reference = value
    end subroutine set_measure_design
 
-   !> Whether the generalised force of a measure is a moment: of a rotation or a cosine.
+   !> Whether the generalised force of a measure is a moment (rotation, cosine).
    pure logical function is_of_angle(kind)
       integer, intent(in) :: kind         !! of the measure
       is_of_angle = kind == rotation .or. kind == axis_axis
    end function is_of_angle
 
-   !> What all elements between two points share.
+   !> The components common to all elements between two points.
    pure function axial(name, where, body_i, body_j, point_i, point_j) result(spring)
       character(*), intent(in) :: name, where
       integer, intent(in) :: body_i, body_j
@@ -195,11 +195,11 @@ contains
       spring%design_length = norm2(point_j - point_i)
    end function axial
 
-   !> Tension at a length, and its slope dT/dL; of a torsion spring its moment at an angle.
+   !> Tension at a length, and its slope dT/dL; for a torsion spring, the moment at an angle.
    pure subroutine spring_tension(spring, length, tension, slope)
       type(spring_t), intent(in) :: spring
       real(wp), intent(in) :: length    !! m, rad
-      real(wp), intent(out) :: tension  !! N, pulling the ends together; N m, turning the bodies back
+      real(wp), intent(out) :: tension  !! N, pulls the ends together; N m, reduces the angle
       real(wp), intent(out) :: slope    !! N/m, N m/rad
 
       if (spring%has_law) then
@@ -257,7 +257,7 @@ contains
       if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_torsion_material
 
-   !> Adds slope g gᵀ of any measure: what its tangent is besides tension × Hessian.
+   !> Adds slope g gᵀ of any measure: the material part of its tangent (the other part is tension × Hessian).
    pure subroutine add_measure_material(view, slope, at_i, at_j, ld, matrix)
       type(view_t), intent(in) :: view        !! of the spring's measure
       real(wp), intent(in) :: slope           !! N/m, N m/rad, N m
@@ -273,7 +273,7 @@ contains
       call add_dyad(slope, view%gradient(4:6), view%gradient(10:12), at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_measure_material
 
-   !> slope g gᵀ of one body.
+   !> Adds slope g gᵀ of one body.
    pure subroutine add_own(slope, gradient, at, ld, matrix)
       real(wp), intent(in) :: slope, gradient(6)
       integer, intent(in) :: at, ld
@@ -290,7 +290,7 @@ contains
       call add_dyad(slope, gradient(1:3), gradient(4:6), at, at + 3, ld, matrix)
    end subroutine add_own
 
-   !> slope p qᵀ in the rows after `row` and the columns after `column`, off the diagonal.
+   !> Adds slope p qᵀ to the rows after `row` and the columns after `column`, off the diagonal.
    pure subroutine add_dyad(slope, p, q, row, column, ld, matrix)
       real(wp), intent(in) :: slope, p(3), q(3)
       integer, intent(in) :: row, column, ld

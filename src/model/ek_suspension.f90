@@ -1,8 +1,8 @@
 !> The assembled model: bodies, constraint rows, elastic elements, loads, wheels.
 !>
-!> Made by ek_builder; never changed by a solution.
-!> Everything is SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
-!> body are those of the frame. Body 0 is the chassis.
+!> Built by ek_builder; never changed by a solution.
+!> All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
+!> body are parallel to the frame. Body 0 is the chassis.
 module ek_suspension
    use ek_kinds, only: wp
    use ek_units, only: units_t
@@ -20,9 +20,9 @@ module ek_suspension
    type :: body_t
       character(:), allocatable :: name, where
       real(wp) :: origin(3) = 0.0_wp      !! reference point r at design [m]
-      logical :: has_origin = .false.     !! given by the deck; else the mean of its attachment points
+      logical :: has_origin = .false.     !! given in the deck; otherwise the mean of its attachment points
       real(wp) :: mass = 0.0_wp           !! kg
-      real(wp) :: centre(3) = 0.0_wp      !! of gravity: arm from the reference point, body axes [m]; where there is a mass
+      real(wp) :: centre(3) = 0.0_wp      !! centre of gravity: arm from the reference point, body axes [m]; if there is a mass
    end type body_t
 
    !> A named hardpoint, design position.
@@ -32,15 +32,15 @@ module ek_suspension
       logical :: is_used = .false.
    end type point_t
 
-   !> A force and a moment on a point of a body.
+   !> A force and a moment at a point of a body.
    type :: load_t
       character(:), allocatable :: name, where
       integer :: body = 0
-      real(wp) :: arm(3) = 0.0_wp         !! point of attack from the reference point, body axes [m]
+      real(wp) :: arm(3) = 0.0_wp         !! point of application from the reference point, body axes [m]
       real(wp) :: force(3) = 0.0_wp       !! N, global axes at design
       real(wp) :: moment(3) = 0.0_wp      !! N m
-      logical :: follows = .false.        !! turns with the body
-      logical :: is_case = .false.        !! scaled by the case that names it; else always on
+      logical :: follows = .false.        !! rotates with the body
+      logical :: is_case = .false.        !! scaled by the case that refers to it; otherwise always acting
       logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
    end type load_t
 
@@ -52,23 +52,23 @@ module ek_suspension
       real(wp) :: centre(3) = 0.0_wp      !! arms from the carrier's reference point, body axes [m]
       real(wp) :: contact(3) = 0.0_wp
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]   !! unit, outboard, body axes
-      real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles as the deck gives them, or of its spin axis [rad]
+      real(wp) :: toe = 0.0_wp, camber = 0.0_wp         !! static angles, given in the deck or derived from the spin axis [rad]
       real(wp) :: radius = 0.0_wp         !! m
       real(wp) :: tyre_rate = 0.0_wp      !! vertical stiffness of the tyre [N/m]; 0: not given
       real(wp) :: tyre_width = 0.0_wp     !! of the tread [m]; 0: not given
-      real(wp) :: sprung_mass = 0.0_wp    !! that this wheel carries [kg]; 0: not given
+      real(wp) :: sprung_mass = 0.0_wp    !! sprung mass carried by this wheel [kg]; 0: not given
       logical :: has_steer_axis = .false.
       real(wp) :: steer_axis(3, 2) = 0.0_wp             !! two points on the carrier, arms [m]
    end type wheel_t
 
-   !> A measure with a name: driven, coupled, or only read out.
+   !> A named measure: driven, coupled, or only read out.
    type :: readout_t
       character(:), allocatable :: name, where
       type(measure_t) :: measure
       real(wp) :: design_value = 0.0_wp   !! m, - or rad
    end type readout_t
 
-   !> What the axle is part of: for the figures that need the whole car.
+   !> Data of the vehicle around the axle, for characteristics that need the whole car.
    type :: axle_t
       logical :: has_axle = .false.       !! the deck has an &axle
       character(:), allocatable :: where
@@ -76,12 +76,12 @@ module ek_suspension
       real(wp) :: wheelbase = 0.0_wp      !! m
       real(wp) :: cg_height = 0.0_wp      !! centre of gravity of the car above the ground [m]
       real(wp) :: mass = 0.0_wp           !! of the car [kg]; 0: not given
-      real(wp) :: brake_share = 0.0_wp    !! of the braking force of the car that acts on the FRONT axle, 0 to 1
-      real(wp) :: drive_share = 1.0_wp    !! of the driving force of the car that acts on THIS axle, 0 to 1
+      real(wp) :: brake_share = 0.0_wp    !! share of the car's braking force that acts on the FRONT axle, 0 to 1
+      real(wp) :: drive_share = 1.0_wp    !! share of the car's driving force that acts on THIS axle, 0 to 1
       real(wp) :: front_overhang = 0.0_wp !! front corner of the car ahead of the wheels [m]; 0: not given
-      real(wp) :: front_width = 0.0_wp    !! of the car at its front corners [m]; goes with front_overhang
-      logical :: drives_at_patch = .false.   !! drive torque is taken by the axle (solid axle): traction acts at the patch,
-                                             !! else (independent) at the wheel centre
+      real(wp) :: front_width = 0.0_wp    !! width of the car at its front corners [m]; given together with front_overhang
+      logical :: drives_at_patch = .false.   !! the axle takes the drive torque (solid axle): traction acts at the patch;
+                                             !! otherwise (independent suspension) at the wheel centre
    end type axle_t
 
    !> From the steering wheel to the driver that moves the rack.
@@ -89,23 +89,23 @@ module ek_suspension
       logical :: has_steering = .false.   !! the deck has a &steering
       character(:), allocatable :: where
       character(:), allocatable :: driver !! name of the driver joint; its row: driver_row
-      real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; its sign as the deck gives it
+      real(wp) :: ratio = 0.0_wp          !! rack travel per revolution of the steering wheel [m]; sign as given in the deck
       real(wp) :: travel = 0.0_wp         !! largest rack travel each way [m]
    end type steering_t
 
    type :: suspension_t
       character(:), allocatable :: name, title, where
-      type(units_t) :: units              !! of the deck: remarks on its numbers speak them
-      logical :: is_plausible_wanted = .true.   !! remarks on implausible numbers are wanted
+      type(units_t) :: units              !! units of the deck, used in remarks on its numbers
+      logical :: is_plausible_wanted = .true.   !! report implausible numbers
       real(wp) :: gravity = 0.0_wp        !! m/s²
-      logical :: is_iso = .false.         !! the deck speaks ISO 8855: vectors leave in that frame
+      logical :: is_iso = .false.         !! the deck uses ISO 8855 axes: vectors are written in that frame
       character(:), allocatable :: balance   !! 'none', 'spring' or 'all'
       type(body_t), allocatable :: bodies(:)
       type(point_t), allocatable :: points(:)
       type(joint_t), allocatable :: joints(:)
       type(row_t), allocatable :: rows(:)      !! Φ(q) = 0, in joint order
       type(term_t), allocatable :: terms(:)
-      type(spring_t), allocatable :: springs(:)  !! springs, dampers, stops, torsion springs, in this order from a deck
+      type(spring_t), allocatable :: springs(:)  !! springs, dampers, stops, torsion springs, in this order if built from a deck
       type(bushing_t), allocatable :: bushings(:)
       type(load_t), allocatable :: loads(:)
       type(wheel_t), allocatable :: wheels(:)
@@ -119,14 +119,14 @@ module ek_suspension
 
 contains
 
-   !> How many numbers Δq has.
+   !> The length of Δq.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
       unknowns = 0
       if (allocated(self%bodies)) unknowns = 6*size(self%bodies)
    end function unknowns
 
-   !> How many rows Φ has.
+   !> The number of rows of Φ.
    pure integer function constraints(self)
       class(suspension_t), intent(in) :: self
       constraints = 0

@@ -10,7 +10,7 @@ module ek_turn
    private
    public :: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
 
-   !> Where a body is. Kept together, 128 bytes, because every measure reads all of it.
+   !> The pose of a body. Stored contiguously (128 bytes), because every measure reads all of it.
    type :: pose_t
       real(wp) :: r(3) = 0.0_wp                          !! reference point, global [m]
       real(wp) :: q(4) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]  !! unit quaternion of a
@@ -27,7 +27,7 @@ module ek_turn
 
 contains
 
-   !> The relative rotation of body j seen from body i.
+   !> The rotation of body j relative to body i.
    pure subroutine relative_turn(pose_i, pose_j, turn)
       type(pose_t), intent(in) :: pose_i, pose_j
       type(turn_t), intent(out) :: turn
@@ -44,7 +44,7 @@ contains
       turn%p = 2.0_wp*turn%qv
       s = dot_product(turn%qv, turn%qv)
       if (s < 1.0e-3_wp) then
-         ! asin(x)/x and its derivatives in t = 4 x²; s = x². Terms left out are below 1e-17 of α
+         ! asin(x)/x and its derivatives in t = 4 x²; s = x². Neglected terms are below 1e-17 of α
          turn%alpha = 1.0_wp + s*(1.0_wp/6 + s*(3.0_wp/40 + s*(5.0_wp/112 + s*(35.0_wp/1152 + s*63.0_wp/2816))))
          turn%alpha1 = 0.25_wp*(1.0_wp/6 + s*(3.0_wp/20 + s*(15.0_wp/112 + s*(35.0_wp/288 + s*(315.0_wp/2816 &
             + s*231.0_wp*6/13312)))))
@@ -54,7 +54,7 @@ contains
          s = sqrt(s)
          half = atan2(s, turn%q0)
          turn%alpha = half/s
-         ! q0 = cos(half angle): zero only at exactly half a turn, where θ itself jumps
+         ! q0 = cos(half angle): zero only at a relative rotation of exactly 180 deg, where θ itself jumps
          turn%alpha1 = (1.0_wp/turn%q0 - turn%alpha)/(8.0_wp*s*s)
          turn%alpha2 = (0.125_wp/turn%q0**3 - 3.0_wp*turn%alpha1)/(8.0_wp*s*s)
       end if
@@ -117,7 +117,7 @@ contains
       do k = 1, 3
          h(k, k) = h(k, k) - half_wq
       end do
-      if (at_i < 0) then      ! the chassis never turns: a_i is the unit matrix
+      if (at_i < 0) then      ! the chassis never rotates: a_i is the unit matrix
          call add_diagonal_block(h, at_j + 3, at_j, ld, matrix)
          return
       end if

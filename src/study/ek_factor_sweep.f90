@@ -1,4 +1,4 @@
-!> A sweep of one or two factors of a deck: the family of curves, and the responses of each design.
+!> A sweep of one or two factors of a deck: a family of curves, and the responses of each design.
 module ek_factor_sweep
    use ek_kinds, only: wp, i8
    use ek_memory, only: ask_memory
@@ -22,17 +22,17 @@ module ek_factor_sweep
 
 contains
 
-   !> Runs all designs. A design that cannot be built or solved is told in `troubles` and has no values.
+   !> Runs all designs. A design that cannot be built or solved is reported in `troubles` and has no values.
    !>
-   !> The rows of a design are handed to the writers as soon as they are there; gnuplot wants an empty line after every curve,
-   !> and after every row of the grid that two factors make.
+   !> The rows of a design are passed to the writers as soon as they are available; gnuplot requires an empty line after every
+   !> curve, and after every row of the grid of two factors.
    subroutine sweep_factors(study, deck, curves, responses, troubles, error, curve_writer, response_writer)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
-      type(table_t), intent(out) :: curves        !! design, factors, then the study's columns; one row a state
-      type(table_t), intent(out) :: responses     !! design, factors, responses, converged; one row a design
+      type(table_t), intent(out) :: curves        !! design, factors, then the columns of the study; one row per state
+      type(table_t), intent(out) :: responses     !! design, factors, responses, converged; one row per design
       type(message_list_t), intent(out) :: troubles
-      type(error_t), allocatable, intent(out) :: error   !! the study itself is wrong (a path, a column)
+      type(error_t), allocatable, intent(out) :: error   !! a mistake in the study itself (a path, a column)
       type(writer_t), intent(inout), optional :: curve_writer, response_writer
       type(table_t) :: table
       type(error_t), allocatable :: trouble
@@ -62,7 +62,7 @@ contains
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, unit, readings, error)
-               if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study must stand: '// &
+               if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study failed: '// &
                   trim(label)//': '//trouble%message)
                if (allocated(error)) return
                call start_tables(study, readings, table, designs, curves, responses)
@@ -101,12 +101,12 @@ contains
       curves%values = rows(:, :used)
    end subroutine sweep_factors
 
-   !> One design: its table, or why there is none. `error`: a path that no design can have.
+   !> Runs one design: its table, or the reason for its failure. `error`: a path that is invalid for every design.
    subroutine run_design(study, deck, values, is_known, table, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
-      logical, intent(in) :: is_known                    !! another design has shown that the inputs are sound
+      logical, intent(in) :: is_known                    !! the inputs were checked with another design
       type(table_t), intent(out) :: table
       character(:), allocatable, intent(out) :: unit     !! of the column `factor`: 'mm', 'N', …
       type(error_t), allocatable, intent(out) :: trouble, error
@@ -123,7 +123,7 @@ contains
       do f = 1, size(values)
          call set_value(changed, study%factors(f)%path, shortest(values(f)), error)
          if (.not. allocated(error)) cycle
-         ! a mistake of the study, not of the command line; of a deck with mistakes of its own these come first
+         ! report as a mistake of the study, not of the command line; mistakes of the deck itself come first
          error%code = exit_deck
          if (index(error%message, given) == 1) error%message = study%factors(f)%where//': factor '// &
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
@@ -141,12 +141,12 @@ contains
       call sweep(suspension, case, path, kkt)
       call sweep_table(suspension, case, path, kkt, table)
       do k = 1, 2
-         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'state at factor '// &
-            str(path%value(path%failure(k)%state))//' was not found')
+         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &
+            str(path%value(path%failure(k)%state)))
       end do
    end subroutine run_design
 
-   !> The shortest text of nine digits or more that is read as this number again: -5, 0.1, 1E-05.
+   !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
    function shortest(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text
@@ -160,7 +160,7 @@ contains
       end do
    end function shortest
 
-   !> Puts words in the place of others, wherever they stand.
+   !> Replaces every occurrence of a text by another.
    pure subroutine replace(text, old, new)
       character(:), allocatable, intent(inout) :: text
       character(*), intent(in) :: old, new
@@ -176,7 +176,7 @@ contains
       end do
    end subroutine replace
 
-   !> All columns named by the study must be in the table, and its responses must be there to be read.
+   !> Checks that all columns named by the study are in the table and that its responses can be read.
    subroutine check_columns(study, table, unit, readings, error)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table
@@ -199,14 +199,14 @@ contains
          if (hint /= '') text = text//hint//new_line('a')
          do j = 1, k - 1
             if (readings(j)%head == readings(k)%head) text = text//readings(k)%asked%where//': response '// &
-               quoted(readings(k)%asked%name)//': its column would be called '//quoted(readings(k)%head)// &
-               ', as that of response '//quoted(readings(j)%asked%name)//'; rename one'//new_line('a')
+               quoted(readings(k)%asked%name)//': its column would have the name '//quoted(readings(k)%head)// &
+               ', like that of response '//quoted(readings(j)%asked%name)//'; rename one'//new_line('a')
          end do
       end do
       if (len(text) > 0) call fail(error, exit_deck, text(:len(text) - 1))
    end subroutine check_columns
 
-   !> Heads of both tables.
+   !> Column names of both tables.
    subroutine start_tables(study, readings, table, designs, curves, responses)
       type(study_t), intent(in) :: study
       type(reading_t), intent(in) :: readings(:)
@@ -268,8 +268,8 @@ contains
    subroutine take_responses(readings, table, at, label, row, troubles)
       type(reading_t), intent(in) :: readings(:)
       type(table_t), intent(in) :: table
-      integer, intent(in) :: at                !! columns before the responses
-      character(*), intent(in) :: label        !! of the design, for messages
+      integer, intent(in) :: at                !! number of columns before the responses
+      character(*), intent(in) :: label        !! label of the design, for messages
       real(wp), intent(inout) :: row(:)
       type(message_list_t), intent(inout) :: troubles
       character(:), allocatable :: message, all

@@ -1,7 +1,7 @@
-!> What a study reads from the table of a design: a value, a slope or a span, and what its column is called.
+!> A response that a study reads from the table of a design: a value, a slope or a span, and its column name.
 !>
-!> A slope is told in the units of the report: deg/m over the wheel travel, per kN over a force, per 100 N m over a
-!> moment, else in those of its two columns; the unit ends the head of its column.
+!> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
+!> otherwise those of its two columns; its column name ends with the unit.
 module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -12,19 +12,19 @@ module ek_response
    private
    public :: reading_t, prepare_reading, read_response
 
-   !> A response as it is read from tables with certain columns.
+   !> A response, prepared for tables with given columns.
    type :: reading_t
       type(response_t) :: asked
-      character(:), allocatable :: over      !! of a slope: the column
-      character(:), allocatable :: head      !! of its own column, with the unit of a slope
-      real(wp) :: size = 1.0_wp              !! times the slope in units of the columns
+      character(:), allocatable :: over      !! slope: the column over which it is taken
+      character(:), allocatable :: head      !! name of its column, with the unit of a slope
+      real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
    end type reading_t
 
    character(*), parameter :: travel = 'wheel_travel_mm'
 
 contains
 
-   !> Compares a response with the table of the first design; `message` says why it cannot be read, '' if all is well.
+   !> Checks a response against the table of the first design; `message` gives the reason if it cannot be read, else ''.
    subroutine prepare_reading(asked, table, factor_unit, reading, message)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
@@ -43,7 +43,7 @@ contains
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          if (message == '' .and. column_index(table, reading%over) == 0) then
             message = no_column(reading%over, table)
-            if (asked%over == '') message = "'over' is missing: the results have no wheel travel that a slope could be taken over"
+            if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
          call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
          if (.not. ends_with(asked%name, '_'//unit)) reading%head = asked%name//'_'//unit
@@ -52,14 +52,14 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> A response of one table: the value at a factor (linear between states), the least-squares slope over a
-   !> window there, or the span over all states. `message` says why there is no slope, or no such factor.
+   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window
+   !> around it, or the span over all states. `message` gives the reason if there is no slope or no such factor.
    subroutine read_response(reading, table, value, message)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
-      real(wp), intent(out) :: value             !! nan where there is none
+      real(wp), intent(out) :: value             !! nan if there is none
       character(:), allocatable, intent(out) :: message
-      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the ends of a case, which went through SI
+      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
       real(wp) :: at, centre, mean_x, mean_y, spread
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
@@ -77,7 +77,7 @@ contains
       if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) at = minval(x)
       if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) at = maxval(x)
       if (.not. (at >= minval(x) .and. at <= maxval(x))) then
-         message = 'at = '//str(reading%asked%at)//' lies outside the case, whose factor goes from '// &
+         message = 'at = '//str(reading%asked%at)//' lies outside the range of the case, '// &
             str(minval(x))//' to '//str(maxval(x))
          return
       end if
@@ -89,7 +89,7 @@ contains
       centre = between(x, y, at)
       x = y
       y = table%values(column_index(table, reading%asked%column), :)
-      if (.not. ieee_is_finite(centre)) return          ! the state is lost, or the column means nothing there
+      if (.not. ieee_is_finite(centre)) return          ! the state did not converge, or the column is undefined there
       is_near = .false.
       do k = 1, size(x)
          if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window
@@ -109,7 +109,7 @@ contains
       end if
    end subroutine read_response
 
-   !> What puts two states into a window.
+   !> Advice on how to have two states in the window.
    pure function remedy(distance, window) result(words)
       real(wp), intent(in) :: distance(:)      !! of the states from the centre of the window
       real(wp), intent(in) :: window
@@ -122,12 +122,12 @@ contains
       if (count(is_left) < 2) return
       is_left(minloc(distance, dim=1, mask=is_left)) = .false.
       second = minval(distance, mask=is_left)
-      words = 'give the case '//str(ceiling(second/window))//' times as many increments or more, or the response a window of '// &
+      words = 'give the case '//str(ceiling(second/window))//' or more times as many increments, or the response a window of '// &
          str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more'
    end function remedy
 
-   !> What a slope is taken over unless the study says: the travel of the only wheel; with two wheels that of the column's
-   !> own side, or of the left one.
+   !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, that on the side of the
+   !> column, or else of the left wheel.
    pure function usual_over(column, table) result(over)
       character(*), intent(in) :: column
       type(table_t), intent(in) :: table
@@ -142,7 +142,7 @@ contains
       if (column_index(table, column(:mark)//travel) > 0) over = column(:mark)//travel
    end function usual_over
 
-   !> Unit of a slope as it ends a head, 'deg_per_m', and what the slope of the columns is multiplied with.
+   !> Unit of a slope as the end of a column name, 'deg_per_m', and the factor for the slope of the columns.
    pure subroutine slope_unit(column, over, factor_unit, unit, size)
       character(*), intent(in) :: column, over, factor_unit
       character(:), allocatable, intent(out) :: unit
@@ -185,7 +185,7 @@ contains
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
 
-   !> The unit that ends the name of a column: 'mm', 'n_per_mm'; '' where it has none.
+   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if it has none.
    pure function unit_of(column) result(unit)
       character(*), intent(in) :: column
       character(:), allocatable :: unit
@@ -208,7 +208,7 @@ contains
       if (len(text) >= len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
    end function ends_with
 
-   !> That a table has no such column, and which one may be meant.
+   !> The message about a missing column, with a suggestion.
    function no_column(name, table) result(words)
       character(*), intent(in) :: name
       type(table_t), intent(in) :: table
@@ -219,7 +219,7 @@ contains
       words = 'the results have no column '//quoted(name)//words
    end function no_column
 
-   !> y at x = at, linear between the rows; not a number outside them.
+   !> y at x = at, linear between the rows; NaN outside their range.
    pure real(wp) function between(x, y, at)
       real(wp), intent(in) :: x(:), y(:), at
       integer :: k

@@ -1,8 +1,8 @@
 !> Step-size convergence: error and time of each method against the number of increments.
 !>
-!> For every N the case is walked from design to one of its ends in N increments. Told are |Φ| of
-!> (31), which says how well the joints close, AND the distance to the equilibrium there, which (31)
-!> does not know of.
+!> For every N the case is run from design to one of its ends in N increments. Two errors are reported: |Φ| of
+!> (31), the violation of the joint constraints, AND the distance to the equilibrium, which is not contained in
+!> (31).
 module ek_step_size
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_convergence
@@ -28,12 +28,12 @@ module ek_step_size
 
    character(*), parameter :: columns(10) = [character(20) :: 'increments', 'constraint_error', 'travel_error_mm', &
       'toe_error_deg', 'camber_error_deg', 'seconds', 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'reached']
-   integer, parameter :: repeats = 5     !! a run is timed so often, the least counts
+   integer, parameter :: repeats = 5     !! number of timed runs; the shortest time is used
 
 contains
 
-   !> The whole study as CSV text: column `method`, then those above, one row for each method and N. Each row is handed to
-   !> `writer` as soon as it is there.
+   !> The study as CSV text: column `method`, then those above, one row for each method and N. Each row is passed to
+   !> `writer` as soon as it is available.
    subroutine step_size_text(study, deck, text, error, writer)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
@@ -52,21 +52,22 @@ contains
       call make_subject(deck, study%case, suspension, case, kkt, error)
       if (allocated(error)) return
       if (size(suspension%wheels) == 0) then
-         call fail(error, exit_deck, deck%file//': a step-size study compares a wheel, and the deck has none')
+         call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')
          return
       end if
       if (study%end == 'from') case%to = case%from
       if (.not. abs(case%to) > 0.0_wp) then
-         call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' begins at the end that is studied; take the other')
+         call fail(error, exit_deck, deck%file//': case '//quoted(case%name)//' has no range towards end = '// &
+            quoted(study%end)//'; set end = '//quoted(trim(merge('from', 'to  ', study%end == 'to'))))
          return
       end if
       case%from = 0.0_wp
       case%method = 'equilibrium'
-      case%tolerance = 1.0e-13_wp      ! m; the reference is a thousand times closer than any result
+      case%tolerance = 1.0e-13_wp      ! m; the reference is a thousand times more accurate than any result
       case%increments = 100
       call walk_once(suspension, case, kkt, exact, closure, time, is_reached)
       if (.not. is_reached) then
-         call fail(error, exit_convergence, deck%file//': case '//quoted(case%name)//': no equilibrium at the end that is studied')
+         call fail(error, exit_convergence, deck%file//': case '//quoted(case%name)//': no equilibrium at the end of the range')
          return
       end if
       case%tolerance = 1.0e-10_wp      ! m, the default of a deck
@@ -107,7 +108,7 @@ contains
 
    end subroutine step_size_text
 
-   !> Walks a case to its end; attitude of the first wheel there, |Φ|, and the least time of a few walks.
+   !> Runs a case to its end; returns the attitude of the first wheel, |Φ|, and the shortest time of a few runs.
    subroutine walk_once(suspension, case, kkt, attitude, closure, time, is_reached)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

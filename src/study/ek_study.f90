@@ -1,7 +1,7 @@
-!> What a study asks: read from its own namelist file, with the same scanner and the same messages.
+!> Reads a study from its namelist file, with the scanner and the messages of the deck reader.
 !>
-!> `&study` names the question, `&factor` what of the deck is varied, `&response` what is read from
-!> the results. Kinds so far: 'step_size' and 'sweep'; a new kind is a new file beside these.
+!> `&study` defines the study, `&factor` a value of the deck that is varied, `&response` a value read from
+!> the results. Kinds: 'step_size' and 'sweep'; a new kind is added as a new file in this folder.
 module ek_study
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -30,7 +30,7 @@ module ek_study
       character(:), allocatable :: name, column
       character(:), allocatable :: of             !! 'value', 'slope' or 'span'
       real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
-      character(:), allocatable :: over           !! column the slope is taken over; '': the travel of the wheel
+      character(:), allocatable :: over           !! column over which the slope is taken; '': the travel of the wheel
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
@@ -38,7 +38,7 @@ module ek_study
    !> A study.
    type :: study_t
       character(:), allocatable :: name, title, kind, deck, case, plot
-      character(:), allocatable :: end            !! step_size: the end of the case that is compared, 'from' or 'to'
+      character(:), allocatable :: end            !! step_size: the end of the case to be compared, 'from' or 'to'
       character(word_length), allocatable :: methods(:), columns(:)
       integer, allocatable :: increments(:)
       type(factor_t), allocatable :: factors(:)
@@ -51,7 +51,7 @@ module ek_study
 
 contains
 
-   !> Reads a study file; all its mistakes in one error.
+   !> Reads a study file; all its mistakes are reported in one error.
    subroutine read_study(path, study, error)
       character(*), intent(in) :: path
       type(study_t), intent(out) :: study
@@ -95,7 +95,7 @@ contains
          select case (draft%cards(k)%group)
          case (study_group)
             studies = studies + 1
-            if (studies > 1) call complain(draft, file, k, '', 'a second &study; one file holds one')
+            if (studies > 1) call complain(draft, file, k, '', 'a second &study; a file may hold only one')
             call take_study(file, draft, k, study)
          case (factor_group)
             call take_factor(file, draft, k, study)
@@ -111,7 +111,7 @@ contains
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
    end subroutine read_study
 
-   !> Whether a file holds groups of a deck, and none of a study.
+   !> Whether a file contains groups of a deck and none of a study.
    pure logical function is_deck(file)
       type(deck_t), intent(in) :: file
       integer :: k, group
@@ -127,18 +127,18 @@ contains
       end do
    end function is_deck
 
-   !> A name stands in paths and in heads of columns, where it is the only one.
+   !> Checks a name, which appears in paths and must be unique among the column names.
    subroutine check_name(file, draft, k)
       type(deck_t), intent(in) :: file
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: k
-      character(*), parameter :: heads(3) = [character(9) :: 'design', 'factor', 'converged']   !! there anyway
+      character(*), parameter :: heads(3) = [character(9) :: 'design', 'factor', 'converged']   !! always present
       integer :: j
 
       associate (card => draft%cards(k))
          if (card%name == '') return
          if (.not. is_legal_name(trim(card%name))) then
-            call complain(draft, file, k, 'name', 'a name begins with a letter and has letters, digits and _ only')
+            call complain(draft, file, k, 'name', 'a name must begin with a letter and contain only letters, digits and _')
          end if
          if (card%group == study_group) return
          if (any(heads == lower(card%name))) &
@@ -285,7 +285,7 @@ contains
       study%responses = [study%responses, this]
    end subroutine take_response
 
-   !> What the parts must be together.
+   !> Checks that the parts of a study are consistent.
    subroutine check_whole(file, draft, study)
       type(deck_t), intent(in) :: file
       type(draft_t), intent(inout) :: draft

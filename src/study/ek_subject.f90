@@ -1,4 +1,4 @@
-!> What is studied: one case of a deck, ready to be swept.
+!> The subject of a study: one case of a deck, prepared for a sweep.
 module ek_subject
    use ek_error, only: error_t, fail, exit_deck, exit_model
    use ek_text, only: quoted
@@ -17,7 +17,7 @@ module ek_subject
 
 contains
 
-   !> Builds the model of a deck for one case ('' is the first), puts it on the rig, and examines it.
+   !> Builds the model of a deck for one case ('': the first case), mounts it on the rig, and examines it.
    subroutine make_subject(deck, case_name, suspension, case, kkt, error, is_known)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name
@@ -25,7 +25,7 @@ contains
       type(case_t), intent(out) :: case
       type(kkt_t), intent(out) :: kkt
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(in), optional :: is_known     !! its inputs have been checked, in another design of the deck; .false.
+      logical, intent(in), optional :: is_known     !! its inputs were checked with another design of the deck; default .false.
       type(case_t), allocatable :: cases(:)
       character(:), allocatable :: words
       logical :: is_checked
@@ -42,7 +42,7 @@ contains
       end if
       if (cases(k)%follows_arc) then
          call fail(error, exit_deck, deck%file//': case '//quoted(cases(k)%name)//' has follow = ''arc'', where a factor may '// &
-            'have several states; a study takes cases with follow = ''factor''')
+            'have several states; a study needs a case with follow = ''factor''')
          return
       end if
       is_checked = .false.

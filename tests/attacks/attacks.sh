@@ -336,7 +336,7 @@ END
 case_called_like_a_target() {
   { cat "$tiny"; echo "&case name = 'sweep_target', load = 'vertical', from = -1.0, to = 1.0 /"; } |
     sed "s/name = 'sweep',/name = 'sweep', target = 'wheel_travel_mm=1',/" >two.nml
-  run 2 "$program" check two.nml && says "the file of this case would be that of the target of case 'sweep'"
+  run 2 "$program" check two.nml && says "the results of this case would have the same file as the target of case 'sweep'"
 }
 same_bytes_again() {
   SOURCE_DATE_EPOCH=1700000000 run 0 "$program" report "$tiny" --out a && sleep 1 &&
