@@ -1,4 +1,4 @@
-!> The command line: one command, one file, options. Every mistake is told with what was expected.
+!> The command line: one command, one file, options. Every error message states the expected form.
 module ek_arguments
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: nearest_name, quoted
@@ -16,16 +16,16 @@ module ek_arguments
       character(:), allocatable :: text
    end type setting_t
 
-   !> What was asked for; texts that were not given are empty.
+   !> The options of the command line; texts that were not given are empty.
    type :: arguments_t
       character(:), allocatable :: command      !! one of `commands`, or '' for help or version
       character(:), allocatable :: file         !! deck or study; '-' is standard input
-      type(setting_t), allocatable :: files(:)  !! all files named, of which `file` is the first; only compare takes several
+      type(setting_t), allocatable :: files(:)  !! all files given; `file` is the first; only compare accepts several
       character(:), allocatable :: out, method, case
       type(setting_t), allocatable :: settings(:)   !! path=value
-      type(setting_t), allocatable :: windows(:)    !! word=half width
+      type(setting_t), allocatable :: windows(:)    !! window=half width
       integer :: increments = 0                 !! 0: as in the deck
-      logical :: compliance = .false.           !! also the whole compliance matrix of every state
+      logical :: compliance = .false.           !! also write the compliance matrix at every state
       logical :: plot = .false., no_plots = .false., animate = .false.
       logical :: quiet = .false., help = .false., version = .false.
    end type arguments_t
@@ -90,7 +90,7 @@ contains
                k = k + 1
                value = argument(k)
             end if
-            if (len_trim(value) == 0) then      ! as of a variable of the shell that is not set
+            if (len_trim(value) == 0) then      ! for instance an unset variable of the shell
                call fail(error, exit_usage, word//' needs a value, found an empty one')
                return
             end if
@@ -129,7 +129,7 @@ contains
             else if (arguments%command == 'compare') then
                call add_setting(arguments%files, word)
             else
-               call fail(error, exit_usage, 'one file at a time: found '//quoted(arguments%file)//' and '//quoted(word))
+               call fail(error, exit_usage, 'expected one file, found '//quoted(arguments%file)//' and '//quoted(word))
                return
             end if
          end select
@@ -138,7 +138,7 @@ contains
       if (len(arguments%command) == 0) then
          call fail(error, exit_usage, 'no command: expected '//command_words)
       else if (arguments%command == 'compare' .and. size(arguments%files) < 2) then
-         call fail(error, exit_usage, 'compare needs two results or more: elastokin compare A.csv B.csv, or two report folders')
+         call fail(error, exit_usage, 'compare needs at least two results: elastokin compare A.csv B.csv, or two report folders')
       else if (len(arguments%file) == 0) then
          call fail(error, exit_usage, arguments%command//' needs a file: elastokin '//arguments%command//' FILE')
       else
@@ -146,7 +146,7 @@ contains
       end if
    end subroutine read_arguments
 
-   !> Options that the command has no use for are mistakes, not decoration.
+   !> Refuses options that the command does not use.
    subroutine refuse_unused(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -180,13 +180,14 @@ contains
       if (len(unused) > 0) then
          call fail(error, exit_usage, arguments%command//' takes no '//unused)
       else if (arguments%plot .and. arguments%out == '-') then
-         call fail(error, exit_usage, '--plot needs a folder, and --out - is none')
+         call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
       else if (arguments%compliance .and. arguments%out == '-') then
          call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
       else if (arguments%out == '-' .and. any(arguments%command == [character(7) :: 'report', 'compare'])) then
-         call fail(error, exit_usage, arguments%command//' writes several files: --out needs a folder, and - is none')
+         call fail(error, exit_usage, arguments%command// &
+            ' writes several files: it needs an output folder and cannot be used with --out -')
       else if (arguments%no_plots .and. arguments%animate) then
-         call fail(error, exit_usage, '--no-plots and --animate exclude each other')
+         call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
       end if
    end subroutine refuse_unused
 
@@ -202,7 +203,7 @@ contains
       call move_alloc(more, settings)
    end subroutine add_setting
 
-   !> '; did you mean …?' or nothing.
+   !> '; did you mean …?', or '' without a similar name.
    function suggestion(word, names) result(text)
       character(*), intent(in) :: word, names(:)
       character(:), allocatable :: text
@@ -210,7 +211,7 @@ contains
       if (len(text) > 0) text = '; did you mean '//quoted(text)//'?'
    end function suggestion
 
-   !> Argument number k, whole.
+   !> Argument number k in full length.
    function argument(k) result(text)
       integer, intent(in) :: k
       character(:), allocatable :: text

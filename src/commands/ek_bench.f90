@@ -1,8 +1,8 @@
-!> elastokin bench: what an increment costs, in units of LAPACK's factor and solve alone.
+!> elastokin bench: time per increment, relative to LAPACK's factorisation and solution alone.
 !>
-!> The unit is dsysv on the very matrices of the sweep (scaled KKT matrices of its equilibrium states),
-!> one right-hand side, measured in turn with the methods in the same run: the ratio holds when the
-!> machine is slow or busy. The least time of several rounds is told, for all alike.
+!> The unit is dsysv on the matrices of the sweep (scaled KKT matrices of its equilibrium states) with one
+!> right-hand side, timed alternately with the methods in the same run: the ratio then does not depend on the
+!> speed or load of the machine. The minimum time of several rounds is reported for each.
 module ek_bench
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_model, exit_convergence
@@ -29,8 +29,8 @@ module ek_bench
    private
    public :: bench
 
-   integer, parameter :: rounds = 15          !! each method is timed so often; the least counts
-   integer, parameter :: kept_numbers = 2**17 !! of the matrices kept for the unit: 1 MB does not fall out of the cache
+   integer, parameter :: rounds = 15          !! each method is timed this often; the minimum counts
+   integer, parameter :: kept_numbers = 2**17 !! size of the matrices kept for the unit: 1 MB stays in the cache
 
 contains
 
@@ -69,7 +69,7 @@ contains
       case%follows_arc = .false.       ! the methods are compared over the factor
       call sweep(suspension, case, path, kkt)
       if (any(path%failure%state > 0)) then
-         call fail(error, exit_convergence, 'case '//quoted(case%name)//' does not run to its end: nothing to measure')
+         call fail(error, exit_convergence, 'case '//quoted(case%name)//' does not converge at every state and cannot be timed')
          return
       end if
       call collect_matrices(suspension, case, path, kkt, matrices)
@@ -97,8 +97,8 @@ contains
       end do
       case%method = 'equilibrium'
       call sweep(suspension, case, path, kkt)
-      call put('equilibrium: converged states a second '//str(nint(1.0_wp/best(3))), error)
-      write (line, '(a,f5.3,a,i0)') 'equilibrium: factorisations a state ', &
+      call put('equilibrium: converged states per second '//str(nint(1.0_wp/best(3))), error)
+      write (line, '(a,f5.3,a,i0)') 'equilibrium: factorisations per state ', &
          real(sum(path%iterations), wp)/path%states, ', at most ', maxval(path%iterations)
       call put(trim(line), error)
       case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default
@@ -110,7 +110,7 @@ contains
       call whole_way(arguments, error)
    end subroutine bench
 
-   !> One line to standard output; after a failure none.
+   !> Prints one line to standard output; after a failure nothing.
    subroutine put(line, error)
       character(*), intent(in) :: line
       type(error_t), allocatable, intent(inout) :: error
@@ -159,8 +159,8 @@ contains
       end do
    end subroutine collect_matrices
 
-   !> Time of dsysv on one of the matrices with a copy of it made before, and of the copy alone: the least so far of each,
-   !> so that a disturbed round spoils neither.
+   !> Time of dsysv on one of the matrices including a copy of it, and time of the copy alone: the minimum so far of each, so
+   !> that a disturbed round affects neither.
    subroutine time_lapack(n, matrices, together, copying)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrices(:, :, :)
@@ -184,7 +184,7 @@ contains
       together = min(together, (seconds() - start)/size(matrices, 3))
    end subroutine time_lapack
 
-   !> Nothing, but out of the optimiser's sight: the copy is not taken away as dead.
+   !> Does nothing, but keeps the optimiser from removing the copy as dead code.
    subroutine keep(copy, rhs)
       real(wp), intent(inout) :: copy(:, :), rhs(:)
       if (rhs(1) < 0.0_wp) copy(1, 1) = rhs(1)
@@ -204,7 +204,7 @@ contains
       end do
    end function largest_distance
 
-   !> Deck to CSV text against its solver's share, within this process.
+   !> Times all steps from deck to CSV text within this process.
    subroutine whole_way(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error

@@ -1,4 +1,4 @@
-!> elastokin check: what a deck holds, and whether its model can be solved.
+!> elastokin check: lists the contents of a deck and examines whether its model can be solved.
 module ek_check
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model
@@ -23,7 +23,7 @@ module ek_check
 
 contains
 
-   !> Prints the findings to standard output; exit_model where a case cannot be solved.
+   !> Prints the findings to standard output; exit_model if a case cannot be solved.
    subroutine check(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -35,7 +35,7 @@ contains
       if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
    end subroutine check
 
-   !> The findings, also those before a fault.
+   !> Collects the findings, including those made before an error.
    subroutine examine(arguments, words, error)
       type(arguments_t), intent(in) :: arguments
       type(buffer_t), intent(inout) :: words
@@ -68,7 +68,7 @@ contains
          call diagnose(suspension, design_state(suspension), kkt, diagnosis)
          call tell_case(chosen(k), diagnosis, words)
          if (diagnosis%is_solvable()) cycle
-         ! the same defect seen under two drives differs in a last digit
+         ! the message on one defect may differ in the last digit between two drives
          call add_distinct(found, diagnosis%words())
       end do
       if (size(chosen) == 0) then
@@ -83,7 +83,7 @@ contains
       if (size(chosen) > 0) call move_alloc(trouble, error)
    end subroutine examine
 
-   !> What looks implausible; balanced, where that can be done.
+   !> Remarks on implausible values, evaluated on the balanced model if balance succeeds.
    subroutine tell_remarks(base, cases, is_solvable, has_warnings, words, error)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: cases(:)
@@ -108,12 +108,12 @@ contains
       end do
       call doubt(balanced, cases, remarks)
       do k = 1, remarks%count()
-         if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! told there
+         if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! already among the warnings
          call tell(words, 'remark', remarks%line(k))
       end do
    end subroutine tell_remarks
 
-   !> Bodies, unknowns, constraints, freedoms, condition, unused points.
+   !> Bodies, unknowns, constraints, degrees of freedom and unused points.
    subroutine tell_model(suspension, diagnosis, checksum, words)
       type(suspension_t), intent(in) :: suspension
       type(diagnosis_t), intent(in) :: diagnosis
@@ -150,7 +150,7 @@ contains
       if (len(unused) > 0) call tell(words, 'unused points', unused)
    end subroutine tell_model
 
-   !> "universal 'outer': axis_2_vector = 0, 1, 0", of the axis that the deck left to the program, in the frame of the deck.
+   !> "universal 'outer': axis_2_vector = 0, 1, 0": the axis that the program has chosen, in the frame of the deck.
    function axis_words(suspension, k) result(text)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k                     !! number of the joint
@@ -166,7 +166,7 @@ contains
       end associate
    end function axis_words
 
-   !> One case: what drives it, and whether it can be solved.
+   !> One case: its test, load or drive, and whether it can be solved.
    subroutine tell_case(case, diagnosis, words)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis
@@ -190,7 +190,7 @@ contains
       call tell(words, 'case '//case%name, text)
    end subroutine tell_case
 
-   !> A line 'name: text'; none for no text.
+   !> A line 'name: text'; no line for an empty text.
    subroutine tell(words, name, text)
       type(buffer_t), intent(inout) :: words
       character(*), intent(in) :: name, text

@@ -1,4 +1,4 @@
-!> elastokin compare: results laid over each other, and a table of how their gradients differ.
+!> elastokin compare: overlaid results, and a table of the differences of their gradients.
 module ek_compare
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
@@ -52,7 +52,7 @@ contains
          end if
          sets(k)%list = results(k)%gradients
       end do
-      do k = 1, size(results)         ! equal names: the whole paths tell them apart
+      do k = 1, size(results)         ! equal names: the full paths distinguish them
          do l = 1, size(results)
             if (l == k .or. results(l)%label /= results(k)%label) cycle
             results(k)%label = results(k)%path
@@ -68,7 +68,7 @@ contains
 
       call compare_gradients(sets, rows)
       call find_missing(results, rows, missing)
-      call tell(words_of(results, rows), unheard)                ! whoever does not listen still gets the files
+      call tell(words_of(results, rows), unheard)                ! the files are written even if standard output is closed
       do k = 1, missing%count()
          call say(arguments%quiet, missing%line(k))
       end do
@@ -76,9 +76,10 @@ contains
       if (allocated(error)) return
 
       call overlay(results, charts)
-      path = join_path(folder, 'compare.html')        ! first without its pictures: it comes also if gnuplot fails or hangs
+      ! first without its pictures: the page then exists even if gnuplot fails or hangs
+      path = join_path(folder, 'compare.html')
       message = ''
-      if (.not. arguments%no_plots) message = 'gnuplot has not finished them'
+      if (.not. arguments%no_plots) message = 'gnuplot has not finished'
       call write_whole(path, page_of(results, rows, charts, missing, folder, .false., message), error)
       if (allocated(error)) return
       call draw(arguments, charts, folder, message, has_pictures, undrawn)
@@ -94,7 +95,7 @@ contains
       end if
    end subroutine compare
 
-   !> What one of the results has and another lacks.
+   !> Lists the tests, columns and gradients of one result that another lacks.
    subroutine find_missing(results, rows, missing)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
@@ -126,7 +127,7 @@ contains
 
    contains
 
-      !> Whether no result before a, other than b, has its test t: it is told once.
+      !> Whether no result before a, other than b, has its test t: each missing test is listed once.
       pure logical function is_first(a, b, t)
          integer, intent(in) :: a, b, t
          integer :: c
@@ -139,7 +140,7 @@ contains
 
    end subroutine find_missing
 
-   !> The columns of `one` that `other` lacks in the same test; each once, whatever the tests it lacks it in.
+   !> The columns of `one` that `other` lacks in the same test; each once, also if it is missing in several tests.
    function columns_lacking(one, other) result(lacking)
       type(results_t), intent(in) :: one, other
       type(message_list_t) :: lacking
@@ -160,7 +161,7 @@ contains
       end do
    end function columns_lacking
 
-   !> The first names of a list, and how many more there are: models of different make share few of a thousand columns.
+   !> The first names of a list, and the number of the others: models of different type share few of a thousand columns.
    function some_of(names) result(text)
       type(message_list_t), intent(in) :: names
       character(:), allocatable :: text
@@ -213,7 +214,7 @@ contains
       text = out%text()
    end function words_of
 
-   !> A number for the table on the terminal; '-' where there is none.
+   !> A number for the table on the terminal; '-' for a missing value.
    pure function number_text(value, digits) result(text)
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
@@ -223,7 +224,7 @@ contains
       if (text == 'not a number') text = '-'
    end function number_text
 
-   !> Filled with blanks to a width, to the left or to the right.
+   !> Padded with blanks to a width; the text stands at the left or at the right.
    pure function left(text, width) result(filled)
       character(*), intent(in) :: text
       integer, intent(in) :: width
@@ -238,7 +239,7 @@ contains
       filled = repeat(' ', max(1, width - len(text)))//text
    end function right
 
-   !> differences.csv: one row a gradient and a result that is compared with the first.
+   !> differences.csv: one row per gradient and per result compared with the first.
    subroutine write_differences(results, rows, path, error)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
@@ -268,12 +269,12 @@ contains
       call write_whole(path, text_table_csv(table), error)
    end subroutine write_differences
 
-   !> All charts by one run of gnuplot.
+   !> Draws all charts in one run of gnuplot.
    subroutine draw(arguments, sets, folder, message, is_drawn, error)
       type(arguments_t), intent(in) :: arguments
       type(chart_set_t), intent(in) :: sets(:)
       character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message    !! why there are none
+      character(:), allocatable, intent(out) :: message    !! why there are no charts
       logical, intent(out) :: is_drawn
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: scripts, pictures

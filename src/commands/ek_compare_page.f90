@@ -1,4 +1,4 @@
-!> The page of a comparison: charts with the curves of all results, and the table of gradients.
+!> The page of a comparison: charts of the curves of all results, and the table of gradients.
 module ek_compare_page
    use ek_error, only: message_list_t
    use ek_text, only: str
@@ -19,7 +19,7 @@ module ek_compare_page
 
 contains
 
-   !> Charts of every test of the first result: one a column that another result has too, one curve a result.
+   !> Charts of every test of the first result: one per column that another result also has, with one curve per result.
    subroutine overlay(results, sets)
       type(results_t), intent(in) :: results(:)
       type(chart_set_t), allocatable, intent(out) :: sets(:)
@@ -40,7 +40,7 @@ contains
       end do
    end subroutine overlay
 
-   !> One quantity of a test, left and right apart.
+   !> One quantity of a test; separate charts for left and right.
    subroutine overlay_quantity(results, test, quantity, charts)
       type(results_t), intent(in) :: results(:)
       integer, intent(in) :: test
@@ -89,8 +89,8 @@ contains
       type(chart_set_t), intent(in) :: sets(:)
       type(message_list_t), intent(in) :: missing
       character(*), intent(in) :: folder
-      logical, intent(in) :: has_pictures           !! those in the folder are of this comparison
-      character(*), intent(in) :: why_none          !! '' where nothing is to be said
+      logical, intent(in) :: has_pictures           !! those in the folder belong to this comparison
+      character(*), intent(in) :: why_none          !! '' if there is no message
       character(:), allocatable :: text, test
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
@@ -105,13 +105,13 @@ contains
       end do
       call names%add('Program')
       call values%add('elastokin '//version)
-      call begin_page(page, 'Comparison', 'Results laid over each other; gradients against those of A')
+      call begin_page(page, 'Comparison', 'Overlaid results; gradients compared with those of A')
       call add_facts(page, names, values)
       if (len(why_none) > 0) then
          call warnings%add('The page has no pictures: '//why_none)
-         call add_warnings(page, 'To be read with care', warnings)
+         call add_warnings(page, 'Warnings', warnings)
       end if
-      call add_warnings(page, 'Not in all of them', missing)
+      call add_warnings(page, 'Missing from some results', missing)
       if (size(rows) > 0) then
          call begin_section(page, 'gradients', 'Gradients')
          heads(1) = 'Quantity'
@@ -167,7 +167,7 @@ contains
       end do
    end function longest_label
 
-   !> Title of a test by its name.
+   !> Title of the test of this name.
    pure function title_of(results, name) result(title)
       type(results_t), intent(in) :: results
       character(*), intent(in) :: name
@@ -179,7 +179,7 @@ contains
       if (k > 0) title = results%tests(k)%title
    end function title_of
 
-   !> The place of a test among those of a result, by its name; 0 when it has none of this name.
+   !> The number of the test of this name in a result; 0 if there is none.
    pure integer function test_number(results, name) result(number)
       type(results_t), intent(in) :: results
       character(*), intent(in) :: name

@@ -1,4 +1,4 @@
-!> Why a path ended, and which of its states a real suspension would leave.
+!> Messages: why a path ended, and which of its states are unstable.
 module ek_failure_words
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -23,14 +23,14 @@ module ek_failure_words
    private
    public :: failure_words, stability_words
 
-   integer, parameter :: digits = 10      !! of the place where a path ends, which is found to 1e-9 of the range
+   integer, parameter :: digits = 10      !! printed of the swept value at the end of a path, which is known to 1e-9 of the range
 
 contains
 
-   !> Where a path ends, and what ends it: joints that lock, a load that has its maximum, a mechanism; stops in contact.
+   !> Where a path ends and why: joints that lock, a load at its maximum, a mechanism; stops in contact.
    function failure_words(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension     !! on the rig
-      type(case_t), intent(in) :: case                 !! likewise
+      type(case_t), intent(in) :: case                 !! on the rig
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
       type(kkt_t), intent(inout) :: kkt                !! work space
@@ -166,7 +166,7 @@ contains
       end do
    end function joint_list
 
-   !> Stops in contact, with what they carry.
+   !> Stops in contact and their forces.
    function stop_words(suspension, state) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -187,7 +187,7 @@ contains
       end do
    end function stop_words
 
-   !> 'row 3 of the table was not found; …', or 'rows 3, 4, 7 … of the table, 12 in all, were …'.
+   !> 'row 3 of the table did not converge; …', or 'rows 3, 4, 7 … of the table, 12 in all, did …'.
    function row_words(path, failure) result(text)
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
@@ -205,20 +205,20 @@ contains
          text = text//str(nint(path%value(k)))
       end do
       if (lost == 1) then
-         text = 'row '//text//' of the table was not found'
+         text = 'row '//text//' of the table did not converge'
       else if (lost <= most_named) then
-         text = 'rows '//text//' of the table were not found'
+         text = 'rows '//text//' of the table did not converge'
       else
-         text = 'rows '//text//' … of the table, '//str(lost)//' in all, were not found'
+         text = 'rows '//text//' … of the table, '//str(lost)//' in all, did not converge'
       end if
       row = nint(path%value(failure%state))
-      text = text//'; on the way to row '//str(row)//' from '
+      text = text//'; the last equilibrium on the way from '
       if (row == 1) then
          text = text//'design'
       else
          text = text//'row '//str(row - 1)
       end if
-      text = text//' the last equilibrium is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
+      text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_words
 
    !> A line each: states with a negative stiffness, limit points and bifurcations on the path, matrices that are nearly singular.
@@ -231,7 +231,7 @@ contains
 
       first = minloc(path%pivot_ratio, dim=1, mask=path%is_reached)
       if (first > 0) then
-         if (path%pivot_ratio(first) < nearly_singular) call words%add('the matrix is nearly singular (least over largest '// &
+         if (path%pivot_ratio(first) < nearly_singular) call words%add('the matrix is nearly singular (smallest over largest '// &
             'pivot '//str(path%pivot_ratio(first), 2)//') at '//place_words(suspension, case, path%value(first))// &
             ' (column near_singular); see elastokin check')
       end if

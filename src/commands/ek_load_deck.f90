@@ -1,4 +1,4 @@
-!> From a path and settings to a model: what every command begins with.
+!> From a path and settings to a model: the first step of every command.
 module ek_load_deck
    use ek_error, only: error_t, fail, exit_usage, exit_file
    use ek_text, only: str, quoted, nearest_name
@@ -15,7 +15,7 @@ module ek_load_deck
 
 contains
 
-   !> Reads a deck, applies --set, builds the model, and reads the tables and targets of its cases: every mistake in one go.
+   !> Reads a deck, applies --set, builds the model, and reads the tables and targets of its cases; reports all errors together.
    subroutine load_deck(arguments, suspension, cases, checksum, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(out) :: suspension
@@ -35,14 +35,14 @@ contains
       if (allocated(fault) .and. allocated(error)) then
          error%message = error%message//new_line('a')//fault%message
       else if (allocated(fault)) then
-         ! a file that is not there is told by the case that needs it: the others can be run
+         ! a missing file is reported by the case that needs it: the other cases can be run
          if (fault%code /= exit_file .or. arguments%command == 'check') call move_alloc(fault, error)
       end if
       if (allocated(error)) return
       checksum = deck_checksum(deck)
    end subroutine load_deck
 
-   !> --set path=value, one after the other.
+   !> Applies --set path=value in the order given.
    subroutine apply_settings(arguments, deck, error)
       type(arguments_t), intent(in) :: arguments
       type(deck_t), intent(inout) :: deck
@@ -73,7 +73,7 @@ contains
          names(k) = cases(k)%name
       end do
       if (size(cases) == 0) then
-         call fail(error, exit_usage, arguments%file//': no &case group, so there is nothing to run (check works without one)')
+         call fail(error, exit_usage, arguments%file//': no &case group, so there is no case to run (check works without one)')
          return
       end if
       allocate (chosen(0))

@@ -1,4 +1,4 @@
-!> What run and report say of a deck before they run it: that it looks implausible, or cannot be solved.
+!> Messages of run and report on a deck before they run it: implausible values, a model that cannot be solved.
 module ek_remark_words
    use ek_error, only: message_list_t
    use ek_text, only: plural
@@ -14,7 +14,7 @@ module ek_remark_words
 
 contains
 
-   !> What balance has left out, or could not tell.
+   !> Warnings on springs that balance has left out or could not determine.
    subroutine warn_of_balance(suspension, page)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout), optional :: page
@@ -28,7 +28,7 @@ contains
       end do
    end subroutine warn_of_balance
 
-   !> One warning for all remarks of ek_plausibility: the first, and where the others are. The page has them all.
+   !> One warning for all remarks of ek_plausibility: the first, and a reference to the others. The page lists them all.
    subroutine warn_of_remarks(suspension, cases, page)
       type(suspension_t), intent(in) :: suspension      !! balanced
       type(case_t), intent(in) :: cases(:)              !! of the deck
@@ -48,10 +48,10 @@ contains
       end do
    end subroutine warn_of_remarks
 
-   !> Why no case of a deck can be run; each defect once.
+   !> The reasons why no case of a deck can be run; each defect once.
    function unsolvable_words(file, found) result(words)
       character(*), intent(in) :: file
-      type(examination_t), intent(in) :: found          !! of which no case can be solved
+      type(examination_t), intent(in) :: found          !! no case can be solved
       character(:), allocatable :: words
 
       if (size(found%is_solvable) == 1) then

@@ -34,8 +34,8 @@ module ek_report
 
 contains
 
-   !> Runs the tests of a deck and writes everything. A test that fails part way is written as far as it came; the error
-   !> at the end then has code exit_convergence.
+   !> Runs the tests of a deck and writes all files. Of a test that fails part way the converged states are written; the
+   !> error at the end then has code exit_convergence.
    subroutine report(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -63,7 +63,7 @@ contains
       call say_preloads(arguments, suspension)
       call planned_tests(suspension, chosen, planned)
       call warn_of_all(suspension, cases, planned, warnings)
-      call remove_file(join_path(folder, 'report.html'))     ! of an earlier report: it must not be taken for this one
+      call remove_file(join_path(folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(folder, contents_file))
 
       allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
@@ -81,7 +81,7 @@ contains
          if (allocated(trouble)) then
             call complain(trouble%message)
             failed = failed + 1
-            if (trouble%code /= exit_convergence) code = trouble%code     ! it was not run at all
+            if (trouble%code /= exit_convergence) code = trouble%code     ! the test was not run at all
             call warnings%add(planned(k)%title//': '//trouble%message)
          end if
          allocate (sets(k)%charts(0))
@@ -105,10 +105,10 @@ contains
       call write_contents(tests, join_path(folder, contents_file), error)
       if (allocated(error)) return
 
-      ! the page first, without its pictures: a gnuplot that fails, or never ends, cannot keep it away
+      ! first the page without pictures: it then exists even if gnuplot fails or never ends
       if (.not. arguments%no_plots) then
          page_warnings = warnings
-         call page_warnings%add('The page has no pictures: gnuplot has not finished them')
+         call page_warnings%add('The page has no pictures: gnuplot has not finished')
          call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
          if (allocated(error)) return
       end if
@@ -126,21 +126,21 @@ contains
       if (allocated(error)) return
       call tell_path(join_path(folder, 'report.html'), unheard)
       if (failed > 0) then
-         call fail(error, code, plural(failed, 'test', 'tests')//' of '//str(size(tests))// &
-            ' lost states; all that were found are written, and the page tells where')
+         call fail(error, code, str(failed)//' of '//plural(size(tests), 'test', 'tests')// &
+            trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
       else if (allocated(undrawn)) then
-         call fail(error, undrawn%code, 'the report is written, but not all of its pictures')
+         call fail(error, undrawn%code, 'the report was written, but some of its pictures are missing')
       else if (allocated(unheard)) then
          call move_alloc(unheard, error)
       end if
    end subroutine report
 
-   !> Reads the deck, examines the chosen cases, and makes the folders; an error where no case can be solved.
+   !> Reads the deck, examines the chosen cases, and makes the folders; an error if no case can be solved.
    subroutine begin_report(arguments, windows, suspension, cases, chosen, checksum, folder, found, error)
       type(arguments_t), intent(in) :: arguments
       type(windows_t), intent(out) :: windows
       type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:), chosen(:)      !! of the deck; those of this report
+      type(case_t), allocatable, intent(out) :: cases(:), chosen(:)      !! all of the deck; those of this report
       character(:), allocatable, intent(out) :: checksum, folder
       type(examination_t), intent(out) :: found
       type(error_t), allocatable, intent(out) :: error
@@ -165,7 +165,7 @@ contains
       call make_folder(join_path(folder, 'figures'), error)
    end subroutine begin_report
 
-   !> What is doubtful in a model before any test is run, to standard error and for the page.
+   !> Warnings on a model before any test is run, to standard error and for the page.
    subroutine warn_of_all(suspension, cases, planned, warnings)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -182,11 +182,11 @@ contains
       call warn_of_remarks(suspension, cases, warnings)
    end subroutine warn_of_all
 
-   !> compliance.csv: the compliance matrix of every state of a test.
+   !> compliance.csv: the compliance matrix at every state of a test.
    subroutine write_matrix(table, folder, unheard, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: folder
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
 
       call write_csv(table, join_path(folder, compliance_file), error)
@@ -204,7 +204,7 @@ contains
       type(gradient_t), intent(in) :: gradients(:)
       type(message_list_t), intent(in) :: warnings
       character(*), intent(in) :: folder
-      logical, intent(in) :: has_pictures, has_animation     !! those in the folder are of this report
+      logical, intent(in) :: has_pictures, has_animation     !! those in the folder belong to this report
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: names, values
       character(:), allocatable :: title, settings

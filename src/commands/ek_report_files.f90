@@ -1,4 +1,4 @@
-!> A report folder, and a table of results, as they are read back: what was a test, and what its table says of itself.
+!> Reads back a report folder or a table of results: the tests, and the description of each test in the header of its table.
 module ek_report_files
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -21,17 +21,17 @@ module ek_report_files
       compliance_file = 'compliance.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = 'anti phase'
 
-   !> What compare lays over another of its kind.
+   !> Results to be compared: a report folder or one table.
    type :: results_t
       character(:), allocatable :: path, label
-      logical :: is_report = .false.         !! a folder; else one table
+      logical :: is_report = .false.         !! a report folder; otherwise one table
       type(test_result_t), allocatable :: tests(:)
       type(gradient_t), allocatable :: gradients(:)
    end type results_t
 
 contains
 
-   !> The line of a table's header that says what the test was.
+   !> The header line of a table that describes the test.
    pure function test_line(kind, is_anti, factor_size) result(line)
       character(*), intent(in) :: kind
       logical, intent(in) :: is_anti
@@ -45,7 +45,7 @@ contains
       line = line//size_mark//trim(adjustl(number))
    end function test_line
 
-   !> The file of a test's table: its name, beside the report's own files. No name of a case has a hyphen.
+   !> The file of a test's table, different from the report's other files. No case name contains a hyphen.
    pure function table_file(name) result(file)
       character(*), intent(in) :: name
       character(:), allocatable :: file
@@ -74,13 +74,13 @@ contains
       call write_whole(path, text_table_csv(table), error)
    end subroutine write_contents
 
-   !> A report folder, or one CSV file, whose gradients are then made anew. Whoever made the folder, what its list names
-   !> lies in it.
+   !> Reads a report folder, or one CSV file, whose gradients are then computed. The files listed in the folder's contents
+   !> must lie in the folder itself.
    subroutine read_results(path, windows, results, error)
       character(*), intent(in) :: path
       type(windows_t), intent(in) :: windows
       type(results_t), intent(out) :: results
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: path:line: what is wrong
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
       type(text_table_t) :: contents
       integer :: k
 
@@ -95,7 +95,7 @@ contains
          return
       end if
       if (.not. file_exists(join_path(path, contents_file))) then
-         call fail(error, exit_file, quoted(path)//' is no folder of a report: it has no '//contents_file)
+         call fail(error, exit_file, quoted(path)//' is not a report folder: it has no '//contents_file)
          return
       end if
       call read_text_table(join_path(path, contents_file), contents, error)
@@ -105,7 +105,7 @@ contains
          if (.not. (is_file_name(cell_of(contents, k, 'file')) .and. is_file_name(cell_of(contents, k, 'test')))) then
             call fail(error, exit_file, contents%file//':'//str(contents%lines(k))//': '// &
                quoted(cell_of(contents, k, 'file'))//' or '//quoted(cell_of(contents, k, 'test'))// &
-               ' is no plain name of a file')
+               ' is not a plain file name')
             return
          end if
          call read_test(join_path(path, cell_of(contents, k, 'file')), cell_of(contents, k, 'test'), results%tests(k), error)
@@ -115,7 +115,7 @@ contains
       call read_gradients(join_path(path, gradients_file), results%gradients, error)
    end subroutine read_results
 
-   !> A name within a folder: no other folder, nothing hidden, no control character.
+   !> Whether a name is a plain file name: no folder, not hidden, no control character.
    pure logical function is_file_name(name)
       character(*), intent(in) :: name
       integer :: k
@@ -126,7 +126,7 @@ contains
       end do
    end function is_file_name
 
-   !> A table, and what its header says of the test.
+   !> Reads a table and the description of its test in the header.
    subroutine read_test(path, name, test, error, may_stream)
       character(*), intent(in) :: path, name
       type(test_result_t), intent(out) :: test
@@ -156,11 +156,11 @@ contains
       end do
       call find_wheels(test, side)
       call choose_abscissa(test)
-      ! a table of `run` does not tell its kind: one that stands over the travel is read like parallel travel
+      ! a table of `run` does not state its kind: with the travel as abscissa it is treated as parallel travel
       if (test%kind == 'other' .and. test%abscissa /= 'factor') test%kind = 'parallel_travel'
    end subroutine read_test
 
-   !> The last part of a path, without extension: what stands in a legend.
+   !> The last part of a path, without extension, for the legend.
    pure function label_of(path) result(label)
       character(*), intent(in) :: path
       character(:), allocatable :: label

@@ -18,25 +18,25 @@ module ek_report_page
 
 contains
 
-   !> The text of report.html. Pictures are read from the folder, if they are of this report; those that are not there
-   !> are left out.
+   !> The text of report.html. Pictures are read from the folder if they belong to this report; missing ones are
+   !> omitted.
    function report_page(title, subtitle, names, values, warnings, tests, sets, gradients, folder, has_pictures, &
       has_animation) result(text)
       character(*), intent(in) :: title, subtitle
       type(message_list_t), intent(in) :: names, values      !! facts for the head
-      type(message_list_t), intent(in) :: warnings           !! what is doubtful of the whole
+      type(message_list_t), intent(in) :: warnings           !! on the model as a whole
       type(test_result_t), intent(in) :: tests(:)
       type(chart_set_t), intent(in) :: sets(:)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: folder                     !! of the report
-      logical, intent(in) :: has_pictures, has_animation     !! those in the folder are of this report
+      logical, intent(in) :: has_pictures, has_animation     !! those in the folder belong to this report
       character(:), allocatable :: text
       type(page_t) :: page
       integer :: k
 
       call begin_page(page, title, subtitle)
       call add_facts(page, names, values)
-      call add_warnings(page, 'To be read with care', warnings)
+      call add_warnings(page, 'Warnings', warnings)
       if (has_pictures) call add_scene(page, title, folder, has_animation)
       call add_key_numbers(page, tests, gradients)
       do k = 1, size(tests)
@@ -62,8 +62,8 @@ contains
       if (has_svg) then
          call read_whole(join_path(folder, 'picture.svg'), bytes, error)
          if (.not. allocated(error)) call add_picture(page, bytes, 'The suspension in space: '//title, &
-            'Solid: design. Thin lines: the ends of the travel. Bodies have no shape in the model: bars join the points '// &
-            'where they are held.')
+            'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
+            'between their attachment points.')
       end if
       if (has_gif) then
          call read_whole(join_path(folder, 'animation.gif'), bytes, error)
@@ -72,7 +72,7 @@ contains
       call end_section(page)
    end subroutine add_scene
 
-   !> One table of what is looked at first.
+   !> One table of the key numbers.
    subroutine add_key_numbers(page, tests, gradients)
       type(page_t), intent(inout) :: page
       type(test_result_t), intent(in) :: tests(:)
@@ -111,7 +111,7 @@ contains
       call end_section(page)
    end subroutine add_key_numbers
 
-   !> One or two cells of numbers; what belongs to the axle stands in the first.
+   !> One or two cells of numbers; a value of the axle stands in the first.
    subroutine add_values(page, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
       logical, intent(in) :: has_sides, is_of_axle
@@ -126,7 +126,7 @@ contains
       end if
    end subroutine add_values
 
-   !> Section of a test: what went wrong, charts, gradients.
+   !> Section of a test: warnings, charts, gradients.
    subroutine add_test(page, test, charts, gradients, folder, has_pictures)
       type(page_t), intent(inout) :: page
       type(test_result_t), intent(in) :: test
@@ -139,11 +139,11 @@ contains
       integer :: k, found
 
       call begin_section(page, 'test-'//test%name, test%title)
-      call add_warnings(page, 'This test has states that failed or are doubtful', test%remarks)
+      call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
          found = count(converged_rows(test%table))
-         call add_paragraph(page, plural(found, 'state', 'states')//' in equilibrium, over: '//test%label// &
-            '. All columns: '//test%file//'.')
+         call add_paragraph(page, plural(found, 'state', 'states')//' in equilibrium, plotted over '//test%label// &
+            '. All columns are in '//test%file//'.')
          allocate (names(size(test%prefixes)))
          do k = 1, size(names)
             names(k) = wheel_word(test%prefixes(k))
@@ -156,7 +156,7 @@ contains
       call end_section(page)
    end subroutine add_test
 
-   !> The charts that gnuplot has drawn, side by side.
+   !> The charts drawn by gnuplot, side by side.
    subroutine add_chart_set(page, charts, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
@@ -176,7 +176,7 @@ contains
       call end_charts(page)
    end subroutine add_chart_set
 
-   !> The slopes of a test; left and right in one row.
+   !> The gradients of a test; left and right in one row.
    subroutine add_gradients(page, test, gradients, words)
       type(page_t), intent(inout) :: page
       type(test_result_t), intent(in) :: test
@@ -200,7 +200,7 @@ contains
          associate (g => gradients(k))
             if (g%test /= test%name) cycle
             if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call words%add(noted(gradients(k:))//': '//g%note)
-            if (g%side == 'right') cycle                   ! told with its left twin
+            if (g%side == 'right') cycle                   ! in the row of its left side
             is_axle = len(g%side) == 0 .and. has_sides
             has_twin = .false.
             if (k < size(gradients)) has_twin = gradients(k + 1)%side == 'right' .and. gradients(k + 1)%quantity == g%quantity
@@ -218,10 +218,10 @@ contains
          end associate
       end do
       call end_table(page)
-      call add_warnings(page, 'No slope', words)
+      call add_warnings(page, 'Gradients without a value', words)
    end subroutine add_gradients
 
-   !> Whether the last of a list is the first of its test and side with its note.
+   !> Whether the last gradient of a list is the first of its test and side with its note.
    pure logical function is_first_note(list)
       type(gradient_t), intent(in) :: list(:)
       integer :: k, n
@@ -234,7 +234,7 @@ contains
       end do
    end function is_first_note
 
-   !> 'right: bump toe, bump camber': all of a list with the note, test and side of its first.
+   !> 'right bump toe, bump camber': all gradients of a list with the note, test and side of the first.
    pure function noted(list) result(text)
       type(gradient_t), intent(in) :: list(:)
       character(:), allocatable :: text

@@ -1,4 +1,4 @@
-!> The pictures of a report: the charts of its tests, the suspension in space, and how it moves; by one run of gnuplot.
+!> The pictures of a report: the charts of its tests, the suspension in space, and its animation; one run of gnuplot.
 module ek_report_pictures
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
@@ -25,7 +25,7 @@ module ek_report_pictures
    !> The states of a test, for pictures.
    type :: film_t
       type(path_t) :: path
-      logical :: is_there = .false.      !! else the test was not run
+      logical :: is_there = .false.      !! false: the test was not run
    end type film_t
 
 contains
@@ -36,12 +36,12 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
-      type(film_t), intent(in) :: films(:)                   !! one a test
-      type(chart_set_t), intent(in) :: sets(:)               !! one a test
+      type(film_t), intent(in) :: films(:)                   !! one per test
+      type(chart_set_t), intent(in) :: sets(:)               !! one per test
       character(*), intent(in) :: folder
-      logical, intent(out) :: has_animation                  !! it was asked for, and something moves
-      character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' where there are
-      type(error_t), allocatable, intent(out) :: error       !! a script that cannot be written, or that gnuplot refuses
+      logical, intent(out) :: has_animation                  !! it was requested, and something moves
+      character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
+      type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
       type(message_list_t) :: scripts, pictures
       type(chart_t), allocatable :: charts(:)
       type(camera_t) :: camera
@@ -49,12 +49,12 @@ contains
       message = ''
       has_animation = .false.
       if (arguments%no_plots) then
-         ! of an earlier report, they would stand beside a page that has none
+         ! pictures of an earlier report do not belong to this page
          call remove_file(join_path(folder, 'picture.svg'))
          call remove_file(join_path(folder, 'picture.png'))
          call remove_file(join_path(folder, 'animation.gif'))
          call remove_drawn(sets, folder)
-         message = 'none were asked for (--no-plots)'
+         message = 'switched off by --no-plots'
          return
       end if
       call gather_charts(sets, charts)
@@ -120,7 +120,7 @@ contains
       type(film_t), intent(in) :: films(:)
       character(*), intent(in) :: folder
       type(camera_t), intent(in) :: camera
-      logical, intent(out) :: is_there                       !! else nothing moves
+      logical, intent(out) :: is_there                       !! false: nothing moves
       type(error_t), allocatable, intent(out) :: error
       type(scene_t), allocatable :: scenes(:)
       character(64), allocatable :: captions(:)
@@ -157,7 +157,7 @@ contains
          suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
 
-   !> The first of the wanted kinds that has more than one state; 0 when there is none.
+   !> The test of the first of the wanted kinds with more than one state; 0 if there is none.
    pure integer function moving_film(tests, films, kinds) result(film)
       type(test_result_t), intent(in) :: tests(:)
       type(film_t), intent(in) :: films(:)
@@ -173,7 +173,7 @@ contains
       film = 0
    end function moving_film
 
-   !> State k of a path. Joints that a case adds have reactions behind those of the suspension.
+   !> State k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
    subroutine look_at(path, k, suspension, state)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k
@@ -184,7 +184,7 @@ contains
       call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
    end subroutine look_at
 
-   !> What an end of the travel is called: 'bump, +80 mm', by the height of the first wheel's centre over design.
+   !> Label of an end of the travel: 'bump, +80 mm', from the height of the first wheel's centre over design.
    function end_name(suspension, state) result(name)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -202,7 +202,7 @@ contains
       name = name//str(anint(rise/millimetre), 3)//' mm'
    end function end_name
 
-   !> From where: an axle from its front left, one wheel from the middle of the car.
+   !> Direction of view: an axle from its front left, one wheel from the middle of the car.
    pure type(camera_t) function view_of(suspension) result(camera)
       type(suspension_t), intent(in) :: suspension
 

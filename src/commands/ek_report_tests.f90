@@ -1,4 +1,4 @@
-!> The tests of a report: which ones, and how one is run.
+!> The tests of a report: their selection, and the run of one test.
 module ek_report_tests
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
@@ -25,17 +25,17 @@ module ek_report_tests
 
    !> A test before it is run.
    type :: planned_test_t
-      character(:), allocatable :: name      !! unique; also of its CSV
+      character(:), allocatable :: name      !! unique; also the name of its CSV file
       character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; see ek_gradient
       character(:), allocatable :: title     !! heading of its section
       type(case_t) :: case
-      real(wp) :: factor_size = 1.0_wp       !! what 1 in the column `factor` is, in N, N m or mm
+      real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
       logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
    end type planned_test_t
 
 contains
 
-   !> The standard tests of an axle and the deck's own cases; without a wheel the cases alone.
+   !> The standard tests of an axle and the cases of the deck; without a wheel the cases alone.
    subroutine report_cases(suspension, own, cases)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)
@@ -48,7 +48,7 @@ contains
       end if
    end subroutine report_cases
 
-   !> What there is to know of cases before they are run.
+   !> Name, kind and title of every test before it is run.
    subroutine planned_tests(suspension, cases, tests)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -71,12 +71,12 @@ contains
       end do
    end subroutine planned_tests
 
-   !> What a case of a deck amounts to, from what drives it.
+   !> The kind of test that a case of a deck amounts to, from its drive or load.
    subroutine kind_of_case(suspension, case, kind, factor_size)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       character(:), allocatable, intent(out) :: kind
-      real(wp), intent(out) :: factor_size      !! N or N m that a factor of 1 is
+      real(wp), intent(out) :: factor_size      !! load at `factor` = 1 [N or N m]
       real(wp), parameter :: mostly = 0.99_wp   ! share of the load along one axis
       real(wp) :: force(3), moment(3)
       integer :: k
@@ -139,18 +139,18 @@ contains
       if (title(1:1) >= 'a' .and. title(1:1) <= 'z') title(1:1) = achar(iachar(title(1:1)) - 32)
    end function title_of
 
-   !> Runs one test. What does not converge is told in its remarks; `error` then has exit_convergence (or
-   !> exit_model, where there is nothing to solve), and the states before it are in the table.
+   !> Runs one test. Its remarks report every failure to converge; `error` then has exit_convergence (or exit_model if the
+   !> model cannot be solved), and the table has the states before it.
    subroutine run_planned(base, planned, fault, checksum, test, path, error, compliance)
       type(suspension_t), intent(in) :: base
       type(planned_test_t), intent(in) :: planned
-      character(*), intent(in) :: fault            !! of the model in this test, '' for none: then there is nothing to run
+      character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
       character(*), intent(in) :: checksum
       type(test_result_t), intent(out) :: test
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
-      type(table_t), intent(out), optional :: compliance    !! the compliance matrix of every state; untouched if it is not run
-      real(wp), parameter :: seen_on_a_rig = 1.0e-5_wp     ! m: design is meant to be in equilibrium
+      type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
+      real(wp), parameter :: seen_on_a_rig = 1.0e-5_wp     ! m: the design state should be in equilibrium
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt

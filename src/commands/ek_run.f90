@@ -40,8 +40,8 @@ module ek_run
 
 contains
 
-   !> Runs the chosen cases of a deck. A case that fails part way is written as far as it came, the others go on whatever
-   !> befell it, and the error at the end has the code of the first that was more than a state not found, else exit_convergence.
+   !> Runs the chosen cases of a deck. Of a case that fails part way the converged states are written, and the other cases are
+   !> run. The error at the end has the code of the first failure other than lack of convergence, otherwise exit_convergence.
    subroutine run(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -103,21 +103,21 @@ contains
          end if
          call complain(trouble%message)
          failed = failed + 1
-         if (code == exit_convergence) code = trouble%code     ! the first that is more than states not found
+         if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
       end do
       if (failed == 0) then
          call move_alloc(unheard, error)
          return
       end if
-      words = plural(failed, 'case', 'cases')//' of '//str(size(chosen))
+      words = str(failed)//' of '//plural(size(chosen), 'case', 'cases')
       if (code == exit_convergence) then
-         call fail(error, code, words//' lost states; all that were found are written')
+         call fail(error, code, words//' did not converge at every state; the converged states were written')
       else
-         call fail(error, code, words//' went wrong, as told above; the others are written')
+         call fail(error, code, words//' failed (see above); the others were written')
       end if
    end subroutine run
 
-   !> A case whose table would have the name of the compliance matrix of another one.
+   !> Refuses a case whose table would have the file name of another case's compliance matrix.
    subroutine refuse_double_files(cases, error)
       type(case_t), intent(in) :: cases(:)
       type(error_t), allocatable, intent(out) :: error
@@ -133,13 +133,13 @@ contains
       end do
    end subroutine refuse_double_files
 
-   !> One case: examine, sweep, tell, write, draw.
+   !> One case: sweep, report, write, draw.
    subroutine run_case(arguments, base, wanted, folder, checksum, unheard, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: folder, checksum
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
       type(suspension_t) :: suspension
@@ -200,14 +200,14 @@ contains
       call fail(error, trouble%code, words)
    end subroutine run_case
 
-   !> The compliance matrix of every state that was found, in a file of its own.
+   !> Writes the compliance matrix at every converged state to a separate file.
    subroutine write_compliance(suspension, case, path, checksum, folder, kkt, unheard, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       character(*), intent(in) :: checksum, folder
       type(kkt_t), intent(inout) :: kkt
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: table
       character(:), allocatable :: name
@@ -219,8 +219,8 @@ contains
       if (.not. allocated(error)) call tell_path(name, unheard)
    end subroutine write_compliance
 
-   !> The place where the target of a case is met: told, and its state written to a file of its own (not when the
-   !> results go to standard output). The linear methods, whose states are not equilibria, have none.
+   !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
+   !> results go to standard output). Not for the linear methods, whose states are not equilibria.
    subroutine aim(arguments, suspension, case, path, table, checksum, folder, kkt, unheard, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
@@ -229,13 +229,13 @@ contains
       type(table_t), intent(in) :: table
       character(*), intent(in) :: checksum, folder
       type(kkt_t), intent(inout) :: kkt
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path that could not be told
+      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
       character(:), allocatable :: name, words
 
       if (case%method /= 'equilibrium') then
-         call say(arguments%quiet, 'case '//quoted(case%name)//': the target is looked for with method ''equilibrium'' only')
+         call say(arguments%quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
          return
       end if
       call find_target(suspension, case, path, table, kkt, found, error)
@@ -250,7 +250,7 @@ contains
       end if
       words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
          str(found%place/case%unit, 9)//' '//case%unit_name
-      if (found%crossings > 1) words = words//' (the nearest to design of '//str(found%crossings)//')'
+      if (found%crossings > 1) words = words//' (of '//str(found%crossings)//' solutions the nearest to design)'
       call say(arguments%quiet, words)
    end subroutine aim
 
@@ -295,7 +295,7 @@ contains
       end if
    end subroutine draw
 
-   !> Whether a case moves the wheel up and down in the first place, so that its figures stand over the stroke.
+   !> Whether a case mainly moves the wheel vertically, so that its figures are plotted over the wheel travel.
    pure logical function is_vertical(suspension, case)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -309,7 +309,7 @@ contains
          .and. norm2(suspension%loads(k)%moment) <= 0.0_wp
    end function is_vertical
 
-   !> The lines above the table.
+   !> The header lines above the table.
    subroutine add_header(table, suspension, case, checksum)
       type(table_t), intent(inout) :: table
       type(suspension_t), intent(in) :: suspension
@@ -321,7 +321,7 @@ contains
       if (len(case%test) > 0) then
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
       else if (len(case%load) > 0) then
-         call table%header%add('factor: of load '//quoted(case%load))
+         call table%header%add('factor: multiplier of load '//quoted(case%load))
       else
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//']')
       end if

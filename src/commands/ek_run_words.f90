@@ -1,4 +1,4 @@
-!> What `run` has to say besides its results: settling, preloads, drift, stability, and why a sweep ended.
+!> Messages of `run` on its results: settling, preloads, drift, springs, contact points, large travel.
 module ek_run_words
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -24,7 +24,7 @@ module ek_run_words
 
 contains
 
-   !> Adds a line to words; an empty one adds nothing.
+   !> Adds a line to a text; an empty line adds nothing.
    pure subroutine add_line(words, line)
       character(:), allocatable, intent(inout) :: words
       character(*), intent(in) :: line
@@ -34,7 +34,7 @@ contains
       words = words//line
    end subroutine add_line
 
-   !> By how much the wheels moved under the constant loads.
+   !> Reports the displacement of the wheels under the constant loads.
    subroutine say_settled(arguments, suspension, case, path)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
@@ -50,7 +50,7 @@ contains
       end do
    end subroutine say_settled
 
-   !> A line for each wheel that the constant loads have moved by more than `least`.
+   !> One message per wheel that the constant loads have displaced by more than `least`.
    subroutine settled_words(suspension, case, path, least, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -74,12 +74,12 @@ contains
       end do
    end subroutine settled_words
 
-   !> Wheels that do not touch the ground where a wheel of their radius would. Tests and compliance matrix both take the contact
-   !> point of the deck; that it is meant is what this asks.
+   !> Warns of a contact point that is not where a wheel of this radius touches the ground. Tests and compliance matrix both
+   !> use the contact point of the deck, so that an error in it affects both.
    subroutine patch_words(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
-      real(wp), parameter :: much = 0.02_wp      ! of the radius; camber moves the point of a real wheel by half of it
+      real(wp), parameter :: much = 0.02_wp      ! share of the radius; the camber of a real wheel moves the point by half of this
       real(wp) :: down(3), off
       integer :: k
 
@@ -91,13 +91,13 @@ contains
                norm2(w%contact - w%centre + w%radius*[0.0_wp, 0.0_wp, 1.0_wp]))
             if (off <= much*w%radius) cycle
             call words%add('wheel '//quoted(w%name)//': its contact point is '//str(off/millimetre, 3)// &
-               ' mm away from where a wheel of radius '//str(w%radius/millimetre, 4)//' mm stands on the ground; all forces '// &
-               'at the patch act at the contact point')
+               ' mm away from the point where a wheel of radius '//str(w%radius/millimetre, 4)//' mm touches the ground; all '// &
+               'forces at the contact patch act at the contact point')
          end associate
       end do
    end subroutine patch_words
 
-   !> Whether something is there to carry the car: a spring, or a torsion spring against the chassis.
+   !> Whether the deck has a spring that carries the car: a spring, or a torsion spring against the chassis.
    pure logical function has_spring(suspension)
       type(suspension_t), intent(in) :: suspension
       integer :: k
@@ -111,8 +111,8 @@ contains
       end do
    end function has_spring
 
-   !> A suspension without a spring still finds an equilibrium, on its bushings and stops. Cases that only lead a
-   !> wheel or a driver, as in kinematics, need none.
+   !> Warns of a deck without a spring: its equilibrium rests on bushings and stops. Cases that only prescribe a wheel
+   !> travel or a driver (kinematics) need no spring.
    subroutine spring_words(suspension, cases, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -126,10 +126,11 @@ contains
          leads_only = leads_only .and. .not. cases(k)%has_all .and. len(cases(k)%drive) > 0
       end do
       if (leads_only) return
-      call words%add('the deck has no spring: nothing but bushings, bars and stops carries the wheels, and rates are theirs')
+      call words%add('the deck has no spring: the wheels are carried by bushings, anti-roll bars and stops alone, '// &
+         'and the reported rates are theirs')
    end subroutine spring_words
 
-   !> A steering test that leaves the rack behind.
+   !> Warns of a steering test that exceeds the travel of the rack.
    subroutine rack_words(suspension, case, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -143,7 +144,7 @@ contains
          ' mm, beyond its travel of '//str(suspension%steering%travel/millimetre, 4)//' mm in &steering')
    end subroutine rack_words
 
-   !> What balance has found.
+   !> Reports the preloads found by balance.
    subroutine say_preloads(arguments, suspension)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
@@ -157,15 +158,15 @@ contains
       end do
    end subroutine say_preloads
 
-   !> The linear methods against one equilibrium solution at either end of the sweep.
+   !> Compares the linear methods with one equilibrium solution at each end of the sweep.
    !>
-   !> `lost` says where no equilibrium is near: the states before it are not to be trusted.
+   !> `lost` names the end without an equilibrium nearby: the states before it are unreliable.
    subroutine warn_of_drift(suspension, case, path, kkt, lost)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(kkt_t), intent(inout) :: kkt
-      character(:), allocatable, intent(out) :: lost    !! '' where all is well
+      character(:), allocatable, intent(out) :: lost    !! '' if both ends have one
       type(drift_t) :: drift
       real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
       real(wp), parameter :: much_angle = 1.0e-3_wp*degree
@@ -192,7 +193,7 @@ contains
       end do
    end subroutine warn_of_drift
 
-   !> States of a linear method that the table marks as none because their joints are open; '' where there are none.
+   !> Message on states of a linear method that are marked converged = 0 because their joints are open; '' if there are none.
    function open_words(case, table) result(words)
       type(case_t), intent(in) :: case
       type(table_t), intent(in) :: table         !! of sweep_table
@@ -204,21 +205,22 @@ contains
       gap = column(table, 'constraint_error')
       is_open = ieee_is_finite(gap) .and. column(table, 'converged') < 0.5_wp
       if (.not. any(is_open)) return
-      words = 'case '//quoted(case%name)//', method '//case%method//': '//plural(count(is_open), 'state has', 'states have')// &
-         ' joints that are open (constraint_error up to '//str(maxval(gap, mask=is_open), 2)//' m or rad), and converged = 0'// &
-         '; more increments, or method ''equilibrium'', close them'
+      words = 'case '//quoted(case%name)//', method '//case%method//': '//plural(count(is_open), &
+         'state violates', 'states violate')//' the joint constraints (constraint_error up to '// &
+         str(maxval(gap, mask=is_open), 2)//' m or rad) and '// &
+         trim(merge('is ', 'are', count(is_open) == 1))//' marked converged = 0; use more increments, or method ''equilibrium'''
    end function open_words
 
-   !> What to do about drift.
+   !> Advice on drift.
    pure function advice(case) result(text)
       type(case_t), intent(in) :: case
       character(:), allocatable :: text
-      text = '; more increments make it smaller'
-      if (case%method == 'recursive') text = ' (the bias of this method, which more increments do not remove; '// &
+      text = '; more increments reduce it'
+      if (case%method == 'recursive') text = ' (the bias of this method; more increments do not remove it, '// &
          'method = ''equilibrium'' has none)'
    end function advice
 
-   !> A load that moves a wheel further than any suspension goes: a rate is missing or has the wrong unit.
+   !> Warns of a load that moves a wheel further than any suspension travels: a rate is missing or has the wrong unit.
    subroutine warn_of_travel(suspension, case, path)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -229,14 +231,14 @@ contains
       real(wp), parameter :: far = 0.25_wp      ! m: half as much again as the travel of an off-road car
       integer :: k, w, ends(2), n
 
-      if (len(case%drive) > 0) return           ! a driven wheel goes where the deck says
+      if (len(case%drive) > 0) return           ! the deck prescribes the travel of a driven wheel
       if (allocated(case%courses)) then
          do k = 1, size(case%courses)
             if (len(case%courses(k)%load) > 0) exit
          end do
          if (k > size(case%courses)) return
       end if
-      advice = '; are the rates, and their units, as meant?'
+      advice = '; check the rates and their units'
       if (.not. has_spring(suspension)) advice = '; the deck has no spring'
       ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
       state = design_state(suspension)

@@ -1,4 +1,4 @@
-!> elastokin study: runs a study, writes its tables, draws its figures.
+!> elastokin study: runs a study, writes its tables, and draws its figures.
 module ek_study_command
    use ek_error, only: error_t, fail, exit_convergence, message_list_t
    use ek_text, only: plural
@@ -19,9 +19,9 @@ module ek_study_command
 
 contains
 
-   !> Tables go to DIR (default: out, beside the study), row by row: of a study that is killed the rows so far stay, in
-   !> DIR/<table>.csv.<…>.part. The study's plot script is then run by gnuplot; its variable `out` is the folder in which it finds
-   !> the tables and draws.
+   !> Tables are written to DIR (default: out, beside the study) row by row: if a study is killed, its finished rows stay in
+   !> DIR/<table>.csv.<…>.part. gnuplot then runs the study's plot script; its variable `out` is the folder of the tables and
+   !> figures.
    subroutine run_study_command(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -64,7 +64,7 @@ contains
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! what was written
+      type(message_list_t), intent(inout) :: tables      !! the tables written
       type(error_t), allocatable, intent(inout) :: unheard
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: writer
@@ -87,7 +87,7 @@ contains
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! what was written: both, or none is of use
+      type(message_list_t), intent(inout) :: tables      !! the tables written: both or none
       type(error_t), allocatable, intent(inout) :: unheard
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: curves, responses
@@ -101,7 +101,7 @@ contains
       if (.not. allocated(error)) call sweep_factors(study, deck, curves, responses, troubles, error, curve_writer, response_writer)
       if (.not. allocated(error)) call curve_writer%finish(error)
       if (.not. allocated(error)) call response_writer%finish(error)
-      call curve_writer%abandon()                        ! of one that is finished nothing is left to give up
+      call curve_writer%abandon()                        ! no effect on a finished table
       call response_writer%abandon()
       if (allocated(error)) return
       call note(study%name//'_curves.csv', out, tables, unheard)
@@ -113,11 +113,11 @@ contains
          'designs of the study are')//' incomplete (see the warnings above); the others were written')
    end subroutine run_sweep
 
-   !> A table that is written: its path to standard output, its name for the plot script.
+   !> Prints the path of a written table and keeps its name for the plot script.
    subroutine note(name, out, tables, unheard)
       character(*), intent(in) :: name, out
       type(message_list_t), intent(inout) :: tables
-      type(error_t), allocatable, intent(inout) :: unheard     !! the path could not be told
+      type(error_t), allocatable, intent(inout) :: unheard     !! the path could not be printed
 
       call tables%add(name)
       call tell_path(join_path(out, name), unheard)

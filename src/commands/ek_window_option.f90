@@ -1,4 +1,4 @@
-!> The option --window: how wide the windows of the gradients are.
+!> The option --window: half widths of the gradient windows.
 module ek_window_option
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage
@@ -11,11 +11,11 @@ module ek_window_option
 
 contains
 
-   !> Windows of the gradients with --window applied.
+   !> The gradient windows with --window applied.
    subroutine chosen_windows(arguments, windows, error)
       type(arguments_t), intent(in) :: arguments
       type(windows_t), intent(out) :: windows
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no such window, or no positive number
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: unknown window, or no positive number
       real(wp) :: half
       integer :: k, equals, status
       logical :: is_known
@@ -28,7 +28,7 @@ contains
             if (equals > 1 .and. verify(text(equals + 1:), '0123456789.') == 0 .and. equals < len(text)) &
                read (text(equals + 1:), *, iostat=status) half
             if (status /= 0 .or. .not. half > 0.0_wp) then
-               call fail(error, exit_usage, '--window: expected what=half width with a positive number, as in travel=15, '// &
+               call fail(error, exit_usage, '--window: expected window=half width with a positive number, as in travel=15, '// &
                   'found '//quoted(text))
                return
             end if

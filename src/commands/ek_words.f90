@@ -1,4 +1,4 @@
-!> Words for a person, on standard error; results go elsewhere, and their paths to standard output.
+!> Output on the console: messages on standard error; findings and the paths of results on standard output.
 module ek_words
    use ek_error, only: error_t
    use ek_text, only: str, printable
@@ -9,41 +9,40 @@ module ek_words
 
 contains
 
-   !> A note, unless the user wants quiet.
+   !> An informational message; suppressed by --quiet.
    subroutine say(quiet, text)
       logical, intent(in) :: quiet
       character(*), intent(in) :: text
       if (.not. quiet) call to_person(text)
    end subroutine say
 
-   !> Something that makes results doubtful.
+   !> A warning: results may be unreliable.
    subroutine warn(text)
       character(*), intent(in) :: text
       call to_person('warning: '//text)
    end subroutine warn
 
-   !> An error, before the program ends or goes on to the next case. One without words is kept to itself.
+   !> An error, before the program ends or continues with the next case. An empty message prints nothing.
    subroutine complain(text)
       character(*), intent(in) :: text
       if (len(text) > 0) call to_person('error: '//text)
    end subroutine complain
 
-   !> The one place where words leave for standard error: what a deck brings along of control characters does not reach
-   !> the terminal.
+   !> Writes every message to standard error. Control characters from a deck do not reach the terminal.
    subroutine to_person(text)
       character(*), intent(in) :: text
       call write_standard_error(printable(text)//new_line('a'))
    end subroutine to_person
 
-   !> Findings for a person, on standard output.
+   !> Prints findings on standard output.
    subroutine tell(text, error)
-      character(*), intent(in) :: text                          !! with the ends of its lines
+      character(*), intent(in) :: text                          !! including its line ends
       type(error_t), allocatable, intent(out) :: error          !! exit_file
       call write_standard_output(printable(text), error)
    end subroutine tell
 
-   !> The path of a result, for whoever reads standard output. Where that is full or closed the work goes on: the result
-   !> is there. The first such failure is kept; that the reader wanted no more paths (`| head`) is none.
+   !> Prints the path of a result on standard output. If standard output is full or closed the work continues, because the
+   !> result exists. The first such failure is kept; a reader that closes the pipe (`| head`) is no failure.
    subroutine tell_path(path, unheard)
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(inout) :: unheard      !! exit_file
@@ -55,13 +54,13 @@ contains
       if (len(error%message) > 0) call move_alloc(error, unheard)
    end subroutine tell_path
 
-   !> A line that overwrites itself, on a terminal only.
+   !> Progress line, which overwrites itself; on a terminal only.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
       if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')
    end subroutine show_progress
 
-   !> Takes the progress line away.
+   !> Clears the progress line.
    subroutine clear_progress()
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress

@@ -15,11 +15,10 @@
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_measure, only: measure_value
-   use ek_law, only: bend_between, no_bend, steep, corner
-   use ek_elastic, only: bushing_view_t, look_bushing
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
+   use ek_law, only: steep, corner
+   use ek_bent_law, only: sharpest_bend
    use ek_orientation, only: orientation_t, new_orientation, is_turned_over
    implicit none(type, external)
    private
@@ -36,7 +35,8 @@ module ek_branch
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times the error of Newton's method
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
    real(wp), parameter :: slight = 5.0e-2_wp       !! likewise if the rubber of a stop is steep
-   real(wp), parameter :: widest_corner = 1.25e8_wp   !! of the least step (1/8 of the range): no corner is accepted in longer steps
+   !> Of the least step, 1/8 of the range: no corner is accepted in longer steps
+   real(wp), parameter :: widest_corner = 1.25e8_wp
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
@@ -366,38 +366,6 @@ contains
       end do
       is_bend = rest <= bent*largest
    end function is_bend
-
-   !> The sharpest bend of a law between a and b.
-   pure integer function sharpest_bend(suspension, a, b) result(bend)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: a, b
-      type(bushing_view_t) :: from, to
-      integer :: k, axis, i, j
-
-      bend = no_bend
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
-            if (.not. spring%has_law) cycle
-            i = spring%measure%body_i + 1
-            j = spring%measure%body_j + 1
-            bend = max(bend, bend_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
-               measure_value(spring%measure, b%poses(i), b%poses(j))))
-         end associate
-      end do
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
-            if (.not. bushing%has_curves) cycle
-            call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
-            call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
-            do axis = 1, 3
-               if (bushing%laws(axis)%has_curve) bend = max(bend, bend_between(bushing%laws(axis), &
-                  dot_product(bushing%axes(:, axis), from%gap), dot_product(bushing%axes(:, axis), to%gap)))
-               if (bushing%laws(axis + 3)%has_curve) bend = max(bend, bend_between(bushing%laws(axis + 3), &
-                  dot_product(bushing%axes(:, axis), from%turn%theta), dot_product(bushing%axes(:, axis), to%turn%theta)))
-            end do
-         end associate
-      end do
-   end function sharpest_bend
 
    !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`.
    logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)

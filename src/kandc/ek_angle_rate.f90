@@ -1,7 +1,7 @@
-!> How fast the angles of a wheel change while its carrier rotates: the derivatives of the columns steer, toe, camber and
-!> caster, as ek_attitude defines those, with respect to a small rotation θ of the carrier about global axes.
+!> Derivatives of the angles of a wheel with respect to a small rotation θ of its carrier about global axes, for the columns
+!> steer, toe, camber and caster as defined in ek_attitude.
 !>
-!> The spin axis w and the steer axis k are carried by the carrier, so δw = θ×w and δk = θ×k. By the chain rule, exact for
+!> The spin axis w and the steer axis k are fixed to the carrier, so δw = θ×w and δk = θ×k. By the chain rule, exact for
 !> any attitude of the wheel (side = −1 left, +1 right; h² = w_x² + w_y²):
 !>
 !>     steer  = side·atan2(−w_x, side·w_y):   δsteer  = θ_z − w_z (θ_x w_x + θ_y w_y)/h²
@@ -9,8 +9,8 @@
 !>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
 !>     caster = atan2(k_x, k_z):              δcaster = θ_y − k_y (θ_x k_x + θ_z k_z)/(k_x² + k_z²)
 !>
-!> Degenerate: a spin axis that stands upright has no toe, a steer axis along y no caster; the quotients are then
-!> infinite or not a number, as the columns themselves jump there.
+!> Degenerate: a vertical spin axis has no toe, a steer axis along y no caster; the quotients are then
+!> infinite or not a number, as the columns themselves are discontinuous there.
 module ek_angle_rate
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
@@ -25,7 +25,7 @@ module ek_angle_rate
    type :: axes_t
       integer :: side = -1                                     !! −1 left, +1 right
       real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]          !! unit, outboard
-      logical :: has_steer_axis = .false.                      !! the deck gives two points of it
+      logical :: has_steer_axis = .false.                      !! the deck gives two points of the steer axis
       real(wp) :: steer_axis(3) = [0.0_wp, 0.0_wp, 1.0_wp]     !! of any length
    end type axes_t
 

@@ -1,4 +1,4 @@
-!> The attitude of a wheel: toe, camber, steer axis and the rest, from where its carrier is.
+!> The attitude of a wheel from the pose of its carrier: toe, camber, steer axis, and displacements.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 module ek_attitude
@@ -11,7 +11,7 @@ module ek_attitude
    private
    public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of
 
-   !> What one wheel shows at one state. Changes are against design.
+   !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
       real(wp) :: centre(3) = 0.0_wp     !! wheel centre, change [m]; z is the wheel travel, bump positive
       real(wp) :: contact(3) = 0.0_wp    !! contact patch, change [m]
@@ -28,7 +28,7 @@ module ek_attitude
       real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre behind the axis
    end type attitude_t
 
-   !> A steer axis against wheel centre and patch; signs as in attitude_t. [rad, m]
+   !> A steer axis relative to wheel centre and patch; signs as in attitude_t. [rad, m]
    type :: steer_axis_t
       logical :: is_known = .false.
       real(wp) :: caster = 0.0_wp, kingpin_inclination = 0.0_wp
@@ -38,16 +38,16 @@ module ek_attitude
 
 contains
 
-   !> Attitude of a wheel whose carrier is now at a pose.
+   !> Attitude of a wheel for a pose of its carrier.
    !>
    !>     toe = atan2(−w_x, side·w_y)       camber = asin(−w_z)        w: spin axis, outboard
    !>     caster = atan2(k_x, k_z)          kingpin = atan2(−side·k_y, k_z)    k: steer axis, upward
    !>
-   !> The ground is the level plane through the contact patch. A steer axis that lies level (k_z = 0)
-   !> meets it nowhere: scrub radius and trail are then not a number.
+   !> The ground is the horizontal plane through the contact patch. A horizontal steer axis (k_z = 0)
+   !> does not intersect it: scrub radius and trail are then not a number.
    pure function attitude_of(wheel, origin, now) result(attitude)
       type(wheel_t), intent(in) :: wheel
-      real(wp), intent(in) :: origin(3)     !! the carrier's reference point at design [m]
+      real(wp), intent(in) :: origin(3)     !! reference point of the carrier at design [m]
       type(pose_t), intent(in) :: now
       type(attitude_t) :: attitude
       type(steer_axis_t) :: axis
@@ -76,15 +76,15 @@ contains
       attitude%spindle_offset = axis%spindle_offset
    end function attitude_of
 
-   !> Angles of a line, and its distances from patch and wheel centre, each in the level plane through them.
+   !> Angles of a line, and its distances from patch and wheel centre, each in the horizontal plane through the point.
    !>
-   !> is_known is false for a level line (the angles are then set all the same).
+   !> is_known is false for a horizontal line (the angles are set nevertheless).
    pure function steer_axis_of(side, point, direction, centre, contact) result(axis)
       integer, intent(in) :: side                           !! −1 left, +1 right
       real(wp), intent(in) :: point(3), direction(3)        !! of the line; any length, up or down
       real(wp), intent(in) :: centre(3), contact(3)         !! m
       type(steer_axis_t) :: axis
-      real(wp), parameter :: level = 1.0e-9_wp              ! of its length: such a line meets the ground beyond any road
+      real(wp), parameter :: level = 1.0e-9_wp              ! of its length: such a line intersects the ground too far away
       real(wp) :: k(3), foot(3), abeam(3)
 
       k = direction

@@ -1,5 +1,5 @@
-!> Everything that is wrong with the tables and targets of a deck's cases, and with the heads of the results: found
-!> before anything is solved, and all of it at once.
+!> Checks the tables and targets of a deck's cases and the heads of the results before any solution, and reports all
+!> errors together.
 module ek_case_inputs
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
    use ek_text, only: quoted
@@ -16,16 +16,16 @@ module ek_case_inputs
 
 contains
 
-   !> Reads every table, looks up every target, compares all heads of the results.
+   !> Reads every table, finds the column of every target, compares all heads of the results.
    !>
-   !> A message about a table has its line in the file and the line of the case in the deck:
+   !> A message on a table gives the line in the file and the line of the case in the deck:
    !> `loads.csv:7: column 'fz_n': expected a number, found 'two'; in case 'bench' (front.nml:41)`.
-   !> Of a deck with mistakes elsewhere the cases are looked at as far as that goes.
+   !> In a deck with other errors the cases are checked as far as possible.
    subroutine check_inputs(suspension, cases, error, is_whole)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file where all that is wrong is a file
-      logical, intent(in), optional :: is_whole            !! the suspension is complete; .true.
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file if only files are at fault
+      logical, intent(in), optional :: is_whole            !! the suspension is complete; default .true.
       type(message_list_t) :: mistakes
       integer :: k, unread
       logical :: has_model
@@ -46,7 +46,7 @@ contains
       end if
    end subroutine check_inputs
 
-   !> The table of case k, unless an earlier case reads the same one.
+   !> Checks the table of case k, unless an earlier case reads the same one.
    subroutine read_table(suspension, has_model, cases, k, mistakes, unread)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: has_model
@@ -83,7 +83,7 @@ contains
       end do
    end subroutine read_table
 
-   !> Whether a case has a table that is named.
+   !> Whether a case names a table.
    pure logical function reads_table(case)
       type(case_t), intent(in) :: case
 
@@ -92,7 +92,7 @@ contains
       reads_table = case%test == 'table' .and. case%file /= '' .and. index(case%file, '/', back=.true.) /= len(case%file)
    end function reads_table
 
-   !> Whether the results of a case have the column of its target.
+   !> Checks that the results of a case have the column of its target.
    subroutine look_up_target(suspension, case, mistakes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -107,7 +107,7 @@ contains
       mark = index(case%target, '=')
       if (mark < 2) return
       if (case%target(:mark - 1) == '') return
-      if (.not. case%is_good .and. index(adjustl(case%target), 'rig_') == 1) return     ! it cannot be put on the rig
+      if (.not. case%is_good .and. index(adjustl(case%target), 'rig_') == 1) return     ! the case cannot be mounted on the rig
       mounted = suspension
       this = case
       if (case%is_good) call mount(mounted, this, error)
@@ -117,7 +117,7 @@ contains
       if (allocated(error)) call mistakes%add(case%where//': case '//quoted(case%name)//': target: '//error%message)
    end subroutine look_up_target
 
-   !> Two columns of the results with one head: names of elements that make the same together with what follows them.
+   !> Refuses two result columns with the same head, as the names of different elements with their endings may coincide.
    subroutine compare_heads(suspension, cases, mistakes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
@@ -156,7 +156,7 @@ contains
 
    contains
 
-      !> An element that the name of the column begins with.
+      !> An element whose name begins that of the column.
       subroutine add_owner(name, where)
          character(*), intent(in) :: name, where
 

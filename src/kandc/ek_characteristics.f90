@@ -3,15 +3,15 @@
 !>
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
 !> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance_port).
-!> "In phase": both wheels carry the load; "anti phase": the other carries its opposite. The slopes of steer, toe, camber and
-!> caster are those of the columns of that name, by the chain rule of ek_angle_rate.
+!> Parallel ("in phase"): both wheels carry the load; opposed ("anti phase"): the other carries the opposite load. The
+!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_angle_rate.
 !>
-!> Two conditions in the vertical direction: with the vertical force held (the matrix as it is) and with the heights of the
-!> wheel centres held (`hold` of ek_compliance_port).
+!> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
+!> (`hold` of ek_compliance_port).
 !>
-!> Everything is SI and radians. A quotient whose denominator vanishes is not a number. No suspension is stiffer
-!> than a block of steel (some 1e10 N/m), so a compliance below 1e-12 m/N is rounding, and no swing arm longer than a
-!> kilometre differs from parallel guidance.
+!> Everything is SI and radians. A quotient with a vanishing denominator is not a number. No suspension is stiffer
+!> than a block of steel (about 1e10 N/m), so a compliance below 1e-12 m/N is rounding, and a swing arm longer than one
+!> kilometre is equivalent to parallel guidance.
 module ek_characteristics
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -29,11 +29,11 @@ module ek_characteristics
    real(wp), parameter :: least_turn = 1.0e-13_wp         !! rad/(N m): 1/least_turn is stiffer than any block of steel
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
    real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
-   real(wp), parameter, public :: trail = 0.030_wp        !! m: offset of a lateral force behind the patch, about that of a tyre
+   real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force behind the patch, typical of a tyre
    integer, parameter, public :: in_phase = 1, anti_phase = 2
    integer, parameter, public :: load_held = 1, height_held = 2
 
-   !> How the wheels stand at a state, in the order of C.
+   !> Positions of the wheels at a state, in the order of C.
    type :: stand_t
       type(axes_t) :: axes(2)
       real(wp) :: centre(3, 2) = 0.0_wp      !! wheel centres [m]
@@ -43,7 +43,7 @@ module ek_characteristics
       real(wp) :: roll = 0.0_wp              !! axle roll at the state [rad]
    end type stand_t
 
-   !> What a wheel does per unit of something (m, rad, N or N m).
+   !> Response of a wheel per unit of an input (m, rad, N or N m).
    type :: response_t
       real(wp) :: patch(3) = 0.0_wp          !! displacement of the contact point [m]
       real(wp) :: centre(3) = 0.0_wp         !! of the wheel centre [m]
@@ -51,13 +51,13 @@ module ek_characteristics
       real(wp) :: steer = 0.0_wp, toe = 0.0_wp, camber = 0.0_wp, caster = 0.0_wp   !! rad; caster only of a geometric axis
    end type response_t
 
-   !> One wheel. Roll: per angle of the axle, positive left wheel up.
+   !> Quantities of one wheel. Roll: per angle of the axle, positive left wheel up.
    type :: wheel_characteristics_t
       real(wp) :: wheel_rate = 0.0_wp, ride_rate = 0.0_wp, hop_rate = 0.0_wp      !! N/m
-      real(wp) :: single_rate(2) = 0.0_wp      !! own load alone; the other wheel's (load, height) held [N/m]
+      real(wp) :: single_rate(2) = 0.0_wp      !! load on this wheel only; (load, height) of the other wheel held [N/m]
       type(response_t) :: bump                 !! per m of wheel travel
       type(response_t) :: wheel_roll           !! per rad of axle roll
-      type(response_t) :: roll                 !! per rad of axle roll and what the tyres add to it
+      type(response_t) :: roll                 !! per rad of axle roll including tyre deflection
       real(wp) :: side_arm_length = 0.0_wp, front_arm_length = 0.0_wp    !! m
       real(wp) :: side_arm_angle = 0.0_wp      !! rad, positive: the arm rises rearward
       real(wp) :: front_arm_angle = 0.0_wp     !! rad, positive: the arm rises inward
@@ -72,7 +72,7 @@ module ek_characteristics
       real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), in phase, at the wheel centre [N/m, N m/rad]
    end type wheel_characteristics_t
 
-   !> Both wheels together.
+   !> Quantities of both wheels together.
    type :: axle_characteristics_t
       real(wp) :: suspension_roll_rate = 0.0_wp, total_roll_rate = 0.0_wp, tramp_rate = 0.0_wp   !! N m/rad
       real(wp) :: roll_centre(2) = 0.0_wp, tyre_roll_centre(2) = 0.0_wp     !! y, z [m]
@@ -88,10 +88,10 @@ contains
       if (abs(b) > least) quotient = a/b
    end function quotient
 
-   !> What this wheel does when both carry a load (with = 1), or the other the opposite (with = −1).
+   !> Response of this wheel if both carry a load (with = 1), or the other the opposite one (with = −1).
    pure function phase(c, place, with) result(own)
       real(wp), intent(in) :: c(:, :)
-      integer, intent(in) :: place       !! 1 or 2: place of the wheel in C
+      integer, intent(in) :: place       !! 1 or 2: index of the wheel in C
       real(wp), intent(in) :: with
       real(wp) :: own(6, 6)
       integer :: at, other
@@ -118,7 +118,7 @@ contains
       if (stand%axes(place)%has_steer_axis) is%caster = caster_rate(stand%axes(place), twist(4:6))
    end function respond
 
-   !> A twist per something, not a number where that is at most `least`.
+   !> A twist per unit of an input, not a number where the input is at most `least`.
    pure function per(twist, amount, least) result(rate)
       real(wp), intent(in) :: twist(6), amount, least
       real(wp) :: rate(6)
@@ -126,13 +126,13 @@ contains
       if (abs(amount) > least) rate = twist/amount
    end function per
 
-   !> All of one wheel. C is 6×6 (a wheel alone: the other is taken as if it were not there) or 12×12, left wheel
-   !> first. Ride and hop rate and the roll with tyres mean something only with tyre rates, roll only with two wheels, the
-   !> anti features only with data of the axle.
+   !> All quantities of one wheel. C is 6×6 (a single wheel, without the other) or 12×12, left wheel first. Ride and hop rate
+   !> and the roll with tyres are defined only with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat
+   !> only with data of the axle.
    pure function wheel_characteristics(c, stand, place, axle) result(is)
       real(wp), intent(in) :: c(:, :)
       type(stand_t), intent(in) :: stand
-      integer, intent(in) :: place             !! of this wheel in C
+      integer, intent(in) :: place             !! index of this wheel in C
       type(axle_t), intent(in) :: axle
       type(wheel_characteristics_t) :: is
       real(wp) :: m(size(c, 1), size(c, 1)), cp(size(c, 1), size(c, 1)), c_held(size(c, 1), size(c, 1)), &
@@ -161,7 +161,7 @@ contains
       is%front_arm_centre = arm_centre(stand%centre([2, 3], place), anti([2, 3], 3), anti(4, 3), 1.0_wp)
       if (wheels == 2) call in_roll(c, m, cp, stand, place, is)
 
-      do k = 1, wheels      ! one wheel has no anti phase
+      do k = 1, wheels      ! a single wheel has no opposed loads
          call loads(in_phase + k - 1, load_held, phase(m, place, 3.0_wp - 2.0_wp*k), phase(c, place, 3.0_wp - 2.0_wp*k))
          call loads(in_phase + k - 1, height_held, phase(m_held, place, 3.0_wp - 2.0_wp*k), &
             phase(c_held, place, 3.0_wp - 2.0_wp*k))
@@ -170,7 +170,8 @@ contains
 
    contains
 
-      !> What forces at the patch and at the centre, and moments, do. m, c: loads there and here, read at the centre.
+      !> Response to forces at the patch and at the centre, and to moments. m, c: loads at the patch and at the centre,
+      !> displacements at the centre.
       pure subroutine loads(in, held, m, c)
          integer, intent(in) :: in, held        !! phase, condition
          real(wp), intent(in) :: m(6, 6), c(6, 6)
@@ -186,7 +187,7 @@ contains
 
    end function wheel_characteristics
 
-   !> What needs two wheels: roll, the stiffness of one of them, jacking.
+   !> Quantities that need two wheels: roll, the stiffness of one of them, jacking.
    !>
    !>     axle roll φ = atan(Δz/t), Δz the difference in height of the contact points: dφ = cos²φ dΔz/t
    pure subroutine in_roll(c, m, cp, stand, place, is)
@@ -215,14 +216,14 @@ contains
       is%jacking(anti_phase) = lift(place)*merge(1.0_wp, -1.0_wp, place == 1)      ! per force on the wheel itself
    end subroutine in_roll
 
-   !> Both wheels: roll rates and roll centres.
+   !> Axle quantities: roll rates and roll centres.
    !>
    !> The roll moment is ½ t (F left − F right), so the pair of unit forces makes the moment t, and its slope over axle roll is
    !> t²/(cos²φ Δ), Δ as in in_roll.
    !>
    !> Force-based roll centre (W. C. Mitchell, "Asymmetric roll centers", SAE 983085; Milliken, Race Car Vehicle Dynamics, ch. 17):
    !> the height at which the lateral forces do not roll the body. With the patches held at their heights, a unit force to the
-   !> right at each of them is answered by the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
+   !> right at each of them causes the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
    pure function axle_characteristics(c, stand) result(is)
       real(wp), intent(in) :: c(:, :)               !! 12×12, left wheel first
       type(stand_t), intent(in) :: stand
@@ -245,10 +246,10 @@ contains
       is%force_roll_centre = -0.5_wp*dot_product(patch(2, :), lift)
    end function axle_characteristics
 
-   !> The roll rate with each wheel's suspension and tyre side by side: what holds the unsprung masses in tramp.
+   !> The roll rate with each wheel's suspension and tyre in parallel, which supports the unsprung masses in tramp.
    pure real(wp) function tramp_rate(moment, wheel, tyre) result(rate)
       real(wp), intent(in) :: moment               !! (t/cos φ)² [m²]
-      real(wp), intent(in) :: wheel(2), tyre(2)    !! compliances, of a wheel under opposite loads [m/N]
+      real(wp), intent(in) :: wheel(2), tyre(2)    !! compliances, wheel under opposed loads [m/N]
       real(wp) :: both(2)
 
       rate = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -257,7 +258,7 @@ contains
    end function tramp_rate
 
    !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces to the right
-   !> there: V = −CP_zz⁻¹ CP_zy F. Not a number where the wheels cannot move up and down each for itself.
+   !> at the patches: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels cannot move independently in height.
    pure function jacking_forces(cp, lateral) result(lift)
       real(wp), intent(in) :: cp(:, :)          !! 12×12
       real(wp), intent(in) :: lateral(2)        !! left, right [N]
@@ -291,8 +292,8 @@ contains
       if (abs(dz) > least_compliance) angle = atan(-dh/dz)
    end subroutine swing_arm
 
-   !> The centre (h, z) about which a point swings in a plane: it moves by (dh, dz) while the carrier turns by ω about the
-   !> normal; `hand` is 1 where (h, z, normal) is right-handed as (y, z, x), −1 as (x, z, y).
+   !> The centre (h, z) about which a point swings in a plane: it moves by (dh, dz) while the carrier rotates by ω about the
+   !> normal; `hand` is 1 if (h, z, normal) is right-handed as (y, z, x), −1 as (x, z, y).
    !>
    !>     dh = −hand ω (z − z0),  dz = hand ω (h − h0)
    pure function arm_centre(point, way, turn, hand) result(centre)
@@ -308,11 +309,11 @@ contains
    !> −Zf/Zw of brakes and of drive, per unit of the whole force on the vehicle, and the wheel travel per g.
    !>
    !> Braking with a force 1 rearward: this axle's wheels carry half its share each, at the patch, and the load
-   !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: the other way round, at the centre
-   !> or the patch. Zf, Zw: what the wheel centres move up under the one and under the other; both together, times the weight of
-   !> the car, is the travel per g.
+   !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the
+   !> centre or the patch. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer; their
+   !> sum times the weight of the car is the travel per g.
    pure subroutine anti_features(in, patch_in, axle, is)
-      real(wp), intent(in) :: in(6, 6), patch_in(6, 6)      !! loads at the centre and at the patch, read at the centre
+      real(wp), intent(in) :: in(6, 6), patch_in(6, 6)      !! loads at the centre and at the patch, displacements at the centre
       type(axle_t), intent(in) :: axle
       type(wheel_characteristics_t), intent(inout) :: is
       real(wp) :: share, transfer, lever, least
@@ -331,8 +332,9 @@ contains
       is%drive_travel = axle%mass*gravity*(-transfer*patch_in(3, 3) - 0.5_wp*axle%drive_share*lever)
    end subroutine anti_features
 
-   !> Where the instant axes of both patches in the front view meet: dz (z − z0) + dy (y − y0) = 0 through each, (dy, dz)
-   !> the way of the patch in roll, to which a tyre adds what it gives way. Not a number where the two ways are parallel to 1e-8.
+   !> Intersection of the normals to the paths of both patches in the front view: dz (z − z0) + dy (y − y0) = 0 through each,
+   !> (dy, dz) the displacement of the patch in roll, plus the deflection of the tyre. Not a number if the two displacements are
+   !> parallel to 1e-8.
    pure function roll_centre(cp, patches, tyre) result(centre)
       real(wp), intent(in) :: cp(:, :), patches(3, 2)
       real(wp), intent(in) :: tyre(2)                !! m/N
@@ -352,9 +354,9 @@ contains
       centre(2) = (way(1, 1)*right(2) - way(1, 2)*right(1))/determinant
    end function roll_centre
 
-   !> d(length)/d(wheel travel) with all wheels travelling alike: the loads f that lift each by one are found
-   !> from C_zz f = 1, then the spring changes by its own response to them. Wheels that can only move together
-   !> (C_zz singular) take the same load each.
+   !> d(length)/d(wheel travel) with equal travel of all wheels: the loads f that lift each by one follow
+   !> from C_zz f = 1, and the change of length is the response of the spring to them. Wheels that can only move together
+   !> (C_zz singular) carry equal loads.
    pure real(wp) function motion_ratio(c, length) result(ratio)
       real(wp), intent(in) :: c(:, :)        !! 6×6 or 12×12
       real(wp), intent(in) :: length(:)      !! of one spring per unit of each load of C [m/N, m/(N m)]

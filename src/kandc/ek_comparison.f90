@@ -1,4 +1,4 @@
-!> The gradients of several results against those of the first, one row a quantity.
+!> The gradients of several results compared with those of the first, one row per quantity.
 module ek_comparison
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -14,14 +14,14 @@ module ek_comparison
 
    type :: difference_t
       character(:), allocatable :: test, quantity, side, unit, window
-      real(wp), allocatable :: values(:)      !! one a result; not a number where it lacks the gradient
+      real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
       logical, allocatable :: is_there(:)
    end type difference_t
 
 contains
 
-   !> All gradients of all results; the same test, quantity and side are one row. Rows come in the order of the first
-   !> result, then what only others have.
+   !> All gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
+   !> result, followed by gradients of the others only.
    subroutine compare_gradients(sets, rows)
       type(gradient_set_t), intent(in) :: sets(:)
       type(difference_t), allocatable, intent(out) :: rows(:)
@@ -59,7 +59,7 @@ contains
       rows = rows(:used)
    end subroutine compare_gradients
 
-   !> b − a; not a number where one is none.
+   !> b − a; not a number if one is missing.
    elemental real(wp) function difference(a, b)
       real(wp), intent(in) :: a, b
 
@@ -67,10 +67,10 @@ contains
       if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
    end function difference
 
-   !> 100 (b − a)/|a|; not a number where a is zero, but for rounding.
+   !> 100 (b − a)/|a|; not a number if a is zero to rounding.
    elemental real(wp) function percent(a, b)
       real(wp), intent(in) :: a, b
-      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: what rounding leaves of a zero
+      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
 
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return

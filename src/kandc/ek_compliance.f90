@@ -1,24 +1,24 @@
-!> How wheels and springs give way to small loads, at one equilibrium: the compliance matrix and its kin.
+!> The response of wheels and springs to small loads at one equilibrium: the compliance matrix and related responses.
 !>
 !> With the whole tangent K = [T Φqᵀ; Φq 0] of a state, ports P (what is read) and loads B (what is applied), the
-!> response is R = Pᵀ K⁻¹ B. Ports are the six displacements [x y z, rotations about x y z] of every wheel centre in
+!> response is R = Pᵀ K⁻¹ B. The ports are the six displacements [x y z, rotations about x y z] of every wheel centre in
 !> global axes, then the length of every axial spring (not of dampers, stops, torsion springs). Loads are the unit
-!> loads of the same ports (virtual work: B = P; of a spring a pair of forces that pushes its ends apart), then a
-!> unit of the steering driver. The first 6 × wheels rows and columns are the compliance matrix C
+!> loads of the same ports (virtual work: B = P; for a spring a pair of forces that pushes its ends apart), then a
+!> unit displacement of the steering driver. The first 6 × wheels rows and columns are the compliance matrix C
 !> [m/N, rad/N, m/(N m), rad/(N m)], body fixed.
 !>
-!> Rows of Φ that belong to a rig (a jack that holds a wheel's height) are released: their reaction stays on
-!> the wheel as a dead force, with its geometric stiffness λ·Hess(φ), but the row restrains nothing. Its gradient
+!> Rows of Φ that belong to a rig (a jack that holds a wheel's height) are released: their reaction remains on
+!> the wheel as a constant force, with its geometric stiffness λ·Hess(φ), but the row no longer constrains. Its gradient
 !> is cleared and its diagonal set to −1 of the scaled matrix: Δλ = 0, one negative eigenvalue as before.
 !>
-!> A constant moment and a load that turns with its body have no potential: T lacks their skew part N, which changes
-!> no equilibrium but does change its derivative. With g = dV/dπ the moment of everything that has a potential,
+!> A constant moment and a load that rotates with its body have no potential: T lacks their skew part N, which affects
+!> not the equilibrium but its derivative. With g = dV/dπ the moment of all terms that have a potential,
 !> the derivative of the residual along a rotation is that of the exponential coordinates less ½ g̃ (from the
 !> product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)), and g is the moment M of the rest:
 !>
 !>     dead moment M:            N_ππ = −½ M̃
 !>     follower, force f, moment m about the reference point, arm included:
-!>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own turning less ½ g̃)
+!>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own rotation less ½ g̃)
 !>
 !> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
 module ek_compliance
@@ -36,24 +36,24 @@ module ek_compliance
    private
    public :: compliance_t, new_compliance, wheel_compliance
 
-   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is rounding alone
+   real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is singular to rounding
 
    !> The responses at one state, and the work space for them, allocated once for a model.
    type :: compliance_t
       integer :: wheels = 0, springs = 0
-      integer, allocatable :: order(:)          !! wheel of the suspension at each place: left before right
-      integer, allocatable :: spring(:)         !! axial spring of the suspension at each place
+      integer, allocatable :: order(:)          !! wheel of the suspension at each index of C: left before right
+      integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
       logical :: has_drive = .false.            !! the last column is that of a unit of the steering driver
       real(wp), allocatable :: response(:, :)   !! (port, load), see above
       real(wp), allocatable :: ports(:, :), columns(:, :)   !! (unknown, port), (unknown, load)
-      real(wp), allocatable :: full(:, :)       !! unsymmetric matrix, only where a load asks for it
+      real(wp), allocatable :: full(:, :)       !! unsymmetric matrix, only if a load requires it
       integer, allocatable :: pivots(:)
    end type compliance_t
 
 contains
 
-   !> Work space for a model: `drives` is whether a steering driver is to be moved.
+   !> Work space for a model; `drives`: a steering driver is moved.
    function new_compliance(suspension, drives) result(self)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: drives
@@ -80,7 +80,7 @@ contains
       end do
    end function new_compliance
 
-   !> Fills `self%response` at a state of equilibrium under a demand. Costs one factorisation and the solutions.
+   !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
    subroutine wheel_compliance(suspension, state, demand, released_rows, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -126,7 +126,7 @@ contains
       end do
    end subroutine wheel_compliance
 
-   !> Takes a row of Φ out of an assembled matrix.
+   !> Removes a row of Φ from an assembled matrix.
    pure subroutine release(row, kkt)
       integer, intent(in) :: row
       type(kkt_t), intent(inout) :: kkt
@@ -171,7 +171,7 @@ contains
       end do
    end subroutine set_ports
 
-   !> What load k is scaled by under a demand.
+   !> Scale of load k under given inputs.
    pure real(wp) function factor_of(suspension, demand, k) result(factor)
       type(suspension_t), intent(in) :: suspension
       type(demand_t), intent(in) :: demand
@@ -181,7 +181,7 @@ contains
       if (suspension%loads(k)%is_case) factor = load_factor(demand, k)
    end function factor_of
 
-   !> Whether a load that acts has no potential.
+   !> Whether an active load has no potential.
    pure logical function has_skew_part(suspension, demand)
       type(suspension_t), intent(in) :: suspension
       type(demand_t), intent(in) :: demand
@@ -194,7 +194,7 @@ contains
       end do
    end function has_skew_part
 
-   !> Solves with T + N, scaled like T; the columns come scaled and stay so.
+   !> Solves with T + N, scaled like T; the columns are scaled on input and output.
    subroutine solve_full(suspension, state, demand, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -1,8 +1,8 @@
-!> The compliance matrix seen from other points, and with heights held.
+!> The compliance matrix transformed to other points, and with heights held.
 !>
-!> C holds six rows and columns per wheel, loads and displacements at the wheel centre. The contact point, where the deck has it,
-!> is carried by the carrier: at the arm a from the centre, a force F there is the same at the centre with the moment a×F, and
-!> the point moves by δ + θ×a. Moments and rotations are those of the carrier wherever they are taken.
+!> C has six rows and columns per wheel, loads and displacements at the wheel centre. The contact point given by the deck is
+!> fixed to the carrier at the arm a from the centre: a force F there equals the same force at the centre with the moment a×F,
+!> and the point moves by δ + θ×a. Moments and rotations of the carrier do not depend on the point.
 module ek_compliance_port
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
@@ -12,7 +12,7 @@ module ek_compliance_port
 
 contains
 
-   !> M = C B: loads at the contact points, displacements read where C reads them.
+   !> M = C B: loads at the contact points, displacements at the wheel centres.
    pure function load_at_patch(c, arm) result(m)
       real(wp), intent(in) :: c(:, :)
       real(wp), intent(in) :: arm(:, :)      !! contact point less wheel centre, of each wheel in the order of C [m]
@@ -48,8 +48,8 @@ contains
 
    !> The displacements M while the heights of all wheel centres are held: M − C(:,z) C_zz⁻¹ M(z,:), z one row per wheel.
    !>
-   !> One height after the other, the more compliant first; a height that no longer gives way once the other is held (wheels that
-   !> can only move together; below 1e-9 of its own compliance is rounding) is held already.
+   !> The heights are held one after the other, the more compliant first; a height without compliance once the other is held
+   !> (wheels that can only move together; below 1e-9 of its own compliance is rounding) is held already.
    pure function hold(c, m) result(held)
       real(wp), intent(in) :: c(:, :)        !! at the wheel centres
       real(wp), intent(in) :: m(:, :)        !! response at the wheel centres to any loads

@@ -1,9 +1,10 @@
-!> The whole compliance matrix of every state of a sweep as a table: one row per state, one column per entry.
+!> The compliance matrix at every state of a sweep as a table: one row per state, one column per entry.
 !>
 !> A column is called <place>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
 !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
-!> `centre`: loads at the wheel centres, and their displacements; `patch`: loads at the contact points of the deck, and
-!> theirs. Loads are dead; the vertical force on all wheels is held, a height that the rig holds is released (ek_compliance).
+!> `centre`: loads and displacements at the wheel centres; `patch`: loads and displacements at the contact points of the
+!> deck. Loads keep their direction; the vertical force on all wheels is held, heights held by the rig are released
+!> (ek_compliance).
 module ek_compliance_table
    use ek_kinds, only: wp
    use ek_units, only: degree
@@ -30,7 +31,7 @@ module ek_compliance_table
 
 contains
 
-   !> The table of a sweep: the states that were found. Without a column of the matrix where there is no wheel.
+   !> The table of a sweep: the converged states. Without a wheel there is no column of the matrix.
    subroutine compliance_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension      !! on the rig
       type(case_t), intent(in) :: case

@@ -1,5 +1,5 @@
-!> Curves that a case has used beyond their first or last point, where they go straight on: a result there rests on no
-!> number of the deck.
+!> Warns of curves used beyond their first or last point, where they are extrapolated linearly and the result does not
+!> rest on a number of the deck.
 module ek_curve_reach
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -18,19 +18,19 @@ module ek_curve_reach
    private
    public :: curve_reach_words
 
-   !> How far one curve was used, and in which states.
+   !> The range of one curve that was used, and the states at its ends.
    type :: reach_t
       real(wp) :: least = 0.0_wp, most = 0.0_wp      !! m or rad
-      integer :: at_least = 0, at_most = 0           !! 0: no state has been looked at
+      integer :: at_least = 0, at_most = 0           !! 0: no state was evaluated
    end type reach_t
 
 contains
 
-   !> A line for each end of a curve that was passed by more than a thousandth of its span. Elements of one line of the
-   !> deck (the two sides of a mirrored one) and one curve are told once, with the one that went furthest.
+   !> One message for each end of a curve that was exceeded by more than a thousandth of its span. Elements from one line of
+   !> the deck (the two sides of a mirrored one) with the same curve give one message, for the largest excess.
    subroutine curve_reach_words(suspension, case, path, words)
       type(suspension_t), intent(in) :: suspension       !! on the rig
-      type(case_t), intent(in) :: case                   !! likewise
+      type(case_t), intent(in) :: case                   !! on the rig
       type(path_t), intent(in) :: path
       type(message_list_t), intent(inout) :: words
       type(reach_t) :: springs(size(suspension%springs)), bushings(6, size(suspension%bushings))
@@ -95,7 +95,7 @@ contains
       has_curves = any(suspension%springs%has_law) .or. any(suspension%bushings%has_curves)
    end function has_curves
 
-   !> What the &group of an element is called.
+   !> Name of the &group of an element.
    pure function kind_name(kind) result(name)
       integer, intent(in) :: kind
       character(7) :: name
@@ -104,7 +104,7 @@ contains
       if (kind == stop_spring) name = 'stop'
    end function kind_name
 
-   !> Takes in the deflection of a state; that of a stop without contact is none.
+   !> Includes the deflection of a state; a stop without contact has none.
    subroutine extend(reach, law, value, state)
       type(reach_t), intent(inout) :: reach
       type(law_t), intent(in) :: law
@@ -124,7 +124,7 @@ contains
       end if
    end subroutine extend
 
-   !> Whether another curve of the same line has gone further, down and up; of two alike the first is told.
+   !> Whether another curve of the same line has a larger excess, below and above; of two equal ones the first is reported.
    pure function further(other, own, is_before) result(is_further)
       type(reach_t), intent(in) :: other, own
       logical, intent(in) :: is_before
@@ -136,7 +136,7 @@ contains
       is_further(2) = other%most > own%most + slack .or. (is_before .and. other%most > own%most - slack)
    end function further
 
-   !> The words about one curve.
+   !> The messages on one curve.
    subroutine tell(case, path, curve, reach, thing, is_angle, is_told, words)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
@@ -144,7 +144,7 @@ contains
       type(reach_t), intent(in) :: reach
       character(*), intent(in) :: thing
       logical, intent(in) :: is_angle
-      logical, intent(in) :: is_told(2)           !! below its first point, beyond its last: by another element
+      logical, intent(in) :: is_told(2)           !! below the first point, beyond the last: reported for another element
       type(message_list_t), intent(inout) :: words
       character(:), allocatable :: head, unit_name
       real(wp) :: unit, slack
@@ -163,10 +163,10 @@ contains
       head = head//' of '//thing
       if (reach%least < curve%breaks(1) - slack .and. .not. is_told(1)) call words%add(head//' begins at '// &
          str(curve%breaks(1)/unit, 4)//unit_name//' and was used to '//str(reach%least/unit, 4)//unit_name// &
-         at_place(reach%at_least)//'; before its first point it goes straight on')
+         at_place(reach%at_least)//'; before its first point it is extrapolated linearly')
       if (reach%most > curve%breaks(n) + slack .and. .not. is_told(2)) call words%add(head//' ends at '// &
          str(curve%breaks(n)/unit, 4)//unit_name//' and was used to '//str(reach%most/unit, 4)//unit_name// &
-         at_place(reach%at_most)//'; beyond its last point it goes straight on')
+         at_place(reach%at_most)//'; beyond its last point it is extrapolated linearly')
 
    contains
 

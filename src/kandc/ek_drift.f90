@@ -1,4 +1,4 @@
-!> How far the ends of a sweep are from equilibrium: what a linear method has lost on the way.
+!> Distance of the ends of a sweep from equilibrium: the accumulated error of a linear method.
 module ek_drift
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -13,9 +13,9 @@ module ek_drift
    private
    public :: drift_t, drift_at
 
-   !> A state against the equilibrium under the same demand.
+   !> A state relative to the equilibrium under the same inputs.
    type :: drift_t
-      logical :: is_known = .false.       !! the equilibrium was found from there
+      logical :: is_known = .false.       !! an equilibrium was found from this state
       real(wp) :: travel = 0.0_wp         !! m, state less equilibrium
       real(wp) :: toe = 0.0_wp            !! rad
       real(wp) :: camber = 0.0_wp         !! rad
@@ -24,7 +24,7 @@ module ek_drift
 
 contains
 
-   !> Drift of state k of a sweep, seen at the first wheel, by one equilibrium solution from there.
+   !> Drift of state k of a sweep at the first wheel, by one equilibrium solution from this state.
    subroutine drift_at(suspension, case, path, k, kkt, drift)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case

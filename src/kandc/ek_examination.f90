@@ -1,6 +1,6 @@
-!> Whether the cases of a deck can be solved: the diagnosis that comes before any number, in every command.
+!> Examines whether the cases of a deck can be solved: the diagnosis made first in every command.
 !>
-!> The model is examined as the deck has it, before balance: a preload that balance finds must not pass for a stiffness.
+!> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness.
 module ek_examination
    use ek_error, only: error_t, message_list_t
    use ek_text, only: quoted
@@ -16,8 +16,8 @@ module ek_examination
 
    !> Findings about each case.
    type :: examination_t
-      logical, allocatable :: is_solvable(:)     !! also where a case cannot be mounted: that is told when it is run
-      type(message_list_t) :: faults             !! one a case, '' where it can be solved
+      logical, allocatable :: is_solvable(:)     !! true also if a case cannot be mounted: that is reported when it is run
+      type(message_list_t) :: faults             !! one per case, '' if it can be solved
       type(message_list_t) :: distinct           !! defects, each once for all cases
    contains
       procedure :: none_solvable
@@ -25,13 +25,13 @@ module ek_examination
 
 contains
 
-   !> Whether there is nothing to run.
+   !> Whether no case can be solved.
    pure logical function none_solvable(self)
       class(examination_t), intent(in) :: self
       none_solvable = size(self%is_solvable) > 0 .and. .not. any(self%is_solvable)
    end function none_solvable
 
-   !> Examines all cases. A defect that several cases have is spelt out in the first of them only.
+   !> Examines all cases. A defect of several cases is described in the first of them only.
    subroutine examine_cases(base, cases, found)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: cases(:)
@@ -58,11 +58,12 @@ contains
       end do
    end subroutine examine_cases
 
-   !> Adds those lines of words that are not there yet: one defect seen under two drives differs in a last digit.
+   !> Adds the lines of a text that are not in the list yet; the message on one defect may differ in the last digit between two
+   !> drives.
    subroutine add_distinct(distinct, words, is_new)
       type(message_list_t), intent(inout) :: distinct
       character(*), intent(in) :: words
-      logical, intent(out), optional :: is_new       !! whether there was any
+      logical, intent(out), optional :: is_new       !! whether a line was added
       integer :: first, last, j
 
       if (present(is_new)) is_new = .false.
@@ -80,7 +81,7 @@ contains
       end do
    end subroutine add_distinct
 
-   !> Defects of the model on the rig of a case; '' where there are none.
+   !> Defects of the model on the rig of a case; '' if there are none.
    subroutine examine_case(base, case, words)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case
@@ -101,7 +102,7 @@ contains
       if (.not. diagnosis%is_solvable()) words = diagnosis%words()
    end subroutine examine_case
 
-   !> A text less its digits, signs and points.
+   !> A text without its digits, signs and points.
    pure function without_numbers(text) result(rest)
       character(*), intent(in) :: text
       character(:), allocatable :: rest

@@ -1,7 +1,7 @@
 !> Columns of the geometry of wheels and steering, of stops and of the rack: a list of names and values at a state.
 !>
-!> ek_kandc_columns appends it to its own. What a model does not define has no column; what has no value at a state is
-!> not a number. input/QUANTITIES.md says what each of them means.
+!> ek_kandc_columns appends the list to its own. A quantity that a model does not define has no column; a quantity without a
+!> value at a state is not a number. input/QUANTITIES.md defines each of them.
 module ek_geometry_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -30,8 +30,8 @@ module ek_geometry_columns
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
    real(wp), parameter :: least_compliance = 1.0e-12_wp      !! m/N, as in ek_characteristics
-   real(wp), parameter :: least_turn = 1.0e-12_wp            !! rad/(N m), or rad/m of a rack: a carrier that does not steer
-   real(wp), parameter :: least_ratio = 1.0e-6_wp            !! a stop that does not feel the wheels
+   real(wp), parameter :: least_turn = 1.0e-12_wp            !! rad/(N m), or rad/m of a rack: carrier does not steer
+   real(wp), parameter :: least_ratio = 1.0e-6_wp            !! stop is independent of the wheels
 
    type :: column_list_t
       integer :: used = 0
@@ -41,7 +41,7 @@ module ek_geometry_columns
 
 contains
 
-   !> All columns at a state. Those of the compliance matrix are not numbers where that is not known.
+   !> All columns at a state. Those from the compliance matrix are not numbers if it is unknown.
    subroutine geometry_columns(suspension, vehicle, compliance, state, list)
       type(suspension_t), intent(in) :: suspension
       type(vehicle_t), intent(in) :: vehicle
@@ -75,7 +75,7 @@ contains
       type(vehicle_t), intent(in) :: vehicle
       type(compliance_t), intent(in) :: compliance
       type(state_t), intent(in) :: state
-      integer, intent(in) :: place                 !! in the compliance matrix
+      integer, intent(in) :: place                 !! index of the wheel in the compliance matrix
       type(column_list_t), intent(inout) :: list
       type(axis_distances_t) :: is
       character(:), allocatable :: prefix
@@ -103,7 +103,7 @@ contains
          end if
          call put_distances(list, prefix//'instant_', is)
 
-         ! a comparison with what is not a number would trap: such values are not computed at all
+         ! a comparison with NaN would trap: such values are not computed
          column = 0.0_wp
          recession = ieee_value(1.0_wp, ieee_quiet_nan)
          steer_camber = recession
@@ -125,7 +125,7 @@ contains
       end associate
    end subroutine list_wheel
 
-   !> Both wheels: track, and with &axle and &steering what a turn needs.
+   !> Both wheels: track, and with &axle and &steering the quantities of a turn.
    subroutine list_axle(suspension, vehicle, compliance, state, list)
       type(suspension_t), intent(in) :: suspension
       type(vehicle_t), intent(in) :: vehicle
@@ -164,7 +164,8 @@ contains
       end associate
    end subroutine list_axle
 
-   !> Wheel travel left until a stop is met, all wheels travelling alike: its gap over the change of the gap per travel.
+   !> Remaining wheel travel to the contact of a stop, with equal travel of all wheels: its gap over the change of the gap
+   !> per travel.
    subroutine list_stop(suspension, compliance, state, k, list)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
@@ -181,7 +182,7 @@ contains
       end associate
    end subroutine list_stop
 
-   !> gap/|ratio|; not a number for a stop that does not feel the wheels, or wheels that do not move.
+   !> gap/|ratio|; not a number for a stop that is independent of the wheels, or wheels that do not move.
    pure real(wp) function gap_over(gap, ratio)
       real(wp), intent(in) :: gap, ratio      !! m, -
       gap_over = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -189,8 +190,8 @@ contains
       gap_over = quotient(gap, abs(ratio), least_ratio)
    end function gap_over
 
-   !> Change of the length of an element per wheel travel, all wheels travelling alike: the motion ratio of one that is no port
-   !> of the compliance matrix. Not a number where that is not known.
+   !> Change of the length of an element per wheel travel, with equal travel of all wheels: the motion ratio of an element that
+   !> is not a port of the compliance matrix. Not a number if the matrix is unknown.
    real(wp) function length_ratio(suspension, compliance, state, k) result(ratio)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
@@ -216,7 +217,7 @@ contains
       ratio = motion_ratio(compliance%response(:n, :n), length)
    end function length_ratio
 
-   !> What the wheel centre does per vertical force on every wheel: the third column of C, in phase. [m/N, rad/N]
+   !> Response of the wheel centre per vertical force on every wheel: the third column of C, in phase. [m/N, rad/N]
    pure function in_phase(compliance, place) result(column)
       type(compliance_t), intent(in) :: compliance     !! known
       integer, intent(in) :: place
@@ -230,7 +231,7 @@ contains
       column = column + compliance%response(at + 1:at + 6, k)
    end function in_phase
 
-   !> The sprung mass of a wheel [kg]: the deck's, else that of the wheel's load at design; 0 where there is neither.
+   !> The sprung mass of a wheel [kg]: from the deck, otherwise from the wheel load at design; 0 if there is neither.
    real(wp) function mass_on(suspension, wheel) result(mass)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel

@@ -2,16 +2,16 @@
 !>
 !>     slope = Σ (x − x̄)(y − ȳ) / Σ (x − x̄)²       over the rows with converged = 1 and |x| ≤ window
 !>
-!> x is the travel, roll, force or torque of the test, y a column. What is reported is
+!> x is the travel, roll, force or torque of the test, y a column. The reported value is
 !>
 !>     value = size · s_y/s_x · slope
 !>
-!> with `size` bringing the unit (per m, per kN, per 100 N m) and signs that depend on the side of the wheel:
-!> steer is positive to the left on both wheels (s_y = side of toe), and anti phase counts the force on the wheel itself. These
-!> are the signs of the columns of the compliance matrix: a fitted slope over a small window is the column, on either wheel. In
-!> steering alone the input counts as seen from the wheel (s_x): positive towards its own side.
+!> where `size` converts the unit (per m, per kN, per 100 N m) and the signs depend on the side of the wheel:
+!> steer is positive to the left on both wheels (s_y = side for toe), and in anti phase x is the force on the wheel itself.
+!> These are the signs of the columns of the compliance matrix: in a small window the fitted slope equals the column, on either
+!> wheel. Only in steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
 !>
-!> A column that changes over the window by no more than what Newton and rounding leave of its unit has the slope 0.
+!> A column whose change over the window does not exceed the tolerance of Newton and rounding has the slope 0.
 module ek_gradient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -24,25 +24,25 @@ module ek_gradient
    private
    public :: gradient_t, test_gradients, slope_over_window
 
-   integer, parameter :: least_points = 3     !! a line through fewer is no fit
+   integer, parameter :: least_points = 3     !! fewer points define no fit
 
-   !> One number of the gradient report.
+   !> One gradient of the report.
    type :: gradient_t
       character(:), allocatable :: test        !! name of the case
       character(:), allocatable :: quantity    !! 'bump toe'
       character(:), allocatable :: side        !! 'left', 'right', or '' for the axle and for a single wheel
-      character(:), allocatable :: unit, sign  !! 'deg/m'; when it is positive, in words
+      character(:), allocatable :: unit, sign  !! 'deg/m'; meaning of a positive value
       character(:), allocatable :: column, over   !! the columns of the table
       character(:), allocatable :: window      !! '±15 mm'
       real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
-      real(wp) :: value = 0.0_wp               !! in `unit`; not a number where there is a note
+      real(wp) :: value = 0.0_wp               !! in `unit`; not a number if there is a note
       integer :: points = 0                    !! states in the window
-      character(:), allocatable :: note        !! why there is no value; else ''
+      character(:), allocatable :: note        !! reason of a missing value, otherwise ''
    end type gradient_t
 
 contains
 
-   !> All gradients that the kind of a test declares and its table defines.
+   !> All gradients of the kind of a test whose columns are in its table.
    subroutine test_gradients(test, windows, gradients)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
@@ -62,7 +62,7 @@ contains
             if (is_of_axle) then
                name = list(k)%column
                place = column_index(test%table, name)
-               if (wheel > 1) place = 0         ! the axle has it once
+               if (wheel > 1) place = 0         ! once for the axle
             end if
             if (place == 0) cycle
             if (wheel_column(test, wheel, trim(list(k)%over)) == 0) cycle
@@ -84,7 +84,7 @@ contains
 
    end subroutine test_gradients
 
-   !> One slope with all that has to be known of it.
+   !> One gradient with its description.
    function one_gradient(test, windows, definition, wheel, place, is_of_axle) result(gradient)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
@@ -121,7 +121,7 @@ contains
       gradient%note = ''
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
-         gradient%note = 'no state lies in the window'
+         gradient%note = 'no state in the window'
          if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(least_points)// &
             ' states in the window'
          if (gradient%points >= least_points) gradient%note = trim(gradient%over)//' does not change'
@@ -131,8 +131,8 @@ contains
       gradient%value = slope*definition%size*turn_of(test, definition, side)
    end function one_gradient
 
-   !> What is rounding in the unit of a column, by its ending: travel is driven to 1e-7 mm, of which the other numbers of a table
-   !> are a share (1e-7 mm is 1e-8 deg at a lever of 500 mm, 1e-3 N at 10 kN/mm); ten times that.
+   !> Numerical noise in the unit of a column, by its ending: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a
+   !> lever of 500 mm and 1e-3 N at 10 kN/mm; ten times that.
    pure real(wp) function noise_of(column) result(noise)
       character(*), intent(in) :: column
 
@@ -167,14 +167,14 @@ contains
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
-   !> Least-squares slope of y over x where |x| ≤ half; not a number with fewer than three different x.
+   !> Least-squares slope of y over x for |x| ≤ half; not a number with fewer than three different x.
    pure subroutine slope_over_window(x, y, half, slope, points)
-      real(wp), intent(in) :: x(:), y(:)   !! a state each; those that are not numbers are passed over
+      real(wp), intent(in) :: x(:), y(:)   !! one value per state; values that are not numbers are skipped
       real(wp), intent(in) :: half
       real(wp), intent(out) :: slope
       integer, intent(out) :: points       !! states in the window
       real(wp) :: mean_x, mean_y, across, along, low, high
-      real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state meant to lie on the edge is inside: travel is driven to 1e-7 mm
+      real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state nominally on the edge is inside: travel is driven to 1e-7 mm
       logical :: is_inside(size(x))
       integer :: k
 
@@ -195,7 +195,7 @@ contains
       end do
       points = count(is_inside)
       if (points < least_points) return
-      if (high - low <= 1.0e-3_wp*half) return        ! all at one place: no slope
+      if (high - low <= 1.0e-3_wp*half) return        ! all at one x: no slope
       mean_x = mean_x/points
       mean_y = mean_y/points
       across = 0.0_wp

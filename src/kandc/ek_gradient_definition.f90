@@ -1,30 +1,30 @@
-!> What is measured in a test: for every kind of test the list of its gradients, column over column, with unit and sign.
+!> The gradients of each kind of test: column over column, with unit and sign.
 !>
-!> A new gradient is one line below; ek_gradient makes its number.
+!> A new gradient is one line below; ek_gradient computes its value.
 module ek_gradient_definition
    use ek_kinds, only: wp
    implicit none(type, external)
    private
    public :: definition_t, definitions_of, fitted
 
-   !> Ends the name of every gradient: a least-squares slope over a window is not the slope at a state that a column of the
-   !> compliance matrix tells, and not called so.
+   !> Ends the name of every gradient, because a least-squares slope over a window differs from the slope at a state in a
+   !> column of the compliance matrix.
    character(*), parameter :: fitted = ' (fitted)'
 
-   !> How a gradient is made: the equation at the top of ek_gradient.
+   !> Definition of a gradient, for the equation at the top of ek_gradient.
    type :: definition_t
       character(52) :: quantity = ''
       character(28) :: column = ''
-      character(20) :: over = ''          !! column; 'factor' in units of the case (N, N m, mm)
-      real(wp) :: size = 1.0_wp           !! times the slope
+      character(20) :: over = ''          !! column of x; 'factor' in units of the case (N, N m, mm)
+      real(wp) :: size = 1.0_wp           !! factor on the slope
       character(12) :: unit = ''
       character(72) :: sign = ''
-      character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, wanted forward;
-      !!                                     'i': outward, wanted to the right
-      logical :: is_own = .false.         !! x counts as seen from the wheel: mirrored on the right one
+      character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, reported forward;
+      !!                                     'i': outward, reported to the right
+      logical :: is_own = .false.         !! x is positive towards the side of the wheel: mirrored on the right one
    end type definition_t
 
-   character(*), parameter :: in_bump = ' in bump', left_in_bump = '+ turns to the left in bump', &
+   character(*), parameter :: in_bump = ' in bump', left_in_bump = '+ steers to the left in bump', &
       left_up = ' with the left wheel up'
 
    type(definition_t), parameter :: travel_list(*) = [ &
@@ -38,40 +38,40 @@ module ek_gradient_definition
       definition_t('half-track change', 'track_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', '+ patch moves outward'//in_bump), &
       definition_t('wheelbase change', 'wheelbase_change_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
       '+ patch moves rearward'//in_bump), &
-      definition_t('wheel rate', 'vertical_force_n', 'wheel_travel_mm', 1.0_wp, 'N/mm', '+ load grows'//in_bump), &
+      definition_t('wheel rate', 'vertical_force_n', 'wheel_travel_mm', 1.0_wp, 'N/mm', '+ load increases'//in_bump), &
       definition_t('roll-centre height change', 'roll_centre_height_mm', 'wheel_travel_mm', 1.0_wp, 'mm/mm', &
       '+ rises over the ground'//in_bump)]
 
-   ! Per roll of the wheels against the body, positive with the left wheel up on either wheel, as the column axle_roll_deg: the
-   ! slopes of wheel_roll_… of the matrix are those at a state
+   ! Per roll of the wheels relative to the body, positive with the left wheel up for both wheels, as the column axle_roll_deg;
+   ! the columns wheel_roll_… of the matrix are the slopes at a state
    type(definition_t), parameter :: roll_list(*) = [ &
-      definition_t('wheel roll steer', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ turns to the left'//left_up, 's'), &
+      definition_t('wheel roll steer', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ steers to the left'//left_up, 's'), &
       definition_t('wheel roll toe', 'toe_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ front edge moves inward'//left_up), &
       definition_t('wheel roll camber', 'camber_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', '+ top moves outward'//left_up), &
       definition_t('camber relative to road in roll', 'inclination_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
-      '+ top moves outward, against the road,'//left_up), &
+      '+ top moves outward relative to the road'//left_up), &
       definition_t('wheel roll caster', 'caster_deg', 'axle_roll_deg', 1.0_wp, 'deg/deg', &
       '+ top of the axis moves rearward'//left_up), &
-      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', '+ grows'//left_up), &
-      definition_t('roll rate', 'roll_moment_nm', 'axle_roll_deg', 1.0_wp, 'N m/deg', '+ resists')]
+      definition_t('wheel load in roll', 'vertical_force_n', 'axle_roll_deg', 1.0_wp, 'N/deg', '+ increases'//left_up), &
+      definition_t('roll rate', 'roll_moment_nm', 'axle_roll_deg', 1.0_wp, 'N m/deg', '+ restoring')]
 
    type(definition_t), parameter :: lateral_list(*) = [ &
       definition_t('lateral force steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', &
-      '+ turns to the left under a force to the right', 's'), &
+      '+ steers to the left under a force to the right', 's'), &
       definition_t('lateral force camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', &
       '+ top moves outward under a force to the right'), &
       definition_t('lateral deflection', 'track_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch moves with the force', 'i')]
 
    type(definition_t), parameter :: aligning_list(*) = [ &
       definition_t('aligning torque steer', 'toe_deg', 'factor', 100.0_wp, 'deg/100 N m', &
-      '+ turns to the left under a torque to the left', 's'), &
+      '+ steers to the left under a torque to the left', 's'), &
       definition_t('aligning torque camber', 'camber_deg', 'factor', 100.0_wp, 'deg/100 N m', &
       '+ top moves outward under a torque to the left')]
 
    type(definition_t), parameter :: braking_list(*) = [ &
       definition_t('braking deflection', 'wheelbase_change_mm', 'factor', 1000.0_wp, 'mm/kN', '+ patch moves rearward'), &
       definition_t('braking camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top moves outward'), &
-      definition_t('braking steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ turns to the left', 's'), &
+      definition_t('braking steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ steers to the left', 's'), &
       definition_t('braking toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward'), &
       definition_t('braking caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top of the axis moves rearward')]
 
@@ -79,7 +79,7 @@ module ek_gradient_definition
       definition_t('traction deflection', 'wheel_centre_x_mm', 'factor', 1000.0_wp, 'mm/kN', &
       '+ wheel centre moves forward', 'd'), &
       definition_t('traction camber', 'camber_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top moves outward'), &
-      definition_t('traction steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ turns to the left', 's'), &
+      definition_t('traction steer', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ steers to the left', 's'), &
       definition_t('traction toe', 'toe_deg', 'factor', 1000.0_wp, 'deg/kN', '+ front edge moves inward'), &
       definition_t('traction caster', 'caster_deg', 'factor', 1000.0_wp, 'deg/kN', '+ top of the axis moves rearward')]
 
@@ -91,9 +91,9 @@ module ek_gradient_definition
       definition_t('steer caster', 'caster_deg', 'factor', 1.0_wp, 'deg/mm', &
       '+ top moves rearward, inner wheel', is_own=.true.), &
       definition_t('scrub radius change', 'scrub_radius_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, inner wheel', is_own=.true.), &
+      '+ increases, inner wheel', is_own=.true.), &
       definition_t('caster trail change', 'caster_trail_mm', 'factor', 1.0_wp, 'mm/mm', &
-      '+ grows, inner wheel', is_own=.true.), &
+      '+ increases, inner wheel', is_own=.true.), &
       definition_t('wheel lift in steer', 'wheel_travel_mm', 'factor', 1.0_wp, 'mm/mm', &
       '+ wheel moves up, inner wheel', is_own=.true.)]
 
@@ -105,7 +105,7 @@ module ek_gradient_definition
 
 contains
 
-   !> The declared gradients of a kind of test; none for a kind that has no list.
+   !> The gradients of a kind of test; empty for a kind without list.
    pure function definitions_of(kind) result(list)
       character(*), intent(in) :: kind
       type(definition_t), allocatable :: list(:)

@@ -1,4 +1,4 @@
-!> Gradients as files: gradients.csv and gradients.json, each number with its window, unit and sign in words.
+!> Gradients as files: gradients.csv and gradients.json, each value with its window, unit and sign convention.
 module ek_gradient_file
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted
@@ -16,7 +16,7 @@ module ek_gradient_file
 
 contains
 
-   !> Both files in a folder.
+   !> Writes both files.
    subroutine write_gradients(gradients, model, checksum, csv_path, json_path, error)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: model, checksum, csv_path, json_path
@@ -27,7 +27,7 @@ contains
       call write_whole(json_path, gradients_json(gradients, model, checksum), error)
    end subroutine write_gradients
 
-   !> One line a gradient; `nan` where there is no value.
+   !> One line per gradient; `nan` for a missing value.
    pure function gradients_csv(gradients) result(text)
       type(gradient_t), intent(in) :: gradients(:)
       character(:), allocatable :: text
@@ -87,11 +87,11 @@ contains
       text = json%text()
    end function gradients_json
 
-   !> Read gradients.csv back.
+   !> Reads gradients.csv.
    subroutine read_gradients(path, gradients, error)
       character(*), intent(in) :: path
       type(gradient_t), allocatable, intent(out) :: gradients(:)
-      type(error_t), allocatable, intent(out) :: error     !! exit_file: path:line: what is wrong
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
       type(text_table_t) :: table
       character(:), allocatable :: points
       logical :: is_number
@@ -101,7 +101,7 @@ contains
       if (allocated(error)) return
       do k = 1, 6
          if (any(table%columns == columns(k))) cycle
-         call fail(error, exit_file, path//': there is no column '//quoted(columns(k)))
+         call fail(error, exit_file, path//': missing column '//quoted(columns(k)))
          return
       end do
       allocate (gradients(table%rows))

@@ -1,11 +1,11 @@
-!> The windows of gradients: how far around design a slope is taken, by what the test stands over.
+!> The windows of gradients: the range around design for the fit, by the abscissa of the test.
 module ek_gradient_window
    use ek_kinds, only: wp
    implicit none(type, external)
    private
    public :: windows_t, set_window, window_of
 
-   !> Half widths of the windows, each about 0.
+   !> Half widths of the windows, each centred on 0.
    type :: windows_t
       real(wp) :: travel = 15.0_wp      !! mm
       real(wp) :: roll = 1.0_wp         !! deg
@@ -17,7 +17,7 @@ module ek_gradient_window
 
 contains
 
-   !> Sets the half width of one window by its word: travel, roll, force, torque, rack, wheel.
+   !> Sets the half width of one window by its name: travel, roll, force, torque, rack, wheel.
    pure subroutine set_window(windows, word, half, is_known)
       type(windows_t), intent(inout) :: windows
       character(*), intent(in) :: word
@@ -43,9 +43,9 @@ contains
       end select
    end subroutine set_window
 
-   !> The window of a gradient; what stands over `factor` has that of what the test's factor is.
+   !> The window of a gradient; over `factor` it is that of the quantity scaled by the test.
    pure subroutine window_of(kind, over, windows, half, unit)
-      character(*), intent(in) :: kind, over    !! of the test; column, without the wheel's name
+      character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
       type(windows_t), intent(in) :: windows
       real(wp), intent(out) :: half             !! half width, in `unit`
       character(*), intent(out) :: unit         !! mm, deg, N or N m; 3 letters

@@ -1,7 +1,7 @@
-!> The columns of the quantities of K&C: which of them a model defines, and their values at a state.
+!> The columns of the K&C quantities: those that a model defines, and their values at a state.
 !>
-!> Name, unit and value of a column stand in one line below; the list is gone through once without values for the
-!> names, then once a state. input/QUANTITIES.md says what each of them means.
+!> Name, unit and value of a column are given in one line below; the list is processed once without values for the
+!> names, then once per state. input/QUANTITIES.md defines each of them.
 module ek_kandc_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -48,7 +48,7 @@ contains
       allocate (self%values(self%used), source=0.0_wp)
    end subroutine start_kandc
 
-   !> Fills self%values at a state of equilibrium.
+   !> Fills self%values at an equilibrium.
    subroutine tell_kandc(suspension, state, demand, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -60,7 +60,7 @@ contains
       call list(suspension, state, demand, self)
    end subroutine tell_kandc
 
-   !> The rows of Φ that are not the suspension's but the rig's: it holds a wheel at a height.
+   !> The rows of Φ of the rig that hold a wheel at a height.
    pure function rig_rows(suspension) result(rows)
       type(suspension_t), intent(in) :: suspension
       integer, allocatable :: rows(:)
@@ -69,7 +69,7 @@ contains
       rows = pack([(k, k=1, size(suspension%rows))], suspension%joints(suspension%rows%joint)%is_rig)
    end function rig_rows
 
-   !> Goes through all columns: wheels, then the axle, then the springs.
+   !> Processes all columns: wheels, then the axle, then the springs.
    subroutine list(suspension, state, demand, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -97,7 +97,7 @@ contains
       do k = 1, self%geometry%used
          call put(self, trim(self%geometry%names(k)), self%geometry%values(k))
       end do
-      if (n == 0) return                                ! no wheel, no travel
+      if (n == 0) return                                ! without a wheel there is no travel
       do k = 1, self%compliance%springs
          ratio = 0.0_wp
          if (self%compliance%is_known) ratio = motion_ratio(self%compliance%response(:n, :n), &
@@ -106,7 +106,7 @@ contains
       end do
    end subroutine list
 
-   !> How both wheels of an axle stand, in the order of the compliance matrix.
+   !> Positions of both wheels of an axle, in the order of the compliance matrix.
    type(stand_t) function stand_of(suspension, state, self) result(stand)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -120,7 +120,7 @@ contains
       stand%roll = axle_roll(stand%centre(:, 1) + stand%arm(:, 1), stand%centre(:, 2) + stand%arm(:, 2), stand%track)
    end function stand_of
 
-   !> Where a wheel of the compliance matrix is: place `at` of a stand.
+   !> Position of a wheel of the compliance matrix, at index `at` of a stand.
    pure subroutine stand_up(suspension, state, self, place, at, stand)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -138,11 +138,11 @@ contains
       end associate
    end subroutine stand_up
 
-   !> One wheel.
+   !> The columns of one wheel.
    subroutine list_wheel(suspension, state, place, now, lift, pair, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      integer, intent(in) :: place               !! in the compliance matrix
+      integer, intent(in) :: place               !! index of the wheel in the compliance matrix
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: lift               !! force of the ground [N]
       type(stand_t), intent(in) :: pair          !! both wheels of an axle
@@ -193,7 +193,7 @@ contains
             call put_known(self, prefix//'anti_squat_percent', 100.0_wp*is%anti_drive)
          end if
          if (.not. (axle%has_axle .and. axle%mass > 0.0_wp)) return
-         if (axle%is_front) then      ! the body goes down where the wheel goes up
+         if (axle%is_front) then      ! the body moves down if the wheel moves up
             call put_known(self, prefix//'brake_dive_mm_per_g', is%brake_travel/millimetre)
             call put_known(self, prefix//'drive_lift_mm_per_g', -is%drive_travel/millimetre)
          else
@@ -203,7 +203,7 @@ contains
       end associate
    end subroutine list_wheel
 
-   !> Both wheels together.
+   !> The columns of both wheels together.
    subroutine list_axle(suspension, now, lift, stand, self)
       type(suspension_t), intent(in) :: suspension
       type(attitude_t), intent(in) :: now(2)             !! left, right
@@ -238,7 +238,7 @@ contains
          left = steer_of(now(1)%toe, -1)
          right = steer_of(now(2)%toe, 1)
          call put(self, 'turning_circle_m', turning_circle(left, right, axle%wheelbase))
-         ! what the steering does, without the static toe
+         ! the effect of the steering, without the static toe
          left = left - steer_of(design_toe(suspension, -1), -1)
          right = right - steer_of(design_toe(suspension, 1), 1)
          call put(self, 'ackermann_percent', ackermann_percent(left, right, axle%wheelbase, track))
@@ -259,7 +259,7 @@ contains
       end do
    end function design_toe
 
-   !> Steering wheel against road wheels, of a model with a rack and its ratio.
+   !> Ratio of steering wheel to road wheels, for a model with a rack and its ratio.
    subroutine list_steering(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -279,11 +279,11 @@ contains
          end do
       end if
       call put_known(self, 'steering_ratio', quotient(per_rack, abs(rate), least_rack_rate))
-      ! positive to the left whichever way the rack has to go for that
+      ! positive to the left for either direction of the rack
       call put(self, 'steering_wheel_deg', sign(per_rack, rate)*row_change(suspension, state, self%vehicle%steer_row)/degree)
    end subroutine list_steering
 
-   !> What a driver's row prescribes at a state, from design [m, rad]: its measure less what its own compliance gives way.
+   !> Prescribed value of a driver's row at a state, from design [m, rad]: its measure less the deflection of its compliance.
    pure real(wp) function row_change(suspension, state, row) result(change)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -299,7 +299,7 @@ contains
       end do
    end function row_change
 
-   !> The six columns of a steer axis; not a number where the axis is not known.
+   !> The six columns of a steer axis; not a number if the axis is unknown.
    subroutine put_axis(self, stem, axis)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: stem

@@ -1,4 +1,4 @@
-!> A row of the quantities of K&C: names in a first pass through the list of columns, values in every later one.
+!> A row of K&C quantities: the first pass through the list of columns collects the names, every later one the values.
 module ek_kandc_row
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -12,7 +12,7 @@ module ek_kandc_row
 
    !> The columns of a model and the work space to fill them.
    type :: kandc_t
-      integer :: used = 0                              !! columns
+      integer :: used = 0                              !! number of columns
       character(name_length), allocatable :: names(:)
       real(wp), allocatable :: values(:)
       logical :: is_naming = .true.
@@ -23,7 +23,7 @@ module ek_kandc_row
 
 contains
 
-   !> A column from the compliance matrix: not a number where that is not known.
+   !> A column from the compliance matrix: not a number if the matrix is unknown.
    subroutine put_known(self, name, value)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: name

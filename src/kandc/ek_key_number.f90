@@ -1,4 +1,4 @@
-!> One number of the list on a report's first page.
+!> One key number of a report.
 module ek_key_number
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -8,7 +8,7 @@ module ek_key_number
 
    type :: key_number_t
       character(:), allocatable :: group, quantity, unit, sign
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number where there is none
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
    end type key_number_t
 

@@ -1,5 +1,5 @@
-!> The numbers one looks at first, from all tests of a report: attitude at design, rates, ride and roll, compliance,
-!> anti features, steering. What the tests do not hold is left out.
+!> The key numbers of a report, from all its tests: attitude at design, rates, ride and roll, compliance,
+!> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted.
 module ek_key_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -14,28 +14,28 @@ module ek_key_numbers
    private
    public :: key_number_t, key_numbers
 
-   !> Where a key number comes from.
+   !> The source of a key number.
    type :: source_t
-      character(20) :: group = ''
+      character(34) :: group = ''
       character(52) :: quantity = ''
       character(52) :: name = ''          !! column, or quantity of a gradient without its ' (fitted)'
       character(8) :: how = ''            !! 'design': column at design; 'gradient'; 'largest', 'least': over a test
-      character(16) :: kind = ''          !! of the test; '': any
-      character(4) :: phase = ''          !! 'in', 'anti'; '': any
+      character(16) :: kind = ''          !! kind of the test; '': any
+      character(4) :: phase = ''          !! in phase 'in', anti phase 'anti'; '': any
       character(12) :: unit = ''
       character(56) :: sign = ''
-      character(1) :: steered = ' '       !! 'y': of an axle with &steering alone; 'n': of one without
+      character(1) :: steered = ' '       !! 'y': only for an axle with &steering; 'n': only without
    end type source_t
 
    character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
       comply = 'Compliance', &
-      held = 'Compliance at design', elastic = 'Elastic steer axis', anti = 'Anti features', steer = 'Steering'
+      held = 'Compliance at design', elastic = 'Elastic steer axis', anti = 'Anti-dive, anti-lift, anti-squat', steer = 'Steering'
 
    type(source_t), parameter :: attitude_list(*) = [ &
       source_t(attitude, 'toe', 'toe_deg', 'design', '', '', 'deg', '+ front edge inward'), &
       source_t(attitude, 'camber', 'camber_deg', 'design', '', '', 'deg', '+ top outward'), &
-      source_t(attitude, 'caster', 'caster_deg', 'design', '', '', 'deg', '+ axis leans rearward at the top'), &
-      source_t(attitude, 'kingpin inclination', 'kingpin_inclination_deg', 'design', '', '', 'deg', '+ leans inward at the top'), &
+      source_t(attitude, 'caster', 'caster_deg', 'design', '', '', 'deg', '+ top rearward'), &
+      source_t(attitude, 'kingpin inclination', 'kingpin_inclination_deg', 'design', '', '', 'deg', '+ top inward'), &
       source_t(attitude, 'scrub radius', 'scrub_radius_mm', 'design', '', '', 'mm', &
       '+ axis meets the ground inboard of the patch'), &
       source_t(attitude, 'caster trail', 'caster_trail_mm', 'design', '', '', 'mm', &
@@ -43,9 +43,9 @@ module ek_key_numbers
       source_t(attitude, 'spindle length', 'spindle_length_mm', 'design', '', '', 'mm', '+ wheel centre outboard of the axis'), &
       source_t(attitude, 'spindle offset', 'spindle_offset_mm', 'design', '', '', 'mm', '+ wheel centre behind the axis'), &
       source_t(attitude, 'caster, instant axis', 'instant_caster_deg', 'design', '', '', 'deg', &
-      '+ leans rearward at the top', 'y'), &
+      '+ top rearward', 'y'), &
       source_t(attitude, 'kingpin inclination, instant axis', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
-      '+ leans inward at the top', 'y'), &
+      '+ top inward', 'y'), &
       source_t(attitude, 'scrub radius, instant axis', 'instant_scrub_radius_mm', 'design', '', '', 'mm', &
       '+ inboard of the patch', 'y'), &
       source_t(attitude, 'caster trail, instant axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &
@@ -86,7 +86,7 @@ module ek_key_numbers
       source_t(ride, 'half-track change', 'half-track change', 'gradient', 'parallel_travel', '', '', ''), &
       source_t(ride, 'wheelbase change', 'wheelbase change', 'gradient', 'parallel_travel', '', '', ''), &
       source_t(ride, 'roll-centre height change', 'roll-centre height change', 'gradient', 'parallel_travel', '', '', ''), &
-      source_t(ride, 'recession gradient', 'recession_gradient_mm_per_m', 'design', '', '', 'mm/m', '+ rearward as it rises'), &
+      source_t(ride, 'recession gradient', 'recession_gradient_mm_per_m', 'design', '', '', 'mm/m', '+ rearward in bump'), &
       source_t(ride, 'side-view swing arm length', 'side_view_arm_length_mm', 'design', '', '', 'mm', ''), &
       source_t(ride, 'side-view swing arm angle', 'side_view_arm_angle_deg', 'design', '', '', 'deg', ''), &
       source_t(ride, 'front-view swing arm length', 'front_view_arm_length_mm', 'design', '', '', 'mm', ''), &
@@ -161,26 +161,26 @@ module ek_key_numbers
       source_t(anti, 'anti-lift, drive', 'anti_lift_drive_percent', 'design', '', '', '%', 'drive, front'), &
       source_t(anti, 'anti-lift, braking', 'anti_lift_brake_percent', 'design', '', '', '%', 'braking, rear'), &
       source_t(anti, 'anti-squat', 'anti_squat_percent', 'design', '', '', '%', 'drive, rear'), &
-      source_t(anti, 'dive, braking', 'brake_dive_mm_per_g', 'design', '', '', 'mm/g', '+ body goes down'), &
-      source_t(anti, 'lift, drive', 'drive_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body goes up'), &
-      source_t(anti, 'lift, braking', 'brake_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body goes up'), &
-      source_t(anti, 'squat, drive', 'drive_squat_mm_per_g', 'design', '', '', 'mm/g', '+ body goes down'), &
+      source_t(anti, 'dive, braking', 'brake_dive_mm_per_g', 'design', '', '', 'mm/g', '+ body moves down'), &
+      source_t(anti, 'lift, drive', 'drive_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body moves up'), &
+      source_t(anti, 'lift, braking', 'brake_lift_mm_per_g', 'design', '', '', 'mm/g', '+ body moves up'), &
+      source_t(anti, 'squat, drive', 'drive_squat_mm_per_g', 'design', '', '', 'mm/g', '+ body moves down'), &
       source_t(steer, 'steering ratio', 'steering_ratio', 'design', '', '', '–', 'steering wheel over road wheel'), &
       source_t(steer, 'steer per steering input', 'steer per steering input', 'gradient', 'steering', '', '', ''), &
       source_t(steer, 'steer per steering wheel', 'steer per steering wheel', 'gradient', 'steering', '', '', ''), &
-      source_t(steer, 'largest steer to the left', 'steer_deg', 'largest', 'steering', '', 'deg', 'over the test'), &
-      source_t(steer, 'largest steer to the right', 'steer_deg', 'least', 'steering', '', 'deg', 'over the test'), &
-      source_t(steer, 'Ackermann at most', 'ackermann_percent', 'largest', 'steering', '', '%', 'over the test'), &
-      source_t(steer, 'turning circle, least', 'turning_circle_m', 'least', 'steering', '', 'm', 'over the test'), &
-      source_t(steer, 'turning circle, curb to curb', 'curb_to_curb_m', 'least', 'steering', '', 'm', 'over the test'), &
-      source_t(steer, 'turning circle, wall to wall', 'wall_to_wall_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'maximum steer to the left', 'steer_deg', 'largest', 'steering', '', 'deg', 'over the test'), &
+      source_t(steer, 'maximum steer to the right', 'steer_deg', 'least', 'steering', '', 'deg', 'over the test'), &
+      source_t(steer, 'maximum Ackermann', 'ackermann_percent', 'largest', 'steering', '', '%', 'over the test'), &
+      source_t(steer, 'minimum turning circle', 'turning_circle_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'minimum turning circle, curb to curb', 'curb_to_curb_m', 'least', 'steering', '', 'm', 'over the test'), &
+      source_t(steer, 'minimum turning circle, wall to wall', 'wall_to_wall_m', 'least', 'steering', '', 'm', 'over the test'), &
       source_t(steer, 'camber per steer', 'steer_camber_deg_per_deg', 'design', '', '', 'deg/deg', &
       '+ top outward, steer to the left'), &
       source_t(steer, 'steer camber', 'steer camber', 'gradient', 'steering', '', '', '')]
 
 contains
 
-   !> All key numbers that the tests give.
+   !> All key numbers that the tests provide.
    subroutine key_numbers(tests, gradients, numbers)
       type(test_result_t), intent(in) :: tests(:)
       type(gradient_t), intent(in) :: gradients(:)
@@ -215,7 +215,7 @@ contains
          integer :: k
 
          do k = 1, size(list)
-            number%group = trim(list(k)%group)      ! one by one: gfortran 12 loses what a structure constructor trims
+            number%group = trim(list(k)%group)      ! one by one: gfortran 12 loses a trimmed text in a structure constructor
             number%quantity = trim(list(k)%quantity)
             number%unit = trim(list(k)%unit)
             number%sign = trim(list(k)%sign)
@@ -270,7 +270,7 @@ contains
       end do
    end subroutine from_gradients
 
-   !> A column at design, or its largest or least value, in the first test that has it.
+   !> A column at design, or its maximum or minimum, in the first test that has it.
    subroutine from_tables(tests, source, number, is_there)
       type(test_result_t), intent(in) :: tests(:)
       type(source_t), intent(in) :: source
@@ -305,7 +305,7 @@ contains
       end do
    end subroutine from_tables
 
-   !> A column at design, or its largest or least value over the states that were found; not a number where there is none.
+   !> A column at design, or its maximum or minimum over the converged states; not a number if there is none.
    pure real(wp) function value_of(test, place, how) result(value)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place

@@ -1,14 +1,14 @@
-!> A free table of loads: a CSV file of which every row is one state.
+!> A table of loads: a CSV file in which every row is one state.
 !>
-!> | column (two wheels: left_…, right_…)  | what it is                                               |
+!> | column (two wheels: left_…, right_…)  | quantity                                                 |
 !> |---------------------------------------|----------------------------------------------------------|
 !> | fx_n, fy_n, fz_n                      | force at the contact patch, frame of the deck            |
 !> | mx_nm, my_nm, mz_nm                   | moment on the wheel                                      |
 !> | centre_fx_n, centre_fy_n, centre_fz_n | force at the wheel centre                                |
 !> | travel_mm                             | height of the wheel centre above design, held            |
-!> | <driver>_mm, <driver>_deg             | change of what a driver joint prescribes                 |
+!> | <driver>_mm, <driver>_deg             | change of the value prescribed by a driver joint         |
 !>
-!> Loads and heights are in addition to the constant loads of the deck; what has no column stays.
+!> Loads and heights act in addition to the constant loads of the deck; quantities without a column stay constant.
 module ek_load_table
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck
@@ -29,7 +29,7 @@ module ek_load_table
    character(*), parameter :: load_columns(9) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
       'centre_fx_n', 'centre_fy_n', 'centre_fz_n']
 
-   character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! of results that became loads
+   character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! columns of result files reused as loads
 
 contains
 
@@ -38,7 +38,7 @@ contains
       type(suspension_t), intent(inout) :: suspension
       type(case_t), intent(inout) :: case
       integer, intent(in) :: wheels(2)      !! left, right; 0: none
-      type(error_t), allocatable, intent(out) :: error   !! exit_file: not readable; exit_deck: every mistake in the table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file: not readable; exit_deck: all errors in the table
       type(sheet_t) :: sheet
       type(message_list_t) :: mistakes
       integer :: k
@@ -60,7 +60,7 @@ contains
       case%from = 1.0_wp
       case%to = size(sheet%values, 2)
       case%increments = size(sheet%values, 2) - 1
-      if (size(sheet%values, 2) == 1) then      ! from the design state, which comes out too
+      if (size(sheet%values, 2) == 1) then      ! from the design state, which is also reported
          case%from = 0.0_wp
          case%increments = 1
       end if
@@ -102,7 +102,7 @@ contains
       !> A unit force or moment along an axis of the deck, scaled by a column.
       subroutine add_unit_load(name, wheel, c, values)
          character(*), intent(in) :: name
-         integer, intent(in) :: wheel, c      !! c: place in load_columns
+         integer, intent(in) :: wheel, c      !! c: index in load_columns
          real(wp), intent(in) :: values(:)
          type(load_t) :: load
          integer :: axis
@@ -128,12 +128,12 @@ contains
 
    end subroutine mount_table
 
-   !> Every mistake in the table of a case, in `mistakes`, as 'table.csv:7: what'.
+   !> All errors in the table of a case, in `mistakes`, as 'table.csv:7: error'.
    subroutine check_table(file, mistakes, error, suspension)
       character(*), intent(in) :: file
       type(message_list_t), intent(inout) :: mistakes
-      type(error_t), allocatable, intent(out) :: error           !! exit_file: it cannot be read
-      type(suspension_t), intent(in), optional :: suspension     !! else the heads are not compared with a model
+      type(error_t), allocatable, intent(out) :: error           !! exit_file: the file cannot be read
+      type(suspension_t), intent(in), optional :: suspension     !! absent: the heads are not compared with a model
       type(sheet_t) :: sheet
       integer :: wheels(2)
 
@@ -146,12 +146,12 @@ contains
       call mistakes_of(sheet, mistakes)
    end subroutine check_table
 
-   !> Notes in the sheet which of its heads mean nothing in a model, and that there are too many.
+   !> Adds errors to the sheet: heads unknown in a model, and too many columns.
    subroutine judge_columns(sheet, suspension, wheels)
       type(sheet_t), intent(inout) :: sheet
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels(2)
-      integer, parameter :: most_told = 10      ! a table that was meant for something else has many
+      integer, parameter :: most_told = 10      ! a table for another purpose has many
       integer :: k, unknown
 
       if (count(sheet%heads /= '') > most_driven) call sheet%head_mistakes%add(head_place(sheet)//'expected at most '// &
@@ -167,7 +167,7 @@ contains
          plural(unknown - most_told, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
 
-   !> Whether a column drives, loads or numbers something.
+   !> Whether a column is a drive, a load or a number of a state.
    pure logical function has_meaning(name, suspension, wheels)
       character(*), intent(in) :: name
       type(suspension_t), intent(in) :: suspension
@@ -184,7 +184,7 @@ contains
       end do
    end function has_meaning
 
-   !> The row of the driver joint that a column <driver>_mm or <driver>_deg changes; 0 if it is none, or has another unit.
+   !> The row of the driver joint of a column <driver>_mm or <driver>_deg; 0 if there is none, or it has another unit.
    pure integer function driver_of(name, suspension) result(row)
       character(*), intent(in) :: name
       type(suspension_t), intent(in) :: suspension
@@ -199,7 +199,7 @@ contains
       if (name(mark:) /= trim(merge('_deg', '_mm ', is_angle))) row = 0
    end function driver_of
 
-   !> The columns there might be.
+   !> Hint on the known columns.
    function advice(name, suspension, wheels) result(words)
       character(*), intent(in) :: name
       type(suspension_t), intent(in) :: suspension

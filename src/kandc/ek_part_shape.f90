@@ -1,6 +1,6 @@
 !> The shape of each part in a picture: arms, rods, ball joints, coils, dampers, bushings, tyres.
 !>
-!> `plain` asks for fewer faces, as an animation wants them. All places are global [m].
+!> `plain` selects fewer faces, for animations. All positions are global [m].
 module ek_part_shape
    use ek_kinds, only: wp
    use ek_units, only: pi
@@ -17,12 +17,12 @@ module ek_part_shape
    private
    public :: add_body, add_joints, add_elastic, add_bushing, add_wheel, add_tread
 
-   ! Sizes that look right on a passenger car [m]
+   ! Sizes typical of a passenger car [m]
    real(wp), parameter :: arm_radius = 0.011_wp, rod_radius = 0.008_wp, ball_radius = 0.016_wp
 
 contains
 
-   !> Bars along the skeleton of a body; an arm that is held at two points gets a plate between them.
+   !> Bars along the skeleton of a body; an arm attached at two points gets a plate between them.
    subroutine add_body(scene, suspension, state, body, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -48,7 +48,7 @@ contains
       if (kind == part_arm .and. .not. plain) call add_plate(scene, suspension, state, body, skeleton)
    end subroutine add_body
 
-   !> An arm held at two points is a wishbone: a thin plate between them and its furthest other point.
+   !> An arm attached at two points is a wishbone: a thin plate between them and its furthest other point.
    subroutine add_plate(scene, suspension, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -82,7 +82,7 @@ contains
       call add_face(scene, part_plate, face)
    end subroutine add_plate
 
-   !> Rods, ball joints, sliding joints, and what is fixed to the chassis.
+   !> Rods, ball joints, sliding joints, and attachments to the chassis.
    subroutine add_joints(scene, suspension, state, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -120,7 +120,7 @@ contains
 
    contains
 
-      !> A ball where a rod meets a body, a block where it meets the chassis.
+      !> A sphere at the end of a rod on a body, a block at its end on the chassis.
       subroutine add_end(body, at)
          integer, intent(in) :: body
          real(wp), intent(in) :: at(3)
@@ -134,7 +134,7 @@ contains
 
    end subroutine add_joints
 
-   !> How far body j reaches from a point along an axis, with its sign: to its furthest attachment point.
+   !> Signed distance along an axis from a point to the furthest attachment point of body j.
    real(wp) function reach_along(suspension, body, arm, axis) result(reach)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
@@ -151,7 +151,7 @@ contains
       end do
    end function reach_along
 
-   !> Axis of a revolute joint: rows 4 and 5 hold two directions of body i square to v, the axis in body j.
+   !> Axis of a revolute joint: rows 4 and 5 keep two directions of body i perpendicular to v, the axis in body j.
    subroutine revolute_axis(suspension, joint, state, axis)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: joint
@@ -163,7 +163,7 @@ contains
       end associate
    end subroutine revolute_axis
 
-   !> A coil, a damper as two tubes, or the rubber of a stop; a torsion spring sits in the bars that it joins.
+   !> A coil, a damper as two tubes, or the rubber of a stop; a torsion spring is part of the bars that it connects.
    subroutine add_elastic(scene, suspension, state, k, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -174,7 +174,7 @@ contains
       real(wp) :: a(3), b(3), length
 
       associate (spring => suspension%springs(k))
-         if (spring%measure%kind /= distance) return      ! a measure has no shape of its own
+         if (spring%measure%kind /= distance) return      ! a measure has no shape
          call ends_of(spring%measure, state, a, b)
          length = norm2(b - a)
          if (length < same_point) return
@@ -206,7 +206,7 @@ contains
       call add_tube(scene, part_bushing, at - 0.024_wp*axis, at + 0.024_wp*axis, 0.021_wp, merge(5, 10, plain))
    end subroutine add_bushing
 
-   !> Tyre as a hull of revolution, and a hub.
+   !> Tyre as a surface of revolution, and a hub.
    subroutine add_wheel(scene, suspension, state, k, plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -244,7 +244,7 @@ contains
       associate (wheel => suspension%wheels(k))
          centre = place_of(suspension, state, wheel%body, wheel%centre)
          axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
-         u = [axis(2), -axis(1), 0.0_wp]         ! level; a spin axis is never vertical
+         u = [axis(2), -axis(1), 0.0_wp]         ! horizontal; a spin axis is never vertical
          u = u/norm2(u)
          v = [axis(2)*u(3) - axis(3)*u(2), axis(3)*u(1) - axis(1)*u(3), axis(1)*u(2) - axis(2)*u(1)]
          do n = 0, corners

@@ -1,6 +1,6 @@
-!> What a suspension looks like at a state: its parts as solids (ek_part_shape), or as thin lines; the ground; names.
+!> Picture of a suspension at a state: its parts as solids (ek_part_shape) or as thin lines; the ground; names.
 !>
-!> A body has no shape in the model: its skeleton stands for it.
+!> A body has no shape in the model: its skeleton represents it.
 module ek_picture
    use ek_kinds, only: wp
    use ek_measure, only: distance
@@ -16,7 +16,7 @@ module ek_picture
 
 contains
 
-   !> Everything as solid parts.
+   !> Adds all parts as solids.
    subroutine add_solid(scene, suspension, state, is_plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -42,7 +42,7 @@ contains
       end do
    end subroutine add_solid
 
-   !> Everything as thin lines.
+   !> Adds all parts as thin lines.
    subroutine add_ghost(scene, suspension, state, kind)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
@@ -70,12 +70,12 @@ contains
       end do
    end subroutine add_ghost
 
-   !> The road under the wheels, and an arrow that points to the front of the car.
+   !> Adds the road under the wheels, and an arrow to the front of the car.
    subroutine add_ground(scene, suspension, state, is_plain)
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      logical, intent(in), optional :: is_plain    !! its outline alone: a GIF has no transparent colours
+      logical, intent(in), optional :: is_plain    !! only the outline: a GIF has no transparent colours
       real(wp) :: low(2), high(2), z, face(3, 4), arrow(3, 3), at(3), middle
       integer :: k
       logical :: has_face
@@ -92,7 +92,7 @@ contains
             z = min(z, at(3))
          end associate
       end do
-      if (size(suspension%wheels) == 1) then        ! the inner half of the axle belongs to the picture
+      if (size(suspension%wheels) == 1) then        ! the picture includes the inner half of the axle
          if (suspension%wheels(1)%side < 0) high(2) = max(high(2), low(2) + 0.55_wp)
          if (suspension%wheels(1)%side > 0) low(2) = min(low(2), high(2) - 0.55_wp)
       end if
@@ -126,7 +126,7 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          longest = 0.0_wp
-         if (count(skeleton%nodes(:skeleton%used)%is_held) == 2 .and. skeleton%used > 2) then    ! a wishbone: in its middle
+         if (count(skeleton%nodes(:skeleton%used)%is_held) == 2 .and. skeleton%used > 2) then    ! a wishbone: name in its middle
             longest = 1.0_wp
             at = 0.0_wp
             do k = 1, skeleton%used
@@ -144,7 +144,7 @@ contains
             at = (a + b)/2
          end do
          if (longest > 0.0_wp .and. slides(suspension, body) .and. .not. carries_wheel(suspension, body)) then
-            call name_at(suspension%bodies(body)%name, 5.0_wp)       ! beside the coil around it
+            call name_at(suspension%bodies(body)%name, 5.0_wp)       ! name beside the coil around it
          else if (longest > 0.0_wp) then
             call name_at(suspension%bodies(body)%name)
          end if
@@ -152,14 +152,14 @@ contains
       do k = 1, size(suspension%joints)
          if (suspension%joints(k)%kind /= 'distance') cycle
          call ends_of(first_measure(suspension, k), state, a, b)
-         at = 0.8_wp*a + 0.2_wp*b      ! not where a wishbone or a carrier beside it has its name
+         at = 0.8_wp*a + 0.2_wp*b      ! away from the name of a wishbone or a carrier beside it
          call name_at(suspension%joints(k)%name)
       end do
       do k = 1, size(suspension%springs)
          if (suspension%springs(k)%measure%kind /= distance .or. suspension%springs(k)%kind == stop_spring) cycle
          call ends_of(suspension%springs(k)%measure, state, a, b)
          at = 0.3_wp*a + 0.7_wp*b
-         if (suspension%springs(k)%kind == damper) at = b         ! above the coil that stands around it
+         if (suspension%springs(k)%kind == damper) at = b         ! name above the coil around it
          call name_at(suspension%springs(k)%name, 5.0_wp)
       end do
 

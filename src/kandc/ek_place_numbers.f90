@@ -1,5 +1,5 @@
-!> Key numbers that are read off a test at a place of their own: ratio and Ackermann where the inner wheel is at 20 deg, wheel
-!> travel until a stop is met, and the largest force on the rack over all tests.
+!> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact
+!> of a stop, and the maximum force on the rack over all tests.
 module ek_place_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -10,12 +10,12 @@ module ek_place_numbers
    private
    public :: place_numbers, value_where
 
-   real(wp), parameter :: inner_steer = 20.0_wp        !! deg: of a tight corner in town, where tools compare steering
+   real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
    character(*), parameter :: gap_ending = '_gap_mm'
 
 contains
 
-   !> Appends what the tests hold of them.
+   !> Appends these numbers as far as the tests provide them.
    subroutine place_numbers(tests, numbers)
       type(test_result_t), intent(in) :: tests(:)
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
@@ -35,7 +35,7 @@ contains
       call add_rack_force(tests, numbers)
    end subroutine place_numbers
 
-   !> A column where the inner wheel is at 20 deg: in `left` of a turn to the left, whose inner wheel is the left one.
+   !> A column with the inner wheel at 20 deg: `left` is the turn to the left, with the left wheel inside.
    subroutine add_at_steer(test, column, quantity, unit, numbers)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: column, quantity, unit
@@ -56,7 +56,7 @@ contains
       call append(number, numbers)
    end subroutine add_at_steer
 
-   !> How far a wheel goes from design until a stop on its side is met, both wheels in parallel.
+   !> Wheel travel from design to the contact of a stop on its side, both wheels in parallel.
    subroutine add_stops(test, numbers)
       type(test_result_t), intent(in) :: test
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
@@ -72,7 +72,7 @@ contains
          stop = test%table%columns(c) (:ends)
          if (column_index(test%table, stop//'_force_n') == 0) cycle
          prefix = side_of(stop)
-         if (prefix == 'right_' .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle   ! told with the left one
+         if (prefix == 'right_' .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle   ! with the left one
          value = travel_to(test, stop, prefix)
          call begin('Ride', 'wheel travel to '//spaced(stop(len(prefix) + 1:)), 'mm', 'from design to contact, parallel travel', &
             number)
@@ -89,10 +89,10 @@ contains
       end do
    end subroutine add_stops
 
-   !> Wheel travel between design and the contact of a stop [mm], never negative; not a number where it is not met.
+   !> Wheel travel between design and the contact of a stop [mm], never negative; not a number without contact.
    real(wp) function travel_to(test, stop, prefix) result(travel)
       type(test_result_t), intent(in) :: test
-      character(*), intent(in) :: stop, prefix       !! prefix: side of the stop, '' for none
+      character(*), intent(in) :: stop, prefix       !! prefix: side of the stop, or ''
       character(:), allocatable :: column
       integer :: row
 
@@ -104,14 +104,14 @@ contains
       travel = abs(value_where(test, stop//gap_ending, 0.0_wp, column) - test%table%values(column_index(test%table, column), row))
    end function travel_to
 
-   !> The largest amount of the force on the rack in any state of any test.
+   !> The maximum magnitude of the force on the rack over all states of all tests.
    subroutine add_rack_force(tests, numbers)
       type(test_result_t), intent(in) :: tests(:)
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       type(key_number_t) :: number
       integer :: t, place
 
-      call begin('Steering', 'largest rack force', 'N', 'amount, over all tests', number)
+      call begin('Steering', 'maximum rack force', 'N', 'magnitude, over all tests', number)
       do t = 1, size(tests)
          place = column_index(tests(t)%table, 'steering_rack_force_n')
          if (place == 0) cycle
@@ -125,8 +125,8 @@ contains
       call append(number, numbers)
    end subroutine add_rack_force
 
-   !> A column where another one has a value, linearly between two neighbouring states; of several such places the one nearest
-   !> to design. Not a number where there is none.
+   !> A column at the point where another one has a given value, interpolated linearly between two neighbouring states; of
+   !> several such points the one nearest to design. Not a number if there is none.
    real(wp) function value_where(test, over, wanted, column) result(value)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: over, column
@@ -154,7 +154,7 @@ contains
       end do
    end function value_where
 
-   !> Which states were found and have a number in a column.
+   !> The states that converged and have a number in a column.
    pure function is_good(test, place)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place
@@ -162,7 +162,7 @@ contains
       is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
    end function is_good
 
-   !> 'left_' or 'right_' of a name of that side, else ''.
+   !> 'left_' or 'right_' of a name of that side, otherwise ''.
    pure function side_of(name) result(prefix)
       character(*), intent(in) :: name
       character(:), allocatable :: prefix
@@ -171,7 +171,7 @@ contains
       if (index(name, 'right_') == 1) prefix = 'right_'
    end function side_of
 
-   !> Blanks for low lines.
+   !> Replaces underscores by blanks.
    pure function spaced(name) result(words)
       character(*), intent(in) :: name
       character(len(name)) :: words
@@ -195,7 +195,7 @@ contains
       number%right = nothing()
    end subroutine begin
 
-   !> Takes a number up behind the last of its group, if it has a value.
+   !> Inserts a number behind the last of its group, if it has a value.
    subroutine append(number, numbers)
       type(key_number_t), intent(in) :: number
       type(key_number_t), allocatable, intent(inout) :: numbers(:)

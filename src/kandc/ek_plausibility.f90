@@ -1,5 +1,5 @@
-!> Plausible? What of a deck does not look like a road vehicle: another unit, a swapped point, a wrong body, a coil in
-!> tension, a motion that only preload holds. Remarks, never errors; none with `plausible = .false.` in &model.
+!> Plausibility of a deck as a road vehicle: wrong units, swapped points, wrong bodies, a coil in tension, a motion that only
+!> preload resists. Findings are remarks, never errors; none with `plausible = .false.` in &model.
 module ek_plausibility
    use ek_error, only: message_list_t
    use ek_suspension, only: suspension_t
@@ -17,11 +17,11 @@ module ek_plausibility
 
 contains
 
-   !> One line for each thing that looks implausible, `file:line: thing: what`.
+   !> One remark per implausible item, `file:line: item: finding`.
    !>
-   !> A model without a wheel is no suspension: only its elements are looked at.
+   !> In a model without a wheel, which is no suspension, only the elements are checked.
    subroutine doubt(suspension, cases, remarks)
-      type(suspension_t), intent(in) :: suspension       !! balanced, where it can be; not on a rig
+      type(suspension_t), intent(in) :: suspension       !! balanced if possible; not on a rig
       type(case_t), intent(in) :: cases(:)               !! of the deck
       type(message_list_t), intent(out) :: remarks
       type(doubts_t) :: doubts

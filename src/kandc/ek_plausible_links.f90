@@ -1,4 +1,4 @@
-!> Links, struts and springs of a deck, held against what road vehicles look like: how long, which end on which body, which way.
+!> Plausibility of links, struts and springs: their length, the body at each end, and their direction.
 module ek_plausible_links
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -14,7 +14,7 @@ module ek_plausible_links
 
 contains
 
-   !> Links and springs: how long, which end is on which body, which way.
+   !> Links and springs: length, body at each end, direction.
    subroutine doubt_links(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -38,7 +38,7 @@ contains
             call doubt_ends(suspension, m, joint%where, thing, ends, doubts)
             if (rack == 0 .or. (m%body_i /= rack .and. m%body_j /= rack)) cycle
             if (abs(apart(2)) < 0.85_wp*norm2(apart)) call doubts%add(joint%where, 'askew', thing// &
-               ': a tie rod more than 32 deg out of the lateral direction: has a coordinate of its ends another sign?')
+               ': the tie rod is more than 32 deg off the lateral direction; check the signs of the coordinates of its ends')
          end associate
       end do
       do k = 1, size(suspension%bushings)
@@ -53,7 +53,7 @@ contains
       end do
    end subroutine doubt_links
 
-   !> Something leads from the rack to the wheels.
+   !> Whether the rack is connected to the wheels.
    subroutine doubt_rack(suspension, rack, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: rack
@@ -69,8 +69,8 @@ contains
       do k = 1, size(suspension%springs)
          if (leads(suspension%springs(k)%measure%body_i, suspension%springs(k)%measure%body_j)) return
       end do
-      call doubts%add(suspension%steering%where, 'no tie rod', '&steering: nothing leads from its rack, body '// &
-         quoted(body_name(suspension, rack))//', to a wheel: is a tie rod missing?')
+      call doubts%add(suspension%steering%where, 'no tie rod', '&steering: the rack, body '// &
+         quoted(body_name(suspension, rack))//', is not connected to a wheel: is a tie rod missing?')
 
    contains
 
@@ -81,13 +81,13 @@ contains
 
    end subroutine doubt_rack
 
-   !> A joint of the body of one wheel lies near that wheel, on its side of the car.
+   !> Checks that a joint of a wheel carrier lies near its wheel, on its side of the car.
    subroutine doubt_own_points(suspension, m, where, thing, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m
       character(*), intent(in) :: where, thing
       type(doubts_t), intent(inout) :: doubts
-      real(wp), parameter :: beyond = 0.05_wp     ! m: beyond the middle of the car
+      real(wp), parameter :: beyond = 0.05_wp     ! m: over the middle of the car
       real(wp), parameter :: far = 0.9_wp         ! m: from the centre of a wheel that steers
       real(wp) :: at(3)
       integer :: w
@@ -104,23 +104,23 @@ contains
                cycle
             end if
             if (wheel%has_steer_axis .and. norm2(at - wheel%centre) > far) call doubts%add(where, 'far joint', thing// &
-               ': on the carrier, but '//speak(doubts, length, norm2(at - wheel%centre))//' from the wheel centre: are '// &
-               'coordinates swapped, or in another unit?')
+               ': on the carrier, but '//speak(doubts, length, norm2(at - wheel%centre))//' from the wheel centre; check '// &
+               'the order and the unit of its coordinates')
             at = place(suspension, wheel%body, at)
             if (wheel%side*at(2) < -beyond) call doubts%add(where, 'other side', thing//': on the carrier of wheel '// &
-               quoted(wheel%name)//', but on the other side of the car: has y the right sign?')
+               quoted(wheel%name)//', but on the other side of the car; check the sign of y')
          end associate
       end do
    end subroutine doubt_own_points
 
-   !> The end of a link that is on a carrier lies outboard of the one that is not.
+   !> Checks that the end of a link on a carrier lies outboard of its other end.
    subroutine doubt_ends(suspension, m, where, thing, ends, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m
       character(*), intent(in) :: where, thing
       real(wp), intent(in) :: ends(3, 2)           !! m, on body i and body j
       type(doubts_t), intent(inout) :: doubts
-      real(wp), parameter :: clearly = 0.06_wp     ! m: links that lie along the car lean so much
+      real(wp), parameter :: clearly = 0.06_wp     ! m: longitudinal links may slant by this
       integer :: w, own
 
       do w = 1, size(suspension%wheels)
@@ -138,7 +138,7 @@ contains
       end do
    end subroutine doubt_ends
 
-   !> The axis of a strut is upright.
+   !> Checks that the axis of a strut is upright.
    subroutine doubt_slider(suspension, m, where, thing, doubts)
       type(suspension_t), intent(in) :: suspension
       type(measure_t), intent(in) :: m
@@ -148,11 +148,11 @@ contains
 
       if (.not. (any(suspension%wheels%body == m%body_i) .or. any(suspension%wheels%body == m%body_j))) return
       if (m%kind /= axis_axis) return
-      if (abs(m%v(3)) < upright) call doubts%add(where, 'slider', thing//': a strut that lies '// &
-         str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical: has a coordinate another sign?')
+      if (abs(m%v(3)) < upright) call doubts%add(where, 'slider', thing//': the axis of the strut is '// &
+         str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical; check the signs of its coordinates')
    end subroutine doubt_slider
 
-   !> The lower end of an upright spring is on the wheel's body, the upper one on the chassis.
+   !> Checks that the lower end of an upright spring is on the wheel's body and the upper one on the chassis.
    subroutine doubt_upright(suspension, k, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k
@@ -173,7 +173,7 @@ contains
 
    contains
 
-      !> What is above: the chassis; below: a wheel's body.
+      !> Rank of a body: above is the chassis, below a wheel's body.
       pure integer function rank_of(body)
          integer, intent(in) :: body
          rank_of = 0
@@ -183,7 +183,7 @@ contains
 
    end subroutine doubt_upright
 
-   !> The body that the driver of &steering moves; 0 where there is none.
+   !> The body moved by the driver of &steering; 0 if there is none.
    pure integer function rack_body(suspension)
       type(suspension_t), intent(in) :: suspension
       integer :: k

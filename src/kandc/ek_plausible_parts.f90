@@ -1,4 +1,4 @@
-!> The numbers of a deck's elements, loads, axle and cases, held against the ranges of ek_plausible_range.
+!> Plausibility of the values of a deck's elements, loads, axle and cases, by the ranges of ek_plausible_range.
 module ek_plausible_parts
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -14,7 +14,7 @@ module ek_plausible_parts
    private
    public :: doubt_elements, doubt_loads, doubt_vehicle, doubt_cases
 
-   real(wp), parameter :: felt = 1.0_wp        !! N: less is rounding of preloads that the deck gives
+   real(wp), parameter :: felt = 1.0_wp        !! N: less is rounding of the preloads in the deck
 
 contains
 
@@ -52,7 +52,7 @@ contains
       end do
    end subroutine doubt_elements
 
-   !> A spring: rate, length, and what it does at design.
+   !> A spring: rate, length, and its force at design.
    subroutine doubt_spring(spring, doubts)
       type(spring_t), intent(in) :: spring
       type(doubts_t), intent(inout) :: doubts
@@ -70,16 +70,16 @@ contains
       end if
       call spring_tension(spring, spring%design_length, tension, slope)
       if (tension > felt) call doubts%add(spring%where, 'tension', thing//': in tension at design, '// &
-         speak(doubts, force, tension)//'; a coil can only push: are its '// &
-         'ends on the right bodies, preload or free_length as meant?')
+         speak(doubts, force, tension)//'; a coil carries compression only: check '// &
+         'the bodies at its ends, and preload or free_length')
    end subroutine doubt_spring
 
-   !> A stop: clearance, transition, rate, and that it is free at design.
+   !> A stop: clearance, transition, rate, and no contact at design.
    subroutine doubt_stop(stop, doubts)
       type(spring_t), intent(in) :: stop
       type(doubts_t), intent(inout) :: doubts
       character(:), allocatable :: thing
-      real(wp), parameter :: bears = 50.0_wp      ! N: more than the lip of a stop that just touches
+      real(wp), parameter :: bears = 50.0_wp      ! N: more than in the transition of a stop that just touches
       real(wp) :: clearance, tension, slope
 
       thing = 'stop '//quoted(stop%name)
@@ -97,7 +97,7 @@ contains
          ' between its points: contact cannot be reached')
       call spring_tension(stop, stop%design_length, tension, slope)
       if (abs(tension) > bears) call doubts%add(stop%where, 'contact', thing//': in contact at design, '// &
-         speak(doubts, force, abs(tension))//'; clearance counts from design')
+         speak(doubts, force, abs(tension))//'; clearance is measured from design')
    end subroutine doubt_stop
 
    subroutine doubt_torsion(spring, doubts)
@@ -115,11 +115,11 @@ contains
       end if
    end subroutine doubt_torsion
 
-   !> A bushing: its largest and its least rate, how far its markers are apart, its curves.
+   !> A bushing: its largest and smallest rate, the distance of its markers, its curves.
    subroutine doubt_bushing(bushing, doubts)
       type(bushing_t), intent(in) :: bushing
       type(doubts_t), intent(inout) :: doubts
-      real(wp), parameter :: rigid = 1.0e9_wp        ! N/m: stands for a joint, and has no rubber
+      real(wp), parameter :: rigid = 1.0e9_wp        ! N/m: such a bushing represents a joint, not rubber
       character(:), allocatable :: thing
       integer :: k
 
@@ -143,7 +143,7 @@ contains
       end do
    end subroutine doubt_bushing
 
-   !> A curve of a force over a length: as long and as strong as such things are, and rising.
+   !> A curve of force over deflection: its span and force are in the usual range, and it rises.
    subroutine doubt_curve(law, where, thing, is_stop, doubts)
       type(law_t), intent(in) :: law
       character(*), intent(in) :: where, thing
@@ -176,7 +176,7 @@ contains
       call doubt_rise(curve, where, thing//', curve'//name_of(curve), doubts)
    end subroutine doubt_angular_curve
 
-   !> A curve that falls pushes the harder the less it is pressed.
+   !> A restoring force must not decrease with deflection.
    subroutine doubt_rise(curve, where, head, doubts)
       type(curve_t), intent(in) :: curve
       character(*), intent(in) :: where, head
@@ -190,12 +190,12 @@ contains
          if (k < n - 1) next = curve%coefficients(1, k + 1)
          if (next >= curve%coefficients(1, k)) cycle
          call doubts%add(where, 'fall', head//': falls from point '//str(k)//' to point '//str(k + 1)// &
-            '; give the force that resists the deflection, of the same sign')
+            '; give the restoring force, with the sign of the deflection')
          return
       end do
    end subroutine doubt_rise
 
-   !> " 'rubber'", or nothing.
+   !> " 'rubber'", or '' for a curve without name.
    pure function name_of(curve) result(text)
       type(curve_t), intent(in) :: curve
       character(:), allocatable :: text
@@ -203,7 +203,7 @@ contains
       if (allocated(curve%name)) text = ' '//quoted(curve%name)
    end function name_of
 
-   !> Masses, gravity, and what the road does to each wheel all the time.
+   !> Masses, gravity, and the constant load of the road on each wheel.
    subroutine doubt_loads(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -231,8 +231,8 @@ contains
                lift = load%force(3)
                thing = 'load '//quoted(load%name)
                if (norm2(load%force(1:2)) > abs(lift)) then
-                  call doubts%add(load%where, 'level', thing//': a constant load on wheel '//quoted(wheel%name)// &
-                     ' that is more level than vertical; forces are x, y, z, and the road pushes along +z')
+                  call doubts%add(load%where, 'level', thing//': the constant load on wheel '//quoted(wheel%name)// &
+                     ' is more horizontal than vertical; forces are given as x, y, z, and the road pushes along +z')
                else if (lift < 0.0_wp) then
                   call doubts%add(load%where, 'down', thing//': '//speak(doubts, force, lift)//' along z pulls wheel '// &
                      quoted(wheel%name)//' down; the road pushes a wheel up, along +z')
@@ -267,7 +267,7 @@ contains
       end associate
    end subroutine doubt_vehicle
 
-   !> How far cases go.
+   !> The range of the cases.
    subroutine doubt_cases(suspension, cases, doubts)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)

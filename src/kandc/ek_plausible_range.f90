@@ -1,8 +1,8 @@
-!> Which numbers road vehicles have: one table, from Formula Student to heavy trucks, and what a number outside of it
-!> looks like.
+!> Usual values of road vehicles: one table of ranges, from Formula Student to heavy trucks, with the likely cause of a
+!> value outside its range.
 !>
-!> A number outside its range is tried in the other units of its dimension: where one brings it back into the range, that
-!> unit is named. Where none does, the words of the row say what to suspect. Nothing here is an error.
+!> A value outside its range is converted with the other units of its dimension: if one of them brings it into the range,
+!> that unit is named. Otherwise the remark gives the text of the table row. No finding is an error.
 module ek_plausible_range
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
@@ -14,9 +14,9 @@ module ek_plausible_range
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, turn_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
-      acceleration = 9, derived = 10          ! a length that nobody wrote
+      acceleration = 9, derived = 10          ! a length computed from other values
 
-   !> A unit that somebody may have meant.
+   !> A unit that may have been used by mistake.
    type :: unit_t
       integer :: dimension
       character(8) :: name
@@ -25,7 +25,7 @@ module ek_plausible_range
 
    real(wp), parameter :: pound = 4.4482216_wp      !! N
 
-   !> The likely ones first.
+   !> In order of likelihood.
    type(unit_t), parameter :: units_tried(*) = [ &
       unit_t(length, 'm', 1.0_wp), unit_t(length, 'mm', 1.0e-3_wp), unit_t(length, 'inches', 0.0254_wp), &
       unit_t(length, 'cm', 0.01_wp), &
@@ -39,66 +39,66 @@ module ek_plausible_range
       unit_t(mass, 'g', 1.0e-3_wp), unit_t(mass, 't', 1.0e3_wp), unit_t(share, 'per cent', 0.01_wp), &
       unit_t(acceleration, 'mm/s²', 1.0e-3_wp), unit_t(acceleration, 'g', 9.80665_wp)]
 
-   !> One quantity of road vehicles. Its magnitude counts unless `low` is negative.
+   !> The range of one quantity. It applies to the magnitude unless `low` is negative.
    type :: range_t
       character(28) :: quantity
       integer :: dimension
       real(wp) :: low, high     !! mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s²
       logical :: may_be_zero
-      character(100) :: suspect  !! what to suspect where no other unit fits
+      character(100) :: suspect  !! likely cause or hint if no other unit fits
    end type range_t
 
-   ! The limits are those of what is built, widened: Formula Student (10 inch wheels, 1.5 m wheelbase, springs of 15 N/mm),
+   ! The limits are those of existing vehicles, widened: Formula Student (10 inch wheels, 1.5 m wheelbase, springs of 15 N/mm),
    ! race cars (springs of 1000 N/mm), heavy trucks (leaf springs of 3000 N/mm, 1 t axles, 8 m wheelbase).
    type(range_t), parameter :: ranges(*) = [ &
-      range_t('half track', length, 400.0_wp, 1400.0_wp, .false., 'is y the lateral coordinate, and 0 the middle of the car?'), &
+      range_t('half track', length, 400.0_wp, 1400.0_wp, .false., 'check that y is lateral and 0 in the middle of the car'), &
       range_t('wheel radius', length, 180.0_wp, 750.0_wp, .false., 'is it the diameter?'), &
-      range_t('height of centre', length, 150.0_wp, 750.0_wp, .false., 'is z in one frame for all points?'), &
-      range_t('contact offset', length, 0.0_wp, 80.0_wp, .true., 'the contact point lies below the centre: x or y is wrong'), &
-      range_t('static toe', angle, -3.0_wp, 3.0_wp, .true., 'no road car has that; toe is in degrees'), &
-      range_t('static camber', angle, -8.0_wp, 5.0_wp, .true., 'no road car has that; camber is in degrees, < 0: top inward'), &
-      range_t('tyre rate', rate, 50.0_wp, 2500.0_wp, .false., 'the vertical stiffness of one tyre is meant'), &
+      range_t('height of centre', length, 150.0_wp, 750.0_wp, .false., 'check that z has the same origin for all points'), &
+      range_t('contact offset', length, 0.0_wp, 80.0_wp, .true., 'the contact point lies below the centre; check x and y'), &
+      range_t('static toe', angle, -3.0_wp, 3.0_wp, .true., 'toe is given in degrees'), &
+      range_t('static camber', angle, -8.0_wp, 5.0_wp, .true., 'camber is given in degrees; negative: top inward'), &
+      range_t('tyre rate', rate, 50.0_wp, 2500.0_wp, .false., 'give the vertical stiffness of one tyre'), &
       range_t('wheelbase', length, 1200.0_wp, 8000.0_wp, .false., 'is it the track?'), &
-      range_t('cg height', length, 150.0_wp, 2500.0_wp, .false., 'the height of the car''s cg over the ground is meant'), &
-      range_t('brake share', share, 0.3_wp, 0.95_wp, .false., 'the share of the FRONT axle is meant, also on a rear axle'), &
-      range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'rack travel per revolution is meant, not the steering ratio'), &
-      range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'the travel each way is meant'), &
-      range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'the rate of one spring, along the spring, is meant'), &
-      range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'are its two points the ones that are meant?'), &
+      range_t('cg height', length, 150.0_wp, 2500.0_wp, .false., 'give the height of the car''s centre of gravity over the road'), &
+      range_t('brake share', share, 0.3_wp, 0.95_wp, .false., 'give the share of the FRONT axle, also on a rear axle'), &
+      range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'give the rack travel per revolution, not the steering ratio'), &
+      range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'give the travel to each side'), &
+      range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'give the rate of one spring along its axis'), &
+      range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'check its two points'), &
       range_t('static compression', length, 0.0_wp, 500.0_wp, .true., 'preload and rate do not fit together'), &
-      range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'the force of the gas at design is meant'), &
-      range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'the rise of the gas force with compression is meant'), &
-      range_t('clearance', length, 0.5_wp, 250.0_wp, .true., 'the way from design to contact is meant'), &
-      range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'so long a transition is part of the curve'), &
-      range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'force over penetration is meant'), &
-      range_t('bushing rate kt', rate, 5.0_wp, 1.0e6_wp, .true., 'no rubber; where it stands for a rigid link, use a joint'), &
-      range_t('bushing rate kr', turn_rate, 2.0_wp, 5.0e7_wp, .true., 'no rubber; where it stands for a rigid link, use a joint'), &
-      range_t('bushing gap', length, 0.0_wp, 20.0_wp, .true., 'its two points are apart: is one of them another one''s?'), &
-      range_t('torsion bar rate', turn_rate, 1500.0_wp, 1.0e6_wp, .false., 'the rate between the halves of a bar is meant'), &
-      range_t('torsion spring rate', turn_rate, 500.0_wp, 5.0e7_wp, .false., 'moment over angle is meant'), &
-      range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'the stiffness at the rack is meant'), &
+      range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'give the gas force at design'), &
+      range_t('gas rate', rate, 0.01_wp, 100.0_wp, .true., 'give the increase of the gas force per compression'), &
+      range_t('clearance', length, 0.5_wp, 250.0_wp, .true., 'give the distance from design to contact'), &
+      range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'such a long transition belongs in the curve'), &
+      range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'give the force per penetration'), &
+      range_t('bushing rate kt', rate, 5.0_wp, 1.0e6_wp, .true., 'not in the range of rubber; for a rigid link use a joint'), &
+      range_t('bushing rate kr', turn_rate, 2.0_wp, 5.0e7_wp, .true., 'not in the range of rubber; for a rigid link use a joint'), &
+      range_t('bushing gap', length, 0.0_wp, 20.0_wp, .true., 'its two points are apart; check their names'), &
+      range_t('torsion bar rate', turn_rate, 1500.0_wp, 1.0e6_wp, .false., 'give the rate between the halves of the bar'), &
+      range_t('torsion spring rate', turn_rate, 500.0_wp, 5.0e7_wp, .false., 'give the moment per angle'), &
+      range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'give the stiffness at the rack'), &
       range_t('span of the curve', length, 0.5_wp, 600.0_wp, .false., 'its x is a deflection in the deck''s unit'), &
       range_t('angular span of the curve', angle, 0.2_wp, 400.0_wp, .false., 'its x is an angle in the deck''s unit'), &
       range_t('largest force of the curve', force, 30.0_wp, 1.0e6_wp, .false., 'its y is a force in the deck''s unit'), &
       range_t('slope of the curve', rate, 0.1_wp, 1.0e6_wp, .true., 'its x and y are in the deck''s units'), &
-      range_t('static wheel load', force, 450.0_wp, 70000.0_wp, .false., 'the load on one wheel is meant'), &
-      range_t('mass', mass, 0.1_wp, 1500.0_wp, .false., 'the mass of one body of a suspension is meant'), &
-      range_t('gravity', acceleration, 9.0_wp, 10.5_wp, .true., 'gravity is in m/s², whatever the units of the deck'), &
-      range_t('wheel travel', length, 2.0_wp, 400.0_wp, .false., 'the travel of a wheel from design is meant'), &
-      range_t('roll angle', angle, 0.1_wp, 12.0_wp, .false., 'the roll angle of the axle is meant'), &
-      range_t('rack displacement', length, 1.0_wp, 300.0_wp, .false., 'the displacement of the rack from design is meant'), &
-      range_t('test force', force, 30.0_wp, 150000.0_wp, .false., 'the force on one wheel is meant'), &
-      range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, whatever the units of the deck'), &
-      range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'a pneumatic trail is meant'), &
-      range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'mirrored axes, or a sign of x: the top is rearward'), &
-      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'the steer axis: is a point another one''s?'), &
+      range_t('static wheel load', force, 450.0_wp, 70000.0_wp, .false., 'give the load on one wheel'), &
+      range_t('mass', mass, 0.1_wp, 1500.0_wp, .false., 'give the mass of one body of the suspension'), &
+      range_t('gravity', acceleration, 9.0_wp, 10.5_wp, .true., 'gravity is in m/s², regardless of the deck''s units'), &
+      range_t('wheel travel', length, 2.0_wp, 400.0_wp, .false., 'give the travel of a wheel from design'), &
+      range_t('roll angle', angle, 0.1_wp, 12.0_wp, .false., 'give the roll angle of the axle'), &
+      range_t('rack displacement', length, 1.0_wp, 300.0_wp, .false., 'give the displacement of the rack from design'), &
+      range_t('test force', force, 30.0_wp, 150000.0_wp, .false., 'give the force on one wheel'), &
+      range_t('test moment', moment, 1.0_wp, 5000.0_wp, .false., 'the moment is in N m, regardless of the deck''s units'), &
+      range_t('offset of the force', length, 0.0_wp, 200.0_wp, .true., 'give a pneumatic trail'), &
+      range_t('caster of a front axle', angle, -3.0_wp, 20.0_wp, .true., 'usually the top is rearward; check axes and sign of x'), &
+      range_t('caster', angle, -25.0_wp, 25.0_wp, .true., 'check the points of the steer axis'), &
       range_t('kingpin inclination', angle, -6.0_wp, 30.0_wp, .true., 'is the upper point outboard of the lower one?'), &
-      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'is a point of the steer axis another one''s?'), &
-      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'is a point of the steer axis another one''s?'), &
-      range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'are its two points the ones that are meant?'), &
+      range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steer axis'), &
+      range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steer axis'), &
+      range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
       range_t('size √(kr/kt)', derived, 1.0_wp, 300.0_wp, .true., 'kr and kt do not fit together')]
 
-   !> What looks implausible, each thing once: the two sides of a mirrored deck stand in one line of it.
+   !> The remarks, each once: the two sides of a mirrored deck come from one line of it.
    type :: doubts_t
       type(message_list_t) :: remarks
       type(units_t) :: units                       !! of the deck
@@ -110,7 +110,7 @@ module ek_plausible_range
 
 contains
 
-   !> A remark on what stands at a place, by a rule; nothing where that rule has spoken of that place.
+   !> Adds a remark of a rule on a line of the deck, once per rule and line.
    pure subroutine add(self, where, rule, text)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where        !! file:line
@@ -119,7 +119,7 @@ contains
       call self%add_at(where, where, rule, text)
    end subroutine add
 
-   !> The same where one line may have several remarks by one rule.
+   !> The same for a line that may have several remarks of one rule.
    pure subroutine add_at(self, where, thing, rule, text)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where, thing, rule, text
@@ -136,7 +136,7 @@ contains
       end if
    end subroutine add_at
 
-   !> The row of a quantity; 0 for one that is not in the table.
+   !> The row of a quantity; 0 if it is not in the table.
    pure integer function range_number(quantity) result(row)
       character(*), intent(in) :: quantity
       do row = size(ranges), 1, -1
@@ -144,7 +144,7 @@ contains
       end do
    end function range_number
 
-   !> Holds a number against the row of its quantity, and adds a remark where it lies outside.
+   !> Compares a value with the range of its quantity, and adds a remark if it lies outside.
    pure subroutine judge(doubts, where, thing, quantity, value)
       type(doubts_t), intent(inout) :: doubts
       character(*), intent(in) :: where        !! file:line
@@ -157,13 +157,13 @@ contains
       integer :: k
 
       k = range_number(quantity)
-      if (k == 0) then      ! a slip of ours: seen by the tests, which expect no remark on a sound deck
-         call doubts%add(where, quantity, thing//': there is no range for '//quantity)
+      if (k == 0) then      ! a programming error: found by the tests, which expect no remark on a sound deck
+         call doubts%add(where, quantity, thing//': no range for '//quantity)
          return
       end if
       row = ranges(k)
       x = value
-      if (row%low >= 0.0_wp) x = abs(value)        ! its sign says nothing
+      if (row%low >= 0.0_wp) x = abs(value)        ! the sign does not matter
       if (row%may_be_zero .and. abs(x) <= 0.0_wp) return
       if (is_within(row, x)) return
       low = row%low*table_unit(row%dimension)
@@ -183,7 +183,7 @@ contains
          ' (usual: '//short(low/deck_unit(row%dimension, doubts%units))//' to '//speak(doubts, row%dimension, high)//'); '//text)
    end subroutine judge
 
-   !> Whether a number (SI) is one that road vehicles have.
+   !> Whether a value (SI) lies in its range.
    pure logical function is_within(row, value)
       type(range_t), intent(in) :: row
       real(wp), intent(in) :: value
@@ -206,7 +206,7 @@ contains
       if (dimension /= share) text = text//' '//deck_name(dimension, doubts%units)
    end function speak
 
-   !> Five digits, or all of a large number: people count thousands.
+   !> A number with five digits, or all digits from 1e5 to 1e9.
    pure function short(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text
@@ -241,7 +241,7 @@ contains
       end select
    end function deck_unit
 
-   !> Its name.
+   !> Name of a deck's unit.
    pure function deck_name(dimension, units) result(name)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units

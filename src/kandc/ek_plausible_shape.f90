@@ -1,4 +1,4 @@
-!> The geometry of a deck, held against what road vehicles look like: wheels, steer axes, carriers, hardpoints.
+!> Plausibility of the geometry of a deck: wheels, steer axes, carriers, hardpoints.
 module ek_plausible_shape
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
@@ -12,7 +12,7 @@ module ek_plausible_shape
 
 contains
 
-   !> Wheels, one by one and against each other.
+   !> Each wheel, and each pair of wheels.
    subroutine doubt_wheels(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -55,7 +55,7 @@ contains
       end do
    end subroutine doubt_wheels
 
-   !> What a wrong radius may be.
+   !> Likely cause of a wrong radius.
    pure function diameter(ratio) result(text)
       real(wp), intent(in) :: ratio
       character(:), allocatable :: text
@@ -80,10 +80,10 @@ contains
       up = wheel%steer_axis(:, 3 - lower) - low
       if (maxval([norm2(low - wheel%centre), norm2(low + up - wheel%centre)]) > far) call doubts%add(wheel%where, &
          'axis point', thing//': a point of its steer_axis is '//speak(doubts, length, max(norm2(low - wheel%centre), &
-         norm2(low + up - wheel%centre)))//' from the wheel centre: are its coordinates swapped, or in another unit?')
+         norm2(low + up - wheel%centre)))//' from the wheel centre; check the order and the unit of its coordinates')
       if (up(3) < level*norm2(up)) then
-         call doubts%add(wheel%where, 'level axis', thing//': its steer_axis is nearly level, '//str(nint(acos(min(1.0_wp, &
-            up(3)/norm2(up)))/degree))//' deg from the vertical; it leads from the lower ball joint to the upper one or '// &
+         call doubts%add(wheel%where, 'level axis', thing//': its steer_axis is nearly horizontal, '//str(nint(acos(min(1.0_wp, &
+            up(3)/norm2(up)))/degree))//' deg from the vertical; it runs from the lower ball joint to the upper one or '// &
             'the top mount')
          return
       end if
@@ -98,13 +98,13 @@ contains
       call judge(doubts, wheel%where, thing, 'caster trail', wheel%contact(1) - ground(1))
    end subroutine doubt_steer_axis
 
-   !> Whether a wheel is on its carrier: no other body has its joints that much nearer to the wheel's centre.
+   !> Checks that a wheel is on its carrier: no other body has its joints much nearer to the wheel's centre.
    subroutine doubt_carrier(suspension, w, doubts)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: w
       type(doubts_t), intent(inout) :: doubts
-      real(wp), parameter :: beside = 0.2_wp     ! m: joints of a carrier surround the wheel's centre nearer than that
-      integer, parameter :: most = 3             ! joints at least that a carrier has
+      real(wp), parameter :: beside = 0.2_wp     ! m: the joints of a carrier are nearer to the wheel's centre than this, on average
+      integer, parameter :: most = 3             ! least number of joints of a carrier
       real(wp) :: mean(3, 0:size(suspension%bodies)), off(size(suspension%bodies))
       integer :: joints(0:size(suspension%bodies)), b
 
@@ -123,7 +123,7 @@ contains
       end associate
    end subroutine doubt_carrier
 
-   !> The middle of the points at which a body is held, and how many there are.
+   !> The mean of the attachment points of a body, and their number.
    subroutine middle_of_joints(suspension, mean, joints)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: mean(:, 0:)
@@ -159,7 +159,7 @@ contains
 
    end subroutine middle_of_joints
 
-   !> Hardpoints that lie where no suspension is.
+   !> Hardpoints outside the space of a suspension.
    subroutine doubt_points(suspension, doubts)
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
@@ -189,15 +189,15 @@ contains
                   '; looks like m')
             else if (p%at(3) < road - under) then
                call doubts%add(p%where, 'under', thing//speak(doubts, length, road - p%at(3))// &
-                  ' below the road: z has another sign or origin, or coordinates are swapped')
+                  ' below the road; check the sign and the origin of z, and the order of the coordinates')
             else if (abs(p%at(2)) > half + outboard) then
                call doubts%add(p%where, 'outboard', thing//speak(doubts, length, abs(p%at(2)) - half)// &
-                  ' outboard of the wheel centre: are coordinates swapped, or in another unit?')
+                  ' outboard of the wheel centre; check the order and the unit of the coordinates')
             else if (norm2(p%at - [centre(1), sign(half, p%at(2)), centre(3)]) > far .or. p%at(3) > road + tall) then
                call doubts%add(p%where, 'far', thing//speak(doubts, length, norm2(p%at - [centre(1), sign(half, p%at(2)), &
-                  centre(3)]))//' from the wheel: is it in another unit?')
+                  centre(3)]))//' from the wheel; check its unit')
             else if (size(suspension%wheels) == 1 .and. suspension%wheels(1)%side*p%at(2) < -beside) then
-               call doubts%add(p%where, 'side', thing//'on the other side of the car than the wheel: has y the right sign?')
+               call doubts%add(p%where, 'side', thing//'on the other side of the car than the wheel; check the sign of y')
             end if
          end associate
       end do

@@ -1,10 +1,10 @@
-!> The columns of what a wheel does in bump, in roll and under the forces of a K&C rig: names, units and values.
+!> The columns of the response of a wheel in bump, in roll and under the forces of a K&C rig: names, units and values.
 !>
-!> A column ends in what it is the slope of: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the derivatives of the columns
-!> steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x` and its like are the rotation of the carrier about an axis of
+!> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
+!> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the rotation of the carrier about an axis of
 !> the deck's frame; `…_deflection` is the movement of the contact point (of the wheel centre in traction),
-!> `…_centre_deflection` that of the wheel centre. `load_held`: the vertical forces stay; `height_held`: the heights of the
-!> wheel centres stay. input/QUANTITIES.md says what each of them means.
+!> `…_centre_deflection` that of the wheel centre. `load_held`: constant vertical forces; `height_held`: constant
+!> heights of the wheel centres. input/QUANTITIES.md defines each of them.
 module ek_response_columns
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
@@ -14,7 +14,7 @@ module ek_response_columns
    private
    public :: put_rates, put_arms, put_forces
 
-   ! what a value in SI is divided by
+   ! divisors of values in SI
    real(wp), parameter :: per_metre = degree                       !! deg/m
    real(wp), parameter :: n_per_mm = 1.0e3_wp                      !! N/mm
    real(wp), parameter :: mm_per_kn = 1.0e-6_wp                    !! mm/kN
@@ -27,12 +27,12 @@ module ek_response_columns
 
 contains
 
-   !> Rates, and what bump and roll do.
+   !> Rates, and the response in bump and roll.
    subroutine put_rates(self, prefix, is, frame, is_pair, is_shod, has_caster)
       type(kandc_t), intent(inout) :: self
-      character(*), intent(in) :: prefix                 !! 'left_', 'right_' or nothing
+      character(*), intent(in) :: prefix                 !! 'left_', 'right_' or ''
       type(wheel_characteristics_t), intent(in) :: is
-      real(wp), intent(in) :: frame                      !! −1: x and y of the deck point the other way
+      real(wp), intent(in) :: frame                      !! −1: x and y of the deck have the opposite sign
       logical, intent(in) :: is_pair, is_shod, has_caster
 
       call put_known(self, prefix//'wheel_rate_n_per_mm', is%wheel_rate/n_per_mm)
@@ -58,7 +58,7 @@ contains
       call put_rotation(self, prefix//'wheel_roll_', is%wheel_roll, '_deg_per_deg', 1.0_wp, frame)
    end subroutine put_rates
 
-   !> Swing arms and where they turn.
+   !> Swing arms and their centres.
    subroutine put_arms(self, prefix, is, frame)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: prefix
@@ -75,7 +75,7 @@ contains
       call put_known(self, prefix//'front_view_arm_centre_z_mm', is%front_arm_centre(2)/millimetre)
    end subroutine put_arms
 
-   !> What forces and moments do, under either condition, and the stiffnesses at the wheel centre.
+   !> The response to forces and moments under either condition, and the stiffnesses at the wheel centre.
    subroutine put_forces(self, prefix, is, frame, is_pair, has_caster)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: prefix
@@ -86,11 +86,11 @@ contains
 
       do held = load_held, height_held
          do k = in_phase, merge(anti_phase, in_phase, is_pair)
-            call put_lateral('lateral_'//trim(phases(k)), is%lateral(k, held))
+            call put_lateral('lateral_'//phases(k), is%lateral(k, held))
             call put_lateral('lateral_'//trim(phases(k))//'trail_', is%lateral_trail(k, held))
-            call put_known(self, stem('aligning_'//trim(phases(k)))//'steer_deg_per_100nm', &
+            call put_known(self, stem('aligning_'//phases(k))//'steer_deg_per_100nm', &
                is%aligning(k, held)%steer/deg_per_100nm)
-            call put_known(self, stem('aligning_'//trim(phases(k)))//'camber_deg_per_100nm', &
+            call put_known(self, stem('aligning_'//phases(k))//'camber_deg_per_100nm', &
                is%aligning(k, held)%camber/deg_per_100nm)
          end do
          call put_longitudinal(stem('braking_'), is%braking(held), is%braking(held)%patch(1))
@@ -110,11 +110,13 @@ contains
 
    contains
 
-      !> 'left_braking_load_held_' of 'braking_'
+      !> 'left_braking_load_held_' for 'braking_'
       function stem(load) result(text)
          character(*), intent(in) :: load
          character(:), allocatable :: text
-         text = prefix//load//trim(conditions(held))
+         text = ''
+         ! in every state it would cost as much as a number
+         if (self%is_naming) text = prefix//trim(load)//trim(conditions(held))
       end function stem
 
       subroutine put_lateral(load, response)
@@ -140,7 +142,7 @@ contains
 
    end subroutine put_forces
 
-   !> The slopes of steer, camber and, where there is a geometric axis, caster.
+   !> The slopes of steer, camber and, with a geometric steer axis, caster.
    subroutine put_angles(self, stem, response, ending, unit, has_caster)
       type(kandc_t), intent(inout) :: self
       character(*), intent(in) :: stem, ending

@@ -1,16 +1,16 @@
-!> The test rig: what a case of the deck does to the wheels.
+!> The test rig: the loads and drivers that a case of the deck applies to the wheels.
 !>
 !> `mount` puts a suspension on the rig for one case: it adds the loads and the drivers of the test, and
-!> tells by courses how each follows the place on the path.
+!> an actuation for each that defines how it follows the swept value.
 !>
-!> | test            | place           | left, right wheel                      | wheels held by   |
+!> | test            | swept value     | left, right wheel                      | wheels held by   |
 !> |-----------------|-----------------|----------------------------------------|------------------|
 !> | parallel_travel | travel          | both up                                | height, driven   |
 !> | opposite_travel | travel          | left up, right down                    | height, driven   |
-!> | single_travel   | travel          | one up, the other stays                | height, driven   |
+!> | single_travel   | travel          | one up, the other at rest              | height, driven   |
 !> | roll            | axle roll       | height(left) − height(right) = t tan φ | difference only: |
-!> |                 |                 |                                        | axle load stays  |
-!> | steering        | rack travel     | heights stay                           | height           |
+!> |                 |                 |                                        | constant load    |
+!> | steering        | rack travel     | constant heights                       | height           |
 !> | lateral_force   | force           | +y at the patch, moment force × trail  | vertical force   |
 !> | braking         | force           | rearward at the patch                  | vertical force   |
 !> | traction        | force           | forward at the wheel centre            | vertical force   |
@@ -19,10 +19,10 @@
 !> | table           | row of the file | its columns                            | vertical force   |
 !>
 !> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); on the road (vertical =
-!> 'road') that driver is the road's height, on which the patch stands by the rate of its tyre; held by vertical
-!> force it is free, and keeps the load it has. In anti phase the right wheel gets the opposite. The wheel
-!> is fixed to its carrier, which is a locked brake; a force at the wheel centre is what a free wheel
-!> passes on. Where the drive torque ends in a solid axle, traction acts at the patch.
+!> 'road') that driver is the road's height, on which the patch rests through the rate of its tyre; held by vertical
+!> force it is free and keeps its load. In an opposed case (anti phase) the right wheel gets the opposite load. The wheel
+!> is fixed to its carrier, as with a locked brake; a freely rolling wheel transmits a force at its centre only.
+!> If the drive torque is reacted in a solid axle, traction acts at the patch.
 module ek_rig
    use ek_kinds, only: wp
    use ek_error, only: error_t
@@ -39,7 +39,7 @@ module ek_rig
 
 contains
 
-   !> Puts a completed suspension on the rig for a case. Cases without a test drive what they name.
+   !> Puts a completed suspension on the rig for a case. A case without a test uses the drive or load that it names.
    subroutine mount(suspension, this, error)
       type(suspension_t), intent(inout) :: suspension
       type(case_t), intent(inout) :: this
@@ -62,7 +62,7 @@ contains
       case ('parallel_travel')
          call drive_heights([1.0_wp, 1.0_wp], 'wheel travel')
       case ('opposite_travel')
-         call drive_heights([1.0_wp, -1.0_wp], 'travel of the left wheel, right opposite')
+         call drive_heights([1.0_wp, -1.0_wp], 'travel of the left wheel, right wheel opposed')
       case ('single_travel')
          row = merge(1, 2, this%wheel == wheels(1))
          call drive_heights(merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], row == 1), 'travel of the '// &
@@ -113,7 +113,7 @@ contains
 
    contains
 
-      !> What holds the wheels: the deck's word, or the test's own.
+      !> The vertical control of the wheels: from the deck, or the default of the test.
       function control(default) result(word)
          character(*), intent(in) :: default
          character(:), allocatable :: word
@@ -123,7 +123,7 @@ contains
          end if
       end function control
 
-      !> Heights that follow the place, or vertical forces that do.
+      !> Heights or vertical forces that follow the swept value.
       subroutine drive_heights(shares, place_name)
          real(wp), intent(in) :: shares(2)        !! left, right; of a single wheel the first or second alone
          character(*), intent(in) :: place_name
@@ -147,7 +147,7 @@ contains
          end do
       end subroutine drive_heights
 
-      !> A driver on the height of each wheel's centre or patch, or of the road under it, unless vertical force holds them.
+      !> A driver of the height of each wheel's centre or patch, or of the road under it, unless the vertical force is held.
       subroutine hold_heights(default)
          character(*), intent(in) :: default
          integer :: side
@@ -165,7 +165,7 @@ contains
          end do
       end subroutine hold_heights
 
-      !> A unit load on each wheel, which the case scales.
+      !> A unit load on each wheel, scaled by the case.
       subroutine load_wheels(force, moment, is_at_patch)
          real(wp), intent(in) :: force(3), moment(3)
          logical, intent(in) :: is_at_patch
@@ -197,7 +197,7 @@ contains
          call append_course(this%courses, load%name, '', share, follows_place)
       end subroutine add_wheel_load
 
-      !> Unit and name of the place of a case without a test.
+      !> Unit and name of the swept value of a case without a test.
       subroutine name_place()
          this%unit = 1.0_wp
          this%unit_name = '-'
@@ -211,7 +211,7 @@ contains
          end if
       end subroutine name_place
 
-      !> The unit of what a row measures.
+      !> The unit of the measure of a row.
       subroutine take_unit_of(row)
          integer, intent(in) :: row
 

@@ -1,4 +1,4 @@
-!> The skeleton of a body: what stands for its shape in a picture, as the model has none.
+!> The skeleton of a body: it represents the body in a picture, as bodies have no shape in the model.
 !>
 !> It is the shortest tree through the attachment points, in which two points on the chassis are never joined directly
 !> (a wishbone is an A, not a bar along its own pivots).
@@ -13,13 +13,13 @@ module ek_skeleton
    public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, same_point
 
    real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
-   integer, parameter :: most_points = 64           !! of a body; further ones are left out
+   integer, parameter :: most_points = 64           !! of a body; further ones are omitted
 
    !> A point of a body.
    type :: node_t
       real(wp) :: arm(3) = 0.0_wp           !! body axes [m]
-      logical :: is_held = .false.          !! by the chassis
-      logical :: is_spring = .false.        !! a seat only
+      logical :: is_held = .false.          !! attached to the chassis
+      logical :: is_spring = .false.        !! only a spring seat
    end type node_t
 
    !> The points of a body and the bars between them.
@@ -44,7 +44,7 @@ contains
       do k = 1, size(suspension%joints)
          select case (suspension%joints(k)%kind)
          case ('in_plane', 'in_line', 'perpendicular', 'parallel', 'driver', 'coupler')
-            cycle                                    ! they hold a body at no point of its own
+            cycle                                    ! these have no attachment point
          end select
          measure = first_measure(suspension, k)
          is_rigid = suspension%joints(k)%kind /= 'distance'
@@ -59,7 +59,7 @@ contains
       end do
       do k = 1, size(suspension%springs)
          measure = suspension%springs(k)%measure
-         if (measure%kind /= distance) cycle           ! it holds a body at no point of its own
+         if (measure%kind /= distance) cycle           ! it has no attachment point
          if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
          if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)
       end do
@@ -111,7 +111,7 @@ contains
 
    end function skeleton_of
 
-   !> The first measure of a joint: it has the joint's points, whatever the kind.
+   !> The first measure of a joint: it has the joint's points for every kind.
    pure function first_measure(suspension, joint) result(measure)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: joint
@@ -129,7 +129,7 @@ contains
       b = state%poses(measure%body_j + 1)%r + rotated(state%poses(measure%body_j + 1)%a, measure%arm_j)
    end subroutine ends_of
 
-   !> Where a point of a body is, global [m].
+   !> Position of a point of a body, global [m].
    pure function place_of(suspension, state, body, arm) result(at)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -142,7 +142,7 @@ contains
          at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
    end function place_of
 
-   !> Whether a wheel stands on a body.
+   !> Whether a body carries a wheel.
    pure logical function carries_wheel(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
@@ -154,7 +154,7 @@ contains
       end do
    end function carries_wheel
 
-   !> Whether a body slides along another that moves too: a damper's rod.
+   !> Whether a body slides along another moving body: the rod of a damper.
    pure logical function slides(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body

@@ -1,4 +1,4 @@
-!> The tests that every axle is put through: what a K&C rig does in an afternoon.
+!> The standard K&C tests of an axle.
 module ek_standard_tests
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
@@ -13,11 +13,11 @@ module ek_standard_tests
 
 contains
 
-   !> The standard tests of an axle, or of a single wheel as far as it has them.
+   !> The standard tests of an axle, or those of a single wheel.
    !>
-   !> A test that the deck holds itself (same test, phase and offset, along the same vertical control) is taken from
-   !> there, with its range; other cases of the deck follow behind. A name that the deck has given to another case is
-   !> followed by '_test'. Steering goes to the ends of the rack, where &steering says how far that is.
+   !> A test that the deck contains (same test, phase, offset and vertical control) is taken from the deck with its range;
+   !> the other cases of the deck follow. A name that the deck uses for another case gets the ending '_test'. Steering
+   !> covers the travel of the rack given in &steering.
    subroutine standard_tests(suspension, own, tests)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
@@ -56,7 +56,7 @@ contains
       subroutine include(test, is_anti, offset, reach, increments)
          character(*), intent(in) :: test
          logical, intent(in) :: is_anti
-         real(wp), intent(in) :: offset              !! of the force behind the patch [m]
+         real(wp), intent(in) :: offset              !! distance of the force behind the patch [m]
          real(wp), intent(in) :: reach               !! m, rad, N or N m: from −reach to +reach
          integer, intent(in) :: increments
          type(case_t) :: this
@@ -93,7 +93,7 @@ contains
          call append(this)
       end subroutine include
 
-      !> Whether a case of the deck is called so: names give files, and the case of letters does not count.
+      !> Whether a case of the deck has this name, ignoring upper and lower case, because names become file names.
       pure logical function is_a_name(name)
          character(*), intent(in) :: name
          integer :: k

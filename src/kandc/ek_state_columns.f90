@@ -1,9 +1,9 @@
-!> The columns that show a state as it is: wheels, springs, measures, bushings, joints. Those that need the compliance
-!> matrix are in ek_kandc_columns.
+!> The columns of a state itself: wheels, springs, measures, bushings, joints. Columns that need the compliance matrix are in
+!> ek_kandc_columns.
 !>
-!> Every quantity has its unit in its name. Units leave as mm, N, deg, N m whatever the deck speaks; vectors in the deck's
-!> frame. Names and values are two lists below, and a new column is a line in both, at the same place.
-!> input/QUANTITIES.md says what each of them means.
+!> The name of every column contains its unit. Units are mm, N, deg, N m regardless of the deck's units; vectors are in the
+!> deck's frame. Names and values are two lists below; a new column is a line in both, at the same position.
+!> input/QUANTITIES.md defines each of them.
 module ek_state_columns
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
@@ -126,8 +126,8 @@ contains
    pure subroutine state_values(suspension, state, kkt, row)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(kkt_t), intent(in) :: kkt             !! assembled at this state: the gradients of the rows are taken from it
-      real(wp), intent(inout) :: row(:)          !! as many as there are names; what a steer axis that lies level lacks, stays
+      type(kkt_t), intent(in) :: kkt             !! assembled at this state; provides the gradients of the rows
+      real(wp), intent(inout) :: row(:)          !! one per name; values that a horizontal steer axis lacks are not set
       type(attitude_t) :: now
       type(bushing_view_t) :: view
       real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
@@ -201,16 +201,16 @@ contains
             at = at + 3
             if (.not. has_moment(suspension, joint)) cycle
             arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
-            moment = moment - cross(arm, force)      ! about the joint's point; by itself, or the row would be put in a temporary
+            moment = moment - cross(arm, force)      ! about the joint's point; a separate statement avoids a temporary of the row
             row(at + 1:at + 3) = frame*moment
             at = at + 3
          end associate
       end do
    end subroutine state_values
 
-   !> What the column of the value of a spring on a measure ends with.
+   !> Ending of the column of the value of a spring on a measure.
    pure function value_ending(kind) result(ending)
-      integer, intent(in) :: kind         !! of the measure
+      integer, intent(in) :: kind         !! kind of the measure
       character(:), allocatable :: ending
 
       select case (kind)
@@ -223,7 +223,7 @@ contains
       end select
    end function value_ending
 
-   !> What a measure's value is divided by to leave in mm or deg.
+   !> Divisor of a measure's value for mm or deg.
    pure real(wp) function measure_unit(kind) result(unit)
       integer, intent(in) :: kind
       select case (kind)
@@ -236,7 +236,7 @@ contains
       end select
    end function measure_unit
 
-   !> Whether a joint's reaction holds a moment about its own point: only rows between directions make one.
+   !> Whether a joint's reaction has a moment about its point: only rows between directions produce one.
    pure logical function has_moment(suspension, joint)
       type(suspension_t), intent(in) :: suspension
       type(joint_t), intent(in) :: joint
@@ -251,7 +251,7 @@ contains
       end do
    end function has_moment
 
-   !> Unit of λ of a row: N, or N m where the measure has no length.
+   !> Unit of λ of a row: N, or N m if the measure is an angle.
    pure function reaction_unit(suspension, row) result(unit)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: row
@@ -264,7 +264,7 @@ contains
       end select
    end function reaction_unit
 
-   !> Adds what a row exerts on its second body: −λ × gradient; moment about the reference point.
+   !> Adds the force and moment of a row on its second body: −λ × gradient; moment about the reference point.
    pure subroutine add_reaction(suspension, kkt, reaction, r, force, moment)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt

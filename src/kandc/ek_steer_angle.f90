@@ -1,6 +1,6 @@
-!> Steer angles of an axle and what is made of them: roll, inclination, Ackermann, turning circle.
+!> Steer angles of an axle and derived quantities: roll, camber relative to the road, Ackermann, turning circle.
 !>
-!> Steer is positive to the left on both wheels, axle roll positive when the left wheel is the higher one. SI, rad.
+!> Steer is positive to the left on both wheels, axle roll positive with the left wheel up. SI, rad.
 module ek_steer_angle
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -10,10 +10,10 @@ module ek_steer_angle
    public :: steer_of, steer_rate, axle_roll, inclination_of
    public :: ackermann_angle, ackermann_percent, ackermann_error, turning_circle
 
-   ! Below a degree the static toe, not the linkage, makes the difference of the two wheels: (δA − δo) is then
+   ! Below one degree the static toe, not the linkage, determines the difference of the two wheels: (δA − δo) is then
    ! 0.01 deg, a toe of 0.1 deg ten times that
    real(wp), parameter :: least_steer = degree
-   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: beyond that a car drives straight on
+   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: beyond this the car drives straight ahead
 
 contains
 
@@ -32,15 +32,15 @@ contains
       rate = turn(3) - spin(3)*(turn(1)*spin(1) + turn(2)*spin(2))/(spin(1)**2 + spin(2)**2)
    end function steer_rate
 
-   !> Roll of the axle against the body: atan((z_left − z_right)/track), with the track at design, as the rig's test `roll`
-   !> drives it.
+   !> Roll of the axle against the body: atan((z_left − z_right)/track), with the track at design, as driven by the rig's test
+   !> `roll`.
    pure real(wp) function axle_roll(left, right, track) result(roll)
       real(wp), intent(in) :: left(3), right(3)   !! contact points [m]
       real(wp), intent(in) :: track               !! distance of the contact points at design [m]
       roll = atan2(left(3) - right(3), track)
    end function axle_roll
 
-   !> Camber against the road: the road rolls with the wheels, by θ_x = −roll, and camber is −side·θ_x.
+   !> Camber relative to the road: the road rolls with the wheels, by θ_x = −roll, and camber is −side·θ_x.
    pure real(wp) function inclination_of(camber, side, roll) result(inclination)
       real(wp), intent(in) :: camber, roll
       integer, intent(in) :: side
@@ -59,7 +59,7 @@ contains
       end if
    end subroutine sort
 
-   !> Inner angle that lets both wheels roll about one point of the rear axle's line:
+   !> Inner angle at which both wheels roll about one point on the line of the rear axle:
    !>
    !>     δA = atan(L/(L/tan δo − t)), written as atan2(L tan δo, L − t tan δo): 0 at 0, no division
    pure real(wp) function ackermann_angle(outer, wheelbase, track) result(inner)
@@ -68,7 +68,7 @@ contains
    end function ackermann_angle
 
    !> 100 (δi − δo)/(δA − δo) [%]: 100 for wheels that roll about one point, 0 for parallel steer. Not a number
-   !> below a degree of steer, nor where both angles are one: without a track, or beside an endless wheelbase.
+   !> below one degree of steer, nor if δA = δo: without a track, or with an infinite wheelbase.
    pure real(wp) function ackermann_percent(left, right, wheelbase, track) result(percent)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer, wanted
@@ -80,7 +80,7 @@ contains
       if (abs(wanted) > 0.0_wp) percent = 100.0_wp*(inner - outer)/wanted
    end function ackermann_percent
 
-   !> δi − δA: positive where the inner wheel steers more than rolling asks for.
+   !> δi − δA: positive if the inner wheel steers more than for pure rolling.
    pure real(wp) function ackermann_error(left, right, wheelbase, track) result(error)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer
@@ -89,8 +89,8 @@ contains
       error = inner - ackermann_angle(outer, wheelbase, track)
    end function ackermann_error
 
-   !> Diameter of the circle of the outer wheel, 2L/sin δo [m]: all wheels roll, the centre is on the rear axle's
-   !> line. Not a number when wider than a kilometre.
+   !> Diameter of the circle of the outer wheel, 2L/sin δo [m]: all wheels roll, the centre is on the line of the
+   !> rear axle. Not a number above one kilometre.
    pure real(wp) function turning_circle(left, right, wheelbase) result(diameter)
       real(wp), intent(in) :: left, right, wheelbase
       real(wp) :: inner, outer

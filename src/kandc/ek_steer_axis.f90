@@ -1,15 +1,15 @@
-!> The instant steer axis: the line about which a carrier turns when it steers and its springs keep their length.
+!> The instant steer axis: the line about which a carrier rotates when it steers with its springs at constant length.
 !>
-!> Where the model has a steering driver (a rack), it is moved by a unit: a rack that is freed under a steer moment
-!> meets no stiffness, moves as far as anything allows, and the elastic answer of the rest to the moment vanishes
-!> against it; that limit is the response to a displacement of the rack. Without one, a unit steer moment
-!> about z on the wheel shows the elastic axis (fixed tie rods, rear axles).
+!> With a steering driver (a rack) in the model, the rack is moved by a unit: a free rack under a steer moment has no
+!> stiffness, so its displacement dominates, and the elastic response of the other parts to the moment is negligible;
+!> this limit is the response to a displacement of the rack. Without a rack, a unit steer moment
+!> about z on the wheel gives the elastic axis (fixed tie rods, rear axles).
 !>
-!> Springs are locked by pairs of forces along them, found from a small system over responses that are known:
-!> lengths(0) + A μ = 0. Without springs the wheel centres' heights are held instead, as they are for the steering
-!> ratio, which is read on a rig with wheels at fixed heights.
+!> Springs are locked by pairs of forces along them, found from a small system of known responses:
+!> lengths(0) + A μ = 0. Without springs the heights of the wheel centres are held instead, as for the steering
+!> ratio, which is measured on a rig with wheels at fixed heights.
 !>
-!> Carrier twist (v, ω) at the wheel centre p: the axis is ω/|ω| through p + ω×v/|ω|² (the screw's own pitch left out).
+!> Carrier twist (v, ω) at the wheel centre p: the axis is ω/|ω| through p + ω×v/|ω|² (the pitch of the screw is ignored).
 module ek_steer_axis
    use ek_kinds, only: wp
    use ek_rotation, only: cross
@@ -19,7 +19,7 @@ module ek_steer_axis
    private
    public :: locked_twist, instant_axis
 
-   ! Below these a carrier does not turn: stiffer than any steel about z, or a rack that steers 1e-6 rad a metre
+   ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
    real(wp), parameter :: least_by_moment = 1.0e-12_wp   !! rad/(N m)
    real(wp), parameter :: least_by_rack = 1.0e-6_wp      !! rad/m
 
@@ -28,8 +28,8 @@ contains
    !> Twist (v, ω) of a wheel's carrier at the wheel centre while it steers, all springs locked or all wheels held.
    pure function locked_twist(compliance, place, holds_heights) result(twist)
       type(compliance_t), intent(in) :: compliance   !! known
-      integer, intent(in) :: place                   !! of the wheel in it
-      logical, intent(in) :: holds_heights           !! the wheel centres' heights instead of the springs' lengths
+      integer, intent(in) :: place                   !! index of the wheel in it
+      logical, intent(in) :: holds_heights           !! hold the heights of the wheel centres instead of the lengths of the springs
       real(wp) :: twist(6)
       integer :: locked(max(compliance%springs, compliance%wheels)), n, k, steer, at
       real(wp) :: force(size(locked))
@@ -56,8 +56,8 @@ contains
 
    !> Forces at some ports that undo their displacements under a load: A μ = −b by elimination, largest pivot first.
    !>
-   !> A port that moves no more once others are locked (two springs on one arm) has no pivot left: below 1e-9
-   !> of its own compliance is rounding, and its force stays 0.
+   !> A port that cannot move once others are locked (two springs on one arm) has no pivot left: below 1e-9
+   !> of its own compliance is rounding, and its force remains 0.
    pure subroutine lock(response, locked, load, force)
       real(wp), intent(in) :: response(:, :)
       integer, intent(in) :: locked(:), load
@@ -94,7 +94,7 @@ contains
       end do
    end subroutine lock
 
-   !> The instant steer axis of a wheel; is_known is false when the carrier does not turn, or about a level line.
+   !> The instant steer axis of a wheel; is_known is false if the carrier does not rotate, or for a horizontal axis.
    pure type(steer_axis_t) function instant_axis(compliance, place, side, centre, contact) result(axis)
       type(compliance_t), intent(in) :: compliance     !! known
       integer, intent(in) :: place, side

@@ -1,4 +1,4 @@
-!> From the states of a sweep to a table: one row a state.
+!> From the states of a sweep to a table: one row per state.
 !>
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
@@ -18,16 +18,16 @@ module ek_sweep_table
    private
    public :: nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
 
-   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! least over largest pivot: four digits are left
-   real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is none
+   real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
+   real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
 
 contains
 
-   !> The table of a sweep: all states that were reached, and the first that was not on either side,
+   !> The table of a sweep: all states that were reached, and on either side the first that was not,
    !> marked by converged = 0 and values that are not numbers.
    !>
-   !> Where the case wants all, the quantities of K&C come before the last columns, from the compliance matrix
-   !> of every state.
+   !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
+   !> at every state.
    subroutine sweep_table(suspension, case, path, kkt, table)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -44,8 +44,8 @@ contains
 
       call list_columns(suspension, case, columns, kandc)
       ended = size(columns)
-      told = ended - ends_of(case)    ! the last one before the end
-      shown = told - kandc%used       ! the last column that shows the state itself
+      told = ended - ends_of(case)    ! the last column before the ending columns
+      shown = told - kandc%used       ! the last column of the state itself
 
       call reached_rows(path, first, last)
       table = new_table(columns, last - first + 1)
@@ -73,7 +73,7 @@ contains
       end do
    end subroutine sweep_table
 
-   !> The heads of the table of a case, as sweep_table will have them.
+   !> The heads of the table of a case, as in sweep_table.
    subroutine sweep_columns(suspension, case, columns)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -83,7 +83,7 @@ contains
       call list_columns(suspension, case, columns, kandc)
    end subroutine sweep_columns
 
-   !> The heads, and what will fill those of K&C where the case wants them.
+   !> The heads, and the work space of the K&C columns if the case requests them.
    subroutine list_columns(suspension, case, columns, kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -106,24 +106,24 @@ contains
       columns(size(columns) - 2:) = [character(name_length) :: 'near_singular', 'iterations', 'constraint_error']
    end subroutine list_columns
 
-   !> The matrix of the recursive method has no geometric stiffness to tell stability by.
+   !> Whether stability is known: the matrix of the recursive method has no geometric stiffness.
    pure logical function knows_stability(case)
       type(case_t), intent(in) :: case
       knows_stability = case%method /= 'recursive'
    end function knows_stability
 
-   !> Columns behind the quantities: converged, stable, near_singular, iterations, constraint_error.
+   !> Columns after the quantities: converged, stable, near_singular, iterations, constraint_error.
    pure integer function ends_of(case)
       type(case_t), intent(in) :: case
       ends_of = merge(5, 4, knows_stability(case))
    end function ends_of
 
-   !> Memory that the sweep of a case and its table take [bytes], and a margin.
+   !> Memory for the sweep of a case and its table, with a margin [bytes].
    integer(i8) function sweep_bytes(suspension, case) result(bytes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      integer, parameter :: of_a_path = 6             ! numbers of a state beside its coordinates
-      integer(i8), parameter :: margin = 20000000_i8  ! bytes: everything that does not grow with the states
+      integer, parameter :: of_a_path = 6             ! numbers per state besides its coordinates
+      integer(i8), parameter :: margin = 20000000_i8  ! bytes: all storage that does not grow with the states
       character(name_length), allocatable :: names(:)
       type(kandc_t) :: kandc
       integer :: columns
@@ -134,11 +134,11 @@ contains
          call start_kandc(suspension, vehicle_of(suspension), kandc)
          columns = columns + kandc%used
       end if
-      ! the table twice: where it is made, and where it is kept
+      ! the table twice: working copy and result
       bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*columns)
    end function sweep_bytes
 
-   !> The states to be told: those reached, and one beyond on a side that failed; of a table every row.
+   !> The states in the table: those reached, and one more on a side that failed; of a load table every row.
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last
@@ -156,7 +156,7 @@ contains
          first = min(first, k)
          last = max(last, k)
       end do
-      if (last == 0) then     ! nothing at all: the design state is the one that failed
+      if (last == 0) then     ! no state: the design state has failed
          first = max(path%start, 1)
          last = first
          return

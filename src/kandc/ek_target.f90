@@ -1,4 +1,4 @@
-!> The place on a path at which a result has a wanted value: the travel that gives a spring length of 250 mm.
+!> The swept value at which a result has a target value: for instance the travel that gives a spring length of 250 mm.
 module ek_target
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -19,22 +19,22 @@ module ek_target
    private
    public :: target_t, find_target, find_column
 
-   !> What was looked for, and where it is.
+   !> The target, and the swept value that meets it.
    type :: target_t
       character(:), allocatable :: column    !! its full name, with unit
       real(wp) :: wanted = 0.0_wp            !! in that unit
-      real(wp) :: place = 0.0_wp             !! on the path, SI
-      integer :: crossings = 0               !! how often the sweep passes the value; the one nearest design counts
+      real(wp) :: place = 0.0_wp             !! swept value, SI
+      integer :: crossings = 0               !! number of crossings of the value in the sweep; the one nearest to design is used
       type(table_t) :: table                 !! the state there, one row
    end type target_t
 
 contains
 
-   !> Looks along a sweep of method `equilibrium` for case%target, 'column=value', and solves for the place
-   !> between its states.
+   !> Searches a sweep of method `equilibrium` for case%target, 'column=value', and solves for the swept value between its
+   !> states.
    !>
-   !> The column may be named without its unit when only one begins so. Of several places the one nearest to design
-   !> is taken. Errors: exit_deck, no such column; exit_convergence, the sweep never has the value.
+   !> The unit of the column may be omitted if only one column begins with the name. Of several solutions the one nearest to
+   !> design is taken. Errors: exit_deck, no such column; exit_convergence, the sweep never has the value.
    subroutine find_target(suspension, case, path, table, kkt, found, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -49,7 +49,7 @@ contains
       integer :: c, k, status
 
       k = index(case%target, '=')
-      read (case%target(k + 1:), *, iostat=status) found%wanted      ! the reader has seen that it is a number
+      read (case%target(k + 1:), *, iostat=status) found%wanted      ! the reader has checked that it is a number
       call find_column(table%columns, trim(adjustl(case%target(:k - 1))), c, error)
       if (allocated(error)) then
          error%message = case%where//': case '//quoted(case%name)//': target: '//error%message
@@ -66,27 +66,27 @@ contains
          is_crossing(k) = .false.
       end do
       range = column_range(table, found%column)
-      words = '; it is not a number anywhere'
-      if (ieee_is_finite(range(1))) words = '; over the case it lies between '//str(range(1), 6)//' and '//str(range(2), 6)
+      words = '; the column has no value in any state'
+      if (ieee_is_finite(range(1))) words = '; its range over the case is '//str(range(1), 6)//' to '//str(range(2), 6)
       call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column//' is never '// &
          str(found%wanted)//words)
    end subroutine find_target
 
-   !> Marks the rows which have the value, or between which and the next it is passed, and tells about where.
+   !> Marks the rows that have the value, or whose interval to the next row crosses it, and estimates the swept value there.
    subroutine find_crossings(path, table, c, wanted, is_crossing, place)
       type(path_t), intent(in) :: path
       type(table_t), intent(in) :: table
       integer, intent(in) :: c                       !! column
       real(wp), intent(in) :: wanted
-      logical, intent(out) :: is_crossing(:)         !! one a row
-      real(wp), intent(out) :: place(:)              !! where it is one: SI
+      logical, intent(out) :: is_crossing(:)         !! one per row
+      real(wp), intent(out) :: place(:)              !! swept value at a crossing, SI
       real(wp) :: f, next
       integer :: row
 
       is_crossing = .false.
       place = 0.0_wp
       do row = 1, row_count(table)
-         if (.not. ieee_is_finite(table%values(c, row))) cycle      ! not reached, or not defined there
+         if (.not. ieee_is_finite(table%values(c, row))) cycle      ! not reached, or not defined in this state
          f = table%values(c, row) - wanted
          place(row) = path%value(state_of(table, row))
          is_crossing(row) = abs(f) <= 0.0_wp
@@ -106,8 +106,8 @@ contains
       state_of = nint(table%values(1, row)) + 1     ! the table counts from 0
    end function state_of
 
-   !> Solves for the place between a row and the next: regula falsi, where an end that stays is given half its
-   !> weight (the Illinois rule).
+   !> Solves for the swept value between a row and the next: regula falsi with the Illinois rule, which halves the weight
+   !> of an end that is kept.
    subroutine close_in(suspension, case, path, table, c, row, kkt, found, is_jump, error)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -116,12 +116,12 @@ contains
       integer, intent(in) :: c, row
       type(kkt_t), intent(inout) :: kkt
       type(target_t), intent(inout) :: found
-      logical, intent(out) :: is_jump          !! the value is not passed but jumped over, as at a pole
+      logical, intent(out) :: is_jump          !! the column jumps across the value, as at a pole
       type(error_t), allocatable, intent(out) :: error
       integer, parameter :: most_steps = 80
-      real(wp), parameter :: least_step = 1.0e-6_wp   ! of the way between the two states at hand
-      real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states at hand
-      real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer when the places have met
+      real(wp), parameter :: least_step = 1.0e-6_wp   ! of the distance between the two states
+      real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states
+      real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer once the interval has closed
       type(path_t) :: here
       type(schedule_t) :: schedule
       type(predictor_t) :: predictor
@@ -171,7 +171,7 @@ contains
 
    contains
 
-      !> Equilibrium at a place, from the nearer state of the sweep, and its distance to the wanted value.
+      !> Equilibrium at a swept value, from the nearer state of the sweep, and its difference to the target value.
       subroutine look_at(place)
          real(wp), intent(in) :: place
          type(state_t) :: state
@@ -197,13 +197,13 @@ contains
             f = found%table%values(c, 1) - found%wanted
          else
             call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
-               ' cannot be told at '//case%place_name//' = '//str(place/case%unit, 9)//' '//case%unit_name)
+               ' has no value at '//case%place_name//' = '//str(place/case%unit, 9)//' '//case%unit_name)
          end if
       end subroutine look_at
 
    end subroutine close_in
 
-   !> A path of which only one state is left.
+   !> A path reduced to one state.
    subroutine one_state(path, k, here)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k
@@ -220,12 +220,12 @@ contains
       here%settled = path%settled
    end subroutine one_state
 
-   !> The column of this name, or the only one that is this name with a unit behind it.
+   !> The column of this name, or the only one that consists of this name and a unit.
    subroutine find_column(columns, name, place, error)
       character(*), intent(in) :: columns(:)
       character(*), intent(in) :: name
       integer, intent(out) :: place
-      type(error_t), allocatable, intent(out) :: error       !! exit_deck: there is none, or more than one
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck: no such column, or more than one
       character(:), allocatable :: hint, several
       integer :: k, alike
 
@@ -243,7 +243,7 @@ contains
       end do
       if (alike == 1) return
       if (alike > 1) then
-         call fail(error, exit_deck, quoted(name)//' may be '//several//'; give the whole name')
+         call fail(error, exit_deck, quoted(name)//' may be '//several//'; give the full name')
          return
       end if
       hint = nearest_name(name, columns)
@@ -255,7 +255,7 @@ contains
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
 
-   !> The first few columns that have a name in theirs, as left_coil_length_mm has coil_length.
+   !> The first few columns whose name contains a text, as left_coil_length_mm contains coil_length.
    pure function holders(columns, name) result(words)
       character(*), intent(in) :: columns(:), name
       character(:), allocatable :: words

@@ -1,4 +1,4 @@
-!> What the quantities of an axle need beyond its compliance: the vehicle around it, the steering, the tyres.
+!> Data for the quantities of an axle besides its compliance: vehicle, steering, tyres.
 module ek_vehicle
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t, axle_t, driver_row
@@ -9,13 +9,13 @@ module ek_vehicle
    type :: vehicle_t
       type(axle_t) :: axle                     !! wheelbase, centre of gravity, shares of brake and drive
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
-      real(wp) :: steer_ratio = 0.0_wp         !! rack travel a revolution of the steering wheel [m], never negative
+      real(wp) :: steer_ratio = 0.0_wp         !! rack travel per revolution of the steering wheel [m], never negative
       real(wp), allocatable :: tyre_rate(:)    !! vertical, of each wheel of the suspension [N/m]; 0: not given
    end type vehicle_t
 
 contains
 
-   !> What the deck says of the vehicle.
+   !> The vehicle data of the deck.
    pure type(vehicle_t) function vehicle_of(suspension) result(vehicle)
       type(suspension_t), intent(in) :: suspension
 

@@ -1,4 +1,4 @@
-!> The force of the ground on a wheel: what the deck's loads and the rig bring to it.
+!> The force of the ground on a wheel, from the deck's loads and the rig.
 module ek_wheel_force
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -10,9 +10,9 @@ module ek_wheel_force
 
 contains
 
-   !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and
-   !> what a rig that holds its height exerts. Weights of bodies are not among them. Where one body carries both
-   !> wheels, a load belongs to the nearer one, and half to each when it is in the middle.
+   !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and the force of a rig
+   !> that holds its height. Weights of bodies are not included. If one body carries both wheels, a load counts for the
+   !> nearer wheel, and half for each in the middle.
    pure real(wp) function vertical_force(suspension, state, demand, wheel) result(force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -44,11 +44,11 @@ contains
 
    contains
 
-      !> How much of what acts at this point of a body goes to the wheel: 1, 0, or a half.
+      !> Share of a load at a point of a body that counts for the wheel: 1, 0 or ½.
       pure real(wp) function share_of(body, arm)
          integer, intent(in) :: body
          real(wp), intent(in) :: arm(3)      !! from the reference point, body axes [m]
-         real(wp), parameter :: middle = 1.0e-9_wp      ! m: nearer than that is as near
+         real(wp), parameter :: middle = 1.0e-9_wp      ! m: tolerance of equal distance
          real(wp) :: nearer
          integer :: other
 

@@ -1,4 +1,4 @@
-!> A wheel against its steer axis, the circles that a car turns in, and the frequency that it rides with: pure functions.
+!> A wheel relative to its steer axis, turning circles, and ride frequency: pure functions.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. SI and radians.
 module ek_wheel_geometry
@@ -11,10 +11,10 @@ module ek_wheel_geometry
    public :: axis_distances_t, axis_distances, side_view_angle, camber_rate
    public :: ideal_outer_steer, outer_wheel, wall_to_wall, ride_frequency
 
-   real(wp), parameter :: parallel = 1.0e-9_wp        !! sine of the angle between spin axis and steer axis below which they are one line
-   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: as of the turning circle
+   real(wp), parameter :: parallel = 1.0e-9_wp        !! sine of the angle of spin and steer axis: parallel below
+   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: as for the turning circle
 
-   !> A wheel centre, a patch and a spin axis against a line [m].
+   !> A wheel centre, a patch and a spin axis relative to a line [m].
    type :: axis_distances_t
       real(wp) :: centre = 0.0_wp, patch = 0.0_wp   !! shortest distances of the two points from the line, never negative
       real(wp) :: along = 0.0_wp                    !! along the spin axis, from the foot of the common perpendicular, + outboard
@@ -29,7 +29,7 @@ contains
    !>
    !>     centre = |d×k|     patch = |(patch − point)×k|     across = d·n     along = side (d×k)·n/|w×k|
    !>
-   !> which solves d = along w + μ k + across n. `along` and `across` are not numbers where w and k are parallel.
+   !> which solves d = along w + μ k + across n. `along` and `across` are not numbers if w and k are parallel.
    pure type(axis_distances_t) function axis_distances(side, point, direction, centre, patch, spin) result(is)
       integer, intent(in) :: side
       real(wp), intent(in) :: point(3), direction(3)       !! of the line [m, any length, not 0]
@@ -52,7 +52,7 @@ contains
       is%along = side*dot_product(cross(d, k), n)/turn
    end function axis_distances
 
-   !> How far a carrier has turned in the side view: atan2(e_x, e_z), e what was vertical on it at design. Positive: top rearward.
+   !> Rotation of a carrier in the side view: atan2(e_x, e_z), e its direction that is vertical at design. Positive: top rearward.
    pure real(wp) function side_view_angle(a) result(angle)
       real(wp), intent(in) :: a(3, 3)      !! its axes, global
       angle = atan2(a(1, 3), a(3, 3))
@@ -64,14 +64,14 @@ contains
       rate = -(turn(1)*spin(2) - turn(2)*spin(1))/sqrt(spin(1)**2 + spin(2)**2)
    end function camber_rate
 
-   !> Steer of the outer wheel that lets both roll about one point of the rear axle's line, from that of the inner one:
+   !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from that of the inner one:
    !> atan(L/(L/tan δi + t)), written without a division.
    pure real(wp) function ideal_outer_steer(inner, wheelbase, track) result(outer)
       real(wp), intent(in) :: inner, wheelbase, track
       outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))
    end function ideal_outer_steer
 
-   !> Steer angles, positive into the turn, and which wheel is the outer one.
+   !> Steer angles, positive into the turn, and the side of the outer wheel.
    pure subroutine outer_wheel(left, right, inner, outer, side)
       real(wp), intent(in) :: left, right      !! positive to the left
       real(wp), intent(out) :: inner, outer
@@ -88,9 +88,9 @@ contains
 
    !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 beside the middle.
    !>
-   !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point of the rear axle's line
+   !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point on the line of the rear axle
    pure real(wp) function wall_to_wall(outer, wheelbase, track, overhang, width) result(diameter)
-      real(wp), intent(in) :: outer                             !! steer of the outer wheel into the turn, static toe and all
+      real(wp), intent(in) :: outer                             !! steer of the outer wheel into the turn, including static toe
       real(wp), intent(in) :: wheelbase, track, overhang, width
       diameter = ieee_value(1.0_wp, ieee_quiet_nan)
       if (sin(outer)*widest_circle <= 2.0_wp*wheelbase) return

@@ -1,4 +1,4 @@
-!> The two sides of an axle: which wheel is left, which right, and what their things are called.
+!> The two sides of an axle: the left and the right wheel, and the names of their columns and drivers.
 module ek_wheel_side
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
@@ -15,14 +15,14 @@ contains
       name = merge('left ', 'right', side == 1)
    end function side_name
 
-   !> What the rig calls its driver of a wheel's height; the deck has no name that begins with rig_.
+   !> Name of the rig's driver of a wheel's height; no name in a deck begins with rig_.
    pure function height_name(side) result(name)
       integer, intent(in) :: side
       character(:), allocatable :: name
       name = 'rig_'//trim(side_name(side))//'_height'
    end function height_name
 
-   !> The numbers of the left and the right wheel, 0 where there is none.
+   !> The numbers of the left and the right wheel, 0 if there is none.
    pure subroutine left_and_right(suspension, wheels)
       type(suspension_t), intent(in) :: suspension
       integer, intent(out) :: wheels(2)
@@ -34,8 +34,8 @@ contains
       end do
    end subroutine left_and_right
 
-   !> The track of an axle: lateral distance of the contact points at design [m]. The one that every roll angle, roll moment and
-   !> Ackermann angle stands on, on the rig and in the columns.
+   !> The track of an axle: lateral distance of the contact points at design [m]. All roll angles, roll moments and
+   !> Ackermann angles use it, on the rig and in the columns.
    pure real(wp) function design_track(suspension) result(track)
       type(suspension_t), intent(in) :: suspension      !! an axle
       real(wp) :: y(2)
@@ -57,14 +57,14 @@ contains
       if (size(suspension%wheels) == 2) is_axle = suspension%wheels(1)%side /= suspension%wheels(2)%side
    end function is_axle
 
-   !> Side of the only wheel: −1 left, +1 right; 0 where there is none or more than one.
+   !> Side of the only wheel: −1 left, +1 right; 0 if there is none or more than one.
    pure integer function single_side(suspension) result(side)
       type(suspension_t), intent(in) :: suspension
       side = 0
       if (size(suspension%wheels) == 1) side = suspension%wheels(1)%side
    end function single_side
 
-   !> What the columns of a wheel begin with: 'left_' or 'right_' where there are two, nothing for one.
+   !> Prefix of the columns of a wheel: 'left_' or 'right_' for two wheels, '' for one.
    pure function prefix_of(suspension, wheel) result(prefix)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheel

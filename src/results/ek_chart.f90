@@ -1,7 +1,7 @@
-!> A small chart with its numbers, for a page of many: all charts of a page are one gnuplot script.
+!> A small chart with its data, one of many on a page: all charts of a page are drawn by one gnuplot script.
 !>
-!> Unlike a figure (ek_figure), which is a script of its own beside the result files, a chart carries its data, and
-!> has the abscissa to the right always: a page of small charts is read in one direction.
+!> Unlike a figure (ek_figure), which is a separate script beside the result files, a chart contains its data, and its
+!> abscissa is always horizontal, because a page of small charts is read in one direction.
 module ek_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -14,14 +14,14 @@ module ek_chart
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
 
-   integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at letters of 13
+   integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at font size 13
 
    !> One curve.
    type :: trace_t
       character(:), allocatable :: title
       real(wp), allocatable :: x(:), y(:)
       real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
-      integer :: colour = 1                  !! place in the palette
+      integer :: colour = 1                  !! index in the palette
       integer :: dash = 0                    !! 0 solid, 1 dashed, 2 dotted, 3 dash-dotted
    end type trace_t
 
@@ -32,9 +32,9 @@ module ek_chart
       character(:), allocatable :: x_label
       type(trace_t), allocatable :: traces(:)
       logical :: has_key = .false.           !! the curves are named in the chart
-      logical :: has_points = .false.        !! states that stand each for itself: points, and no line between them
+      logical :: has_points = .false.        !! the states are independent: points without a line
       real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
-      real(wp) :: cap = 0.0_wp               !! what lies beyond ± this is cut off; 0: nothing
+      real(wp) :: cap = 0.0_wp               !! values beyond ± this are not drawn; 0: no limit
    end type chart_t
 
 contains
@@ -78,7 +78,7 @@ contains
       call move_alloc(grown, charts)
    end subroutine append_chart
 
-   !> The file of a chart: its name, which may come from a foreign table, as far as it is one for a file.
+   !> The file of a chart: its name, reduced to the characters of a file name, as it may come from a foreign table.
    pure function picture_file(chart) result(name)
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: name
@@ -205,7 +205,7 @@ contains
       end do
    end subroutine add_chart
 
-   !> The words of gnuplot for a dash pattern.
+   !> The gnuplot dash pattern.
    pure function dashes(dash) result(words)
       integer, intent(in) :: dash
       character(:), allocatable :: words
@@ -222,7 +222,7 @@ contains
       end select
    end function dashes
 
-   !> x and y with seven digits, more than a picture shows.
+   !> x and y with seven digits, more than a picture resolves.
    pure subroutine add_pair(script, x, y)
       type(buffer_t), intent(inout) :: script
       real(wp), intent(in) :: x, y
@@ -233,7 +233,7 @@ contains
       call script%line('')
    end subroutine add_pair
 
-   !> A number rounded to significant digits; NaN where it is none.
+   !> A number rounded to significant digits; NaN if it is not finite.
    pure subroutine add_coordinate(script, value, digits)
       type(buffer_t), intent(inout) :: script
       real(wp), intent(in) :: value

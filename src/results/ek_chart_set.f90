@@ -14,7 +14,7 @@ module ek_chart_set
 
 contains
 
-   !> All charts of all sets in one list, which one script of gnuplot draws.
+   !> All charts of all sets in one list, for one gnuplot script.
    pure subroutine gather_charts(sets, charts)
       type(chart_set_t), intent(in) :: sets(:)
       type(chart_t), allocatable, intent(out) :: charts(:)
@@ -32,7 +32,7 @@ contains
       end do
    end subroutine gather_charts
 
-   !> The files that the script of these charts draws. A chart without curves is not drawn; one name stands once.
+   !> The picture files of these charts. A chart without curves is not drawn; every name is listed once.
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
@@ -47,7 +47,7 @@ contains
       end do
    end subroutine pictures_of
 
-   !> Removes what an earlier run has drawn of these charts, for a page that is to have none.
+   !> Removes pictures of these charts from an earlier run, for a page without pictures.
    subroutine remove_drawn(sets, folder)
       type(chart_set_t), intent(in) :: sets(:)
       character(*), intent(in) :: folder        !! of the page

@@ -1,6 +1,6 @@
 !> A table as comma-separated text: `# ` lines, a line of column names, one line per row.
 !>
-!> Numbers have 15 significant digits, `nan` where there is none.
+!> Numbers have 15 significant digits; `nan` for a missing value.
 module ek_csv
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
@@ -16,11 +16,11 @@ module ek_csv
    public :: csv_text, csv_head, csv_row, write_csv, tell_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
-   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)   !! what Excel puts before "CSV UTF-8"
+   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)   !! written by Excel at the start of "CSV UTF-8"
 
 contains
 
-   !> The table as text, for tests and benchmarks; a file is written row by row.
+   !> The table as text, for tests and benchmarks; files are written row by row.
    pure function csv_text(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -34,10 +34,10 @@ contains
       text = buffer%text()
    end function csv_text
 
-   !> One row, with the end of its line.
+   !> One row with its line end.
    pure function csv_row(values, is_whole) result(text)
       real(wp), intent(in) :: values(:)
-      logical, intent(in) :: is_whole(:)        !! which are whole numbers
+      logical, intent(in) :: is_whole(:)        !! the columns of whole numbers
       character(:), allocatable :: text
       character(max(size(values)*(longest_decimal + 1), 1)) :: line
       integer :: k, filled
@@ -51,12 +51,12 @@ contains
          filled = filled + 1
          line(filled:filled) = ','
       end do
-      filled = max(filled, 1)     ! the last comma, where there is one
+      filled = max(filled, 1)     ! replaces the last comma, if any
       line(filled:filled) = line_end
       text = line(:filled)
    end function csv_row
 
-   !> The nearest whole number, where doubles have a fraction at all; nan stays nan.
+   !> The nearest whole number, for values small enough to have a fraction; nan stays nan.
    elemental real(wp) function whole(value)
       real(wp), intent(in) :: value
 
@@ -64,7 +64,7 @@ contains
       if (abs(value) < 1e15_wp) whole = anint(value)
    end function whole
 
-   !> The lines above the numbers.
+   !> The header lines and the line of column names.
    pure function csv_head(table) result(text)
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
@@ -88,7 +88,7 @@ contains
       text = text//line_end
    end function csv_head
 
-   !> Write the table; the file is there whole or not at all.
+   !> Writes the table; the file is complete or does not exist.
    subroutine write_csv(table, path, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: path
@@ -99,7 +99,7 @@ contains
       do k = 1, size(table%columns)
          if (scan(table%columns(k), ',"'//line_end) == 0) cycle
          call fail(error, exit_file, "cannot write '"//path//"': the column name "// &
-            quoted(table%columns(k))//' holds a comma, a quote or a line end')
+            quoted(table%columns(k))//' contains a comma, a quote or a line end')
          return
       end do
       call begin_file(writer, path, error)
@@ -111,11 +111,11 @@ contains
       call writer%finish(error)
    end subroutine write_csv
 
-   !> The table to standard output, row by row.
+   !> Writes the table to standard output, row by row.
    subroutine tell_csv(table, error)
       type(table_t), intent(in) :: table
-      type(error_t), allocatable, intent(out) :: error   !! exit_file; without words where nobody reads on
-      integer, parameter :: enough = 60000               ! letters at a time
+      type(error_t), allocatable, intent(out) :: error   !! exit_file; with an empty message if the reader closed the pipe
+      integer, parameter :: enough = 60000               ! characters written at a time
       type(buffer_t) :: buffer
       integer :: k
 
@@ -130,11 +130,11 @@ contains
       call write_standard_output(buffer%text(), error)
    end subroutine tell_csv
 
-   !> Read a table back. Lines with # go to the header wherever they stand; empty lines are skipped.
+   !> Reads a table. All lines with # go to the header; empty lines are skipped.
    subroutine read_csv(path, table, error, may_stream)
       character(*), intent(in) :: path
       type(table_t), intent(out) :: table
-      type(error_t), allocatable, intent(out) :: error   !! exit_file: path:line: what is wrong
+      type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line
       logical, intent(in), optional :: may_stream        !! see read_whole
       character(:), allocatable :: text, content
       integer :: first, last, line, rows
@@ -167,13 +167,13 @@ contains
          first = last + 2
       end do
       if (rows < 0) then
-         call fail(error, exit_file, path//': there is no line of column names')
+         call fail(error, exit_file, path//': the line of column names is missing')
          return
       end if
       table%values = table%values(:, :rows)
    end subroutine read_csv
 
-   !> The line of column names makes the table.
+   !> Creates the table from the line of column names.
    pure subroutine take_names(content, rows, table)
       character(*), intent(in) :: content
       integer, intent(in) :: rows
@@ -194,7 +194,7 @@ contains
       table = fresh
    end subroutine take_names
 
-   !> One line of numbers.
+   !> Reads one line of numbers.
    pure subroutine take_row(content, where, row, table, error)
       character(*), intent(in) :: content
       character(*), intent(in) :: where                  !! 'file:line: ' for messages

@@ -1,16 +1,16 @@
 !> A real as text with 15 significant digits, and back: fast, and correctly rounded.
 !>
-!> gfortran's own formatted write takes about a microsecond a number; a table of 600 states and
-!> 70 columns would cost more than its solution.
+!> gfortran's formatted write takes about a microsecond per number; writing a table of 600 states and
+!> 70 columns would take longer than its solution.
 !>
 !> A double is m·2^b with a whole number m < 2^53, so with 10^q = 5^q·2^q
 !>
 !>     digits = x·10^q = m·5^q · 2^(b+q)
 !>
 !> is a whole product shifted to the right. It is exact while 5^q < 2^63 (q ≤ 27, |x| ≥ 1e-13).
-!> Above, 5^q is cut to 63 bits, which bounds the digits from both sides; where the bounds round
-!> to different numbers, the (slow, exact) formatted write decides. It also takes what lies
-!> outside 1e-40 ≤ |x| < 1e15. So every text is the correctly rounded decimal; a tie
+!> Above, 5^q is truncated to 63 bits, which bounds the digits from both sides; if the bounds round
+!> to different numbers, the (slow, exact) formatted write decides. It also handles values
+!> outside 1e-40 ≤ |x| < 1e15. Every text is therefore the correctly rounded decimal; a tie
 !> goes to the even digit, as in the formatted write.
 module ek_decimal
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf, ieee_negative_inf
@@ -19,16 +19,16 @@ module ek_decimal
    private
    public :: decimal, put_decimal, get_decimal, longest_decimal
 
-   integer, parameter :: longest_decimal = 24       !! letters that one number takes at most
+   integer, parameter :: longest_decimal = 24       !! most characters of one number
    integer, parameter :: i16 = selected_int_kind(38)
    integer, parameter :: kept = 15                  !! significant digits
    integer(i8), parameter :: full = 10_i8**kept
-   integer, parameter :: smallest = -40             !! least decade of the fast way
+   integer, parameter :: smallest = -40             !! lowest decade of the fast method
    integer, parameter :: most = kept - 1 - smallest !! largest power q
    integer, parameter :: mantissa_bits = digits(1.0_wp) - 1
    integer, parameter :: bias = maxexponent(1.0_wp) - 1 + mantissa_bits
 
-   integer :: k, l                                  ! run through the tables here, used nowhere else
+   integer :: k, l                                  ! implied-do indices of the tables here, not used elsewhere
    integer(i16), parameter :: five(0:most) = [(5_i16**k, k=0, most)]
    integer, parameter :: cut(0:most) = [(max(0, 65 - leadz(five(k))), k=0, most)]
    integer(i16), parameter :: top(0:most) = [(shiftr(five(k), cut(k)), k=0, most)]
@@ -44,7 +44,7 @@ contains
    pure subroutine put_decimal(x, buffer, used)
       real(wp), intent(in) :: x
       character(*), intent(inout) :: buffer     !! with room for longest_decimal more
-      integer, intent(inout) :: used            !! letters of the buffer in use
+      integer, intent(inout) :: used            !! characters of the buffer in use
       integer(i8) :: bits, number
       integer :: decade, exponent
       character(kept) :: text
@@ -70,7 +70,7 @@ contains
       call put_digits(text, decade, buffer, used)
    end subroutine put_decimal
 
-   !> The same as a text of its own.
+   !> The same as a separate text.
    pure function decimal(x) result(text)
       real(wp), intent(in) :: x
       character(:), allocatable :: text
@@ -165,7 +165,7 @@ contains
       text(3:4) = pair(mod(number, 100))
    end subroutine spell_four
 
-   !> Append digits with the point at its place.
+   !> Appends digits with the decimal point at its position.
    pure subroutine put_digits(text, decade, buffer, used)
       character(kept), intent(in) :: text
       integer, intent(in) :: decade
@@ -208,11 +208,11 @@ contains
       end if
    end subroutine put_digits
 
-   !> Read what put_decimal or a person wrote; blanks around it are allowed. The nearest double.
+   !> Reads a number written by put_decimal or by hand as the nearest double; blanks around it are allowed.
    pure subroutine get_decimal(text, x, is_number)
       character(*), intent(in) :: text
       real(wp), intent(out) :: x
-      logical, intent(out) :: is_number         !! false: something else, x is nan
+      logical, intent(out) :: is_number         !! false: not a number, x is nan
       integer(i8) :: number
       integer :: at, last, decade, places, figures, mark, sign, status
 
@@ -271,14 +271,14 @@ contains
       else if (number == 0 .and. figures <= 18) then
          x = 0.0_wp
       else if (decade + figures > 308) then
-         is_number = .false.                    ! would overflow; 1e308 and above never come up
+         is_number = .false.                    ! would overflow; 1e308 and above do not occur
       else
          read (text(mark:last), *, iostat=status) x
          is_number = status == 0
       end if
    end subroutine get_decimal
 
-   !> Run over digits, and take the first 18 of them into the number.
+   !> Skips digits and takes the first 18 of them into the number.
    pure subroutine take_digits(text, at, number, figures)
       character(*), intent(in) :: text
       integer, intent(inout) :: at, figures

@@ -1,7 +1,7 @@
-!> gnuplot at work: in a folder of its own, for a limited time, by scripts alone. A picture takes its place when it is whole;
-!> where gnuplot fails, hangs or draws nothing, what was there before stays, and the error says so.
+!> Runs gnuplot in a temporary folder, for a limited time, on scripts alone. A picture is moved to its place when it is
+!> complete; if gnuplot fails, hangs or draws nothing, earlier pictures stay and an error is returned.
 !>
-!> gnuplot runs with -d: no settings of the user or of the machine change a picture.
+!> gnuplot runs with -d: no settings of the user or of the machine affect a picture.
 module ek_drawing
    use, intrinsic :: iso_c_binding, only: c_null_char
    use ek_error, only: error_t, message_list_t, fail, exit_file
@@ -17,19 +17,19 @@ module ek_drawing
    public :: run_gnuplot, run_plot_script
 
    integer, parameter :: time_limit = 300             !! s for one run; the largest report takes a tenth of it
-   integer, parameter :: most_said = 2000             !! letters of gnuplot's own words
+   integer, parameter :: most_said = 2000             !! characters of gnuplot's own message
    character(*), parameter :: log_name = 'gnuplot.log'
 
 contains
 
-   !> Run gnuplot once over scripts that are there. They find their data beside them, and draw into the folder where
-   !> they run; a picture that belongs elsewhere ('../x.svg') is drawn as `to.'x.svg'`, where `to` is '' here.
+   !> Runs gnuplot once on existing scripts. They find their data beside them and draw into the folder where they run; a
+   !> picture of another folder ('../x.svg') is drawn as `to.'x.svg'`, where `to` is '' here.
    subroutine run_gnuplot(scripts, pictures, folder, message, error)
       type(message_list_t), intent(in) :: scripts         !! names in the folder
-      type(message_list_t), intent(in) :: pictures        !! places seen from the folder
+      type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
       character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message   !! '' when the pictures are there, else why not
-      type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
+      character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn, otherwise the reason
+      type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
       type(message_list_t) :: words
       character(:), allocatable :: home, name, trouble
@@ -39,7 +39,7 @@ contains
       if (scripts%count() == 0) return
       if (.not. program_exists('gnuplot')) then
          message = 'gnuplot is not installed: '//plural(scripts%count(), 'script', 'scripts')// &
-            ' written, no pictures (later: gnuplot *.gp in '//folder//')'
+            ' written, no pictures (to draw them later: gnuplot *.gp in '//folder//')'
          return
       end if
       call begin_scratch(folder, scratch, error)
@@ -53,9 +53,9 @@ contains
       do k = 1, pictures%count()
          if (len(trouble) > 0) exit
          name = last_part(pictures%line(k))
-         if (.not. is_whole(join_path(scratch%path, name))) trouble = 'it has drawn no whole '//name
+         if (.not. is_whole(join_path(scratch%path, name))) trouble = 'it has not completed '//name
       end do
-      do k = 1, pictures%count()                          ! all or none: pictures of two runs do not stand side by side
+      do k = 1, pictures%count()                          ! all or none: pictures of two runs are not mixed
          if (len(trouble) > 0) exit
          call move_file(join_path(scratch%path, last_part(pictures%line(k))), join_path(folder, pictures%line(k)), error)
          if (allocated(error)) trouble = error%message
@@ -64,13 +64,13 @@ contains
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trouble)
    end subroutine run_gnuplot
 
-   !> Run a script of a user, who knows the folder of the tables as `out`: tables are there by their names, and every file that
-   !> the script leaves there goes to `folder` when it is whole.
+   !> Runs a script of the user. Its variable `out` is the folder of the tables; every complete file that the script writes
+   !> there is moved to `folder`.
    subroutine run_plot_script(script, tables, folder, error)
       character(*), intent(in) :: script                  !! its path
       type(message_list_t), intent(in) :: tables          !! names in the folder
       character(*), intent(in) :: folder
-      type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
+      type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
       type(message_list_t) :: words, names
       type(facts_t) :: facts
@@ -97,7 +97,7 @@ contains
          name = join_path(scratch%path, names%line(k))
          facts = facts_of(name, follow=.false.)
          if (names%line(k) == log_name .or. .not. (facts%kind == regular_file .or. facts%kind == unknown_file)) cycle
-         if (.not. is_whole(name)) trouble = 'it has drawn no whole '//names%line(k)
+         if (.not. is_whole(name)) trouble = 'it has not completed '//names%line(k)
       end do
       do k = 1, names%count()
          if (len(trouble) > 0) exit
@@ -108,13 +108,13 @@ contains
          if (allocated(error)) trouble = error%message
          moved = moved + 1
       end do
-      if (len(trouble) == 0 .and. moved == 0) trouble = 'it has drawn nothing'
+      if (len(trouble) == 0 .and. moved == 0) trouble = 'it has drawn no picture'
       call end_scratch(scratch)
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not run '''//script//''': '//trouble)
    end subroutine run_plot_script
 
-   !> The program, and what it does before any script. C.UTF-8: gnuplot complains of the degree sign in C, and other locales
-   !> may write a decimal comma.
+   !> The command line of gnuplot, and the commands before any script. C.UTF-8: gnuplot rejects the degree sign in C, and
+   !> other locales may write a decimal comma.
    subroutine begin_words(words, before)
       type(message_list_t), intent(out) :: words
       character(*), intent(in) :: before                  !! commands
@@ -131,7 +131,7 @@ contains
    subroutine draw_in(scratch, words, trouble)
       type(scratch_t), intent(in) :: scratch
       type(message_list_t), intent(in) :: words
-      character(:), allocatable, intent(out) :: trouble   !! '' where gnuplot ended well
+      character(:), allocatable, intent(out) :: trouble   !! '' if gnuplot succeeded
       type(error_t), allocatable :: unread
       character(:), allocatable :: said
       integer :: status
@@ -143,7 +143,7 @@ contains
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
    end subroutine draw_in
 
-   !> The time limit: of the environment variable EK_GNUPLOT_SECONDS, else that of this module.
+   !> The time limit: the environment variable EK_GNUPLOT_SECONDS if set, otherwise the default of this module.
    integer function seconds_allowed() result(limit)
       character(12) :: text
       integer :: status
@@ -155,8 +155,8 @@ contains
       if (status /= 0 .or. limit < 1) limit = time_limit
    end function seconds_allowed
 
-   !> Whether a picture has its end: a full disk leaves one without, and gnuplot does not tell. Of other files it is enough that
-   !> something is in them.
+   !> Whether a picture file is complete: on a full disk its end is missing, and gnuplot reports no error. Other files only
+   !> have to be non-empty.
    logical function is_whole(path)
       character(*), intent(in) :: path
       character(:), allocatable :: bytes
@@ -184,7 +184,7 @@ contains
       end select
    end function is_whole
 
-   !> A path seen from anywhere.
+   !> The absolute path.
    function whole_path(path) result(whole)
       character(*), intent(in) :: path
       character(:), allocatable :: whole
@@ -192,7 +192,7 @@ contains
       whole = join_path(working_folder(), path)
    end function whole_path
 
-   !> 'c.svg' of '../c.svg'.
+   !> 'c.svg' for '../c.svg'.
    pure function last_part(path) result(name)
       character(*), intent(in) :: path
       character(:), allocatable :: name

@@ -1,6 +1,6 @@
-!> What a figure shows: panels with axes, and in them curves over the columns of result files.
+!> A figure: panels with axes, and curves of the columns of result files in them.
 !>
-!> ek_gnuplot turns it into a script and a picture.
+!> ek_gnuplot writes it as a script and draws it.
 module ek_figure
    use ek_kinds, only: wp
    implicit none(type, external)
@@ -12,9 +12,9 @@ module ek_figure
       character(:), allocatable :: file      !! data file, relative to the script
       !> A column name, or a gnuplot expression in parentheses: `(abs(column("toe_deg")))`
       character(:), allocatable :: x, y
-      character(:), allocatable :: title     !! in the legend; '' stays out of it
+      character(:), allocatable :: title     !! in the legend; '': not in the legend
       character(:), allocatable :: style     !! 'line', 'dashed', 'points' or 'mark' (one special state)
-      integer :: colour = 0                  !! place in the palette; 0: by order
+      integer :: colour = 0                  !! index in the palette; 0: by order
    end type curve_t
 
    !> A pair of axes.
@@ -22,13 +22,13 @@ module ek_figure
       character(:), allocatable :: title, x_label, y_label
       type(curve_t), allocatable :: curves(:)
       logical :: log_x = .false., log_y = .false.
-      logical :: swap = .false.              !! x upward, y to the right, as a stroke is drawn
-      real(wp), allocatable :: least_y(:)    !! [low, high] always in view, so that noise looks like nothing
+      logical :: swap = .false.              !! x upward, y to the right, as usual for wheel travel
+      real(wp), allocatable :: least_y(:)    !! [low, high] always shown, so that noise is not magnified
    end type panel_t
 
    !> One script: a panel, or several in two columns.
    type :: figure_t
-      character(:), allocatable :: name      !! of the files, without extension
+      character(:), allocatable :: name      !! name of the files, without extension
       character(:), allocatable :: title, subtitle
       type(panel_t), allocatable :: panels(:)
    end type figure_t

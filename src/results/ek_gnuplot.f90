@@ -1,5 +1,5 @@
-!> A figure as a gnuplot script that a person can read, change and run again: `gnuplot name.gp` in
-!> its folder makes name.png and name.svg from the data files beside it.
+!> A figure as a gnuplot script that the user can read, edit and run again: `gnuplot name.gp` in
+!> its folder draws name.png and name.svg from the data files beside it.
 module ek_gnuplot
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
@@ -12,12 +12,12 @@ module ek_gnuplot
    private
    public :: figure_script, write_figure, render_figures, gnuplot_text, palette
 
-   !> Okabe and Ito's colours, which the colour-blind tell apart; the yellow is left out, too light on white.
+   !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
       '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
 
    integer, parameter :: width = 1200        !! pixels
-   integer, parameter :: legend_on_top = 3   !! a longer legend stands on the right
+   integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
 
    character(*), parameter :: label_look = " textcolor rgb '#202020'"
 
@@ -32,13 +32,13 @@ contains
       call write_whole(join_path(folder, figure%name//'.gp'), figure_script(figure), error, can_be_redrawn=.true.)
    end subroutine write_figure
 
-   !> Run gnuplot once over the scripts that write_figure put into a folder.
-   !> Without gnuplot the scripts stay, and a message says so; that is no error.
+   !> Runs gnuplot once on the scripts written by write_figure into a folder.
+   !> Without gnuplot only the scripts are written; a message reports this and it is no error.
    subroutine render_figures(figures, folder, message, error)
       type(figure_t), intent(in) :: figures(:)
       character(*), intent(in) :: folder
-      character(:), allocatable, intent(out) :: message   !! '' when the pictures are there
-      type(error_t), allocatable, intent(out) :: error    !! exit_file, with what gnuplot said
+      character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn
+      type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(message_list_t) :: scripts, pictures
       integer :: k
 
@@ -68,7 +68,7 @@ contains
       call script%add('#')
       call script%add(gnuplot_comment('    gnuplot '//figure%name//'.gp'))
       call script%add('#')
-      call script%add(gnuplot_comment('in this folder makes '//figure%name//'.png and .svg;'))
+      call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
       call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
       call script%add("if (!exists('formats')) formats = 'png svg'")
       call script%add('')
@@ -114,10 +114,10 @@ contains
       text = script%text()//new_line('a')
    end function figure_script
 
-   !> How much the legend holds. All panels of a figure share that of the first.
+   !> Size of the legend. All panels of a figure share that of the first.
    pure subroutine measure_legend(figure, entries, longest)
       type(figure_t), intent(in) :: figure
-      integer, intent(out) :: entries, longest   !! titles; letters of the longest
+      integer, intent(out) :: entries, longest   !! number of titles; characters of the longest
       integer :: k
 
       entries = 0
@@ -130,7 +130,7 @@ contains
       end do
    end subroutine measure_legend
 
-   !> What all figures share: how data are read, grid, zero lines, line styles.
+   !> Settings shared by all figures: data format, grid, zero lines, line styles.
    pure subroutine add_look(script)
       type(message_list_t), intent(inout) :: script
       integer :: k
@@ -175,7 +175,7 @@ contains
       end if
    end subroutine add_axes
 
-   !> The text of a label; its sign, '(+ …)' behind a gap, on a line of its own where the panel is low.
+   !> The text of a label; its sign, '(+ …)' behind a gap, is placed on a separate line in a small panel.
    pure function label(text, is_folded) result(words)
       character(*), intent(in) :: text
       logical, intent(in) :: is_folded
@@ -227,7 +227,7 @@ contains
       end do
    end subroutine add_plot
 
-   !> The words of gnuplot for the style of a curve.
+   !> The gnuplot style of a curve.
    pure function drawn(style) result(with)
       character(*), intent(in) :: style
       character(:), allocatable :: with
@@ -236,7 +236,7 @@ contains
       if (style == 'points') with = 'points'
    end function drawn
 
-   !> A column by its name, or an expression as it is.
+   !> A column by its name, or an expression unchanged.
    pure function field(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text

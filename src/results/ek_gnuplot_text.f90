@@ -1,6 +1,6 @@
-!> Text that goes into a script of gnuplot, whoever wrote it: a title of a deck, a cell of a foreign table, a path.
+!> Text from outside in a gnuplot script: the title of a deck, a cell of a foreign table, a path.
 !>
-!> Everything that is not fixed in this program passes through here. A line end would begin a command.
+!> Every text that is not fixed in this program is converted here. A line end in it would begin a command.
 module ek_gnuplot_text
    implicit none(type, external)
    private
@@ -8,7 +8,7 @@ module ek_gnuplot_text
 
 contains
 
-   !> Between single quotes, where gnuplot looks for nothing but a quote and the end of the line.
+   !> A text between single quotes, in which gnuplot interprets only a quote and the end of the line.
    pure function gnuplot_text(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -22,7 +22,7 @@ contains
       literal = literal//"'"
    end function gnuplot_text
 
-   !> A column by its name, between double quotes, in which gnuplot takes neither names with a quote nor with a backslash.
+   !> A column name between double quotes; gnuplot accepts no quote and no backslash in it.
    pure function gnuplot_name(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -39,7 +39,7 @@ contains
       literal = literal//'"'
    end function gnuplot_name
 
-   !> A comment of one line. A backslash at its end would take the next line along.
+   !> A comment of one line. A backslash at its end would continue it on the next line.
    pure function gnuplot_comment(text) result(comment)
       character(*), intent(in) :: text
       character(:), allocatable :: comment
@@ -53,8 +53,8 @@ contains
       if (text(len(text):) == '\') comment(len(comment):) = '/'
    end function gnuplot_comment
 
-   !> A name for a file: letters, digits, and what else names of tests and columns hold; anything else becomes '_'. No
-   !> folder, no hidden file, no option of a command.
+   !> A file name: letters, digits and the other characters of test and column names; any other character becomes '_'. The
+   !> result has no folder, is not hidden, and is not mistaken for an option of a command.
    pure function file_letters(text) result(name)
       character(*), intent(in) :: text
       character(:), allocatable :: name
@@ -69,7 +69,7 @@ contains
       end do
    end function file_letters
 
-   !> A letter, or a blank for one that ends or disturbs a line.
+   !> A character, or a blank for a control character.
    pure character(1) function one_line(letter)
       character(1), intent(in) :: letter
 

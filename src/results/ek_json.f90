@@ -1,11 +1,11 @@
-!> A small JSON writer (RFC 8259): objects and lists in order, indented, one item a line.
+!> A small JSON writer (RFC 8259): objects and lists in order, indented, one item per line.
 !>
 !>     call json%open('{')
 !>     call json%text_item('unit', 'deg/m')
 !>     call json%number_item('value', 1.5_wp)
 !>     call json%close('}')
 !>
-!> Numbers have 15 significant digits; what is not a finite number is `null`, for JSON has no word for it.
+!> Numbers have 15 significant digits; values that are not finite are `null`, because JSON cannot represent them.
 module ek_json
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -22,7 +22,7 @@ module ek_json
       private
       type(buffer_t) :: buffer
       integer :: depth = 0
-      logical :: is_empty = .true.     !! nothing yet in the innermost list or object
+      logical :: is_empty = .true.     !! the innermost list or object has no item yet
    contains
       procedure :: open => json_open
       procedure :: close => json_close
@@ -35,7 +35,7 @@ module ek_json
 
 contains
 
-   !> Begin an object '{' or a list '['; `key` where it stands in an object.
+   !> Begin an object '{' or a list '['; `key` if it is part of an object.
    pure subroutine json_open(self, bracket, key)
       class(json_t), intent(inout) :: self
       character(1), intent(in) :: bracket
@@ -100,7 +100,7 @@ contains
       call self%buffer%add(']')
    end subroutine json_numbers_item
 
-   !> The whole text, with a line end.
+   !> The complete text, with a line end.
    pure function json_text(self) result(text)
       class(json_t), intent(in) :: self
       character(:), allocatable :: text
@@ -118,7 +118,7 @@ contains
       self%is_empty = .false.
    end subroutine begin_item
 
-   !> A text between quotes: quote, backslash and control characters escaped, all else (UTF-8) as it is.
+   !> A text between quotes: quote, backslash and control characters escaped, all other characters (UTF-8) unchanged.
    pure function json_string(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
@@ -147,7 +147,7 @@ contains
       literal = literal//'"'
    end function json_string
 
-   !> A number, or null where it is none.
+   !> A number, or null if it is not finite.
    pure function json_number(value) result(literal)
       real(wp), intent(in) :: value
       character(:), allocatable :: literal

@@ -1,7 +1,7 @@
-!> A page of results in one file of HTML: headings, tables, pictures inside, nothing from anywhere else.
+!> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
 !>
-!> No script, no font, no picture is fetched. It reads on a screen, in one column on a phone (tables scroll in their own
-!> box), and on paper (A4, each section on a new page). Every text that comes in is escaped here.
+!> No script, font or picture is fetched. The page is laid out for a screen, in one column for a phone (tables scroll in
+!> their own box), and for paper (A4, each section on a new page). Every input text is escaped here.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
@@ -38,7 +38,7 @@ contains
       call page%body%line('<!--contents--></header>')
    end subroutine begin_page
 
-   !> A section; on paper it starts a page. `id` is letters, digits, _ and -.
+   !> Begins a section; on paper it starts a page. `id` has letters, digits, _ and -.
    pure subroutine begin_section(page, id, title)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
@@ -47,13 +47,13 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> After the last thing of a section.
+   !> Ends a section.
    pure subroutine end_section(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</section>')
    end subroutine end_section
 
-   !> Words as they are: what HTML would read as markup is escaped.
+   !> A paragraph of plain text; HTML markup in it is escaped.
    pure subroutine add_paragraph(page, text)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
@@ -67,7 +67,7 @@ contains
       call page%body%line('<h3>'//escape_html(text)//'</h3>')
    end subroutine add_heading
 
-   !> A box with what is doubtful; none when the list is empty.
+   !> A box of warnings; no box for an empty list.
    pure subroutine add_warnings(page, title, list)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title
@@ -95,7 +95,7 @@ contains
       call page%body%line('</dl>')
    end subroutine add_facts
 
-   !> A table with its column heads; columns whose head begins with '>' hold numbers, to the right.
+   !> Begins a table with its column heads; a head that begins with '>' marks a column of numbers, aligned right.
    pure subroutine begin_table(page, heads)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)
@@ -113,7 +113,7 @@ contains
       call page%body%line('</tr></thead><tbody>')
    end subroutine begin_table
 
-   !> A line across the table that names the rows below it.
+   !> A heading across the table for the rows below it.
    pure subroutine add_group(page, title)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: title
@@ -121,13 +121,13 @@ contains
          escape_html(title)//'</th></tr>')
    end subroutine add_group
 
-   !> Before the first cell of a row; as many cells follow as there are heads.
+   !> Begins a row; as many cells follow as there are heads.
    pure subroutine begin_row(page)
       type(page_t), intent(inout) :: page
       call page%body%add('<tr>')
    end subroutine begin_row
 
-   !> A cell of words, or of a number (kind 'n'), or of small words ('s').
+   !> A cell of text, of a number (kind 'n'), or of small text ('s').
    pure subroutine add_cell(page, text, kind)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
@@ -140,34 +140,34 @@ contains
       end if
    end subroutine add_cell
 
-   !> After the last cell of a row.
+   !> Ends a row.
    pure subroutine end_row(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</tr>')
    end subroutine end_row
 
-   !> After the last row of a table.
+   !> Ends a table.
    pure subroutine end_table(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</tbody></table></div>')
    end subroutine end_table
 
-   !> Charts side by side, as many as fit.
+   !> Begins a block of charts side by side, as many as fit.
    pure subroutine begin_charts(page)
       type(page_t), intent(inout) :: page
       call page%body%line('<div class="charts">')
    end subroutine begin_charts
 
-   !> After the last of the charts side by side.
+   !> Ends a block of charts.
    pure subroutine end_charts(page)
       type(page_t), intent(inout) :: page
       call page%body%line('</div>')
    end subroutine end_charts
 
-   !> One chart among others, from the SVG that gnuplot wrote.
+   !> One chart of a block, from the SVG written by gnuplot.
    pure subroutine add_chart_picture(page, svg, title)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: svg, title     !! content of the file; what it shows
+      character(*), intent(in) :: svg, title     !! content of the file; its description
 
       page%pictures = page%pictures + 1
       call page%body%add('<figure>')
@@ -175,7 +175,7 @@ contains
       call page%body%line('</figure>')
    end subroutine add_chart_picture
 
-   !> A picture over the whole width.
+   !> A picture of full width.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: svg, title, caption
@@ -187,7 +187,7 @@ contains
       call page%body%line('</figure>')
    end subroutine add_picture
 
-   !> A picture of points (GIF, PNG) inside the page, as base64.
+   !> A raster picture (GIF, PNG) embedded in the page as base64.
    pure subroutine add_data_picture(page, bytes, kind, title, caption)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: bytes          !! content of the file
@@ -202,13 +202,13 @@ contains
       call page%body%line('</figure>')
    end subroutine add_data_picture
 
-   !> What the curves of the charts below are: names in the order of the palette, dashed (or rings instead of points)
-   !> from the second on.
+   !> Legend of the charts below: names in the order of the palette; from the second on dashed lines (or rings instead of
+   !> points).
    pure subroutine add_legend(page, names, has_design, has_points)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: names(:)
       logical, intent(in) :: has_design
-      logical, intent(in) :: has_points          !! no lines
+      logical, intent(in) :: has_points          !! the charts have points without lines
       character(:), allocatable :: colour
       integer :: k
 
@@ -242,7 +242,7 @@ contains
       call out%line('<!doctype html>')
       call out%line('<html lang="en"><head><meta charset="utf-8">')
       call out%line('<meta name="viewport" content="width=device-width, initial-scale=1">')
-      ! a browser asks for /favicon.ico unless the page has an icon of its own
+      ! without an icon in the page a browser requests /favicon.ico
       call out%line('<link rel="icon" href="data:,">')
       call out%line('<title>'//escape_html(page%title)//'</title>')
       call out%line('<style>')
@@ -297,7 +297,7 @@ contains
          'table,td.s,thead th{font-size:8pt}th,td{padding:2px 10px 2px 0}figure{border-color:#ddd}}')
    end subroutine add_style
 
-   !> A number for a table: about four digits, no exponent where a person would write none; '–' where there is none.
+   !> A number for a table: about four digits, an exponent only from 1e7 on; '–' for a missing value.
    pure function page_number(value) result(text)
       real(wp), intent(in) :: value
       character(:), allocatable :: text
@@ -333,7 +333,7 @@ contains
       if (index(text, '-') == 1) text = '−'//text(2:)
    end function page_number
 
-   !> RFC 4648.
+   !> Base64 encoding, RFC 4648.
    pure function base64(bytes) result(text)
       character(*), intent(in) :: bytes
       character(:), allocatable :: text

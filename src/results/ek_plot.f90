@@ -1,4 +1,4 @@
-!> The figures an engineer expects of one run: wheel attitude, steer axis and forces over the stroke.
+!> The standard figures of one run: wheel attitude, steer axis and forces over the wheel travel.
 module ek_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -10,14 +10,14 @@ module ek_plot
    private
    public :: run_figures
 
-   integer, parameter :: most_curves = 8          !! in one panel, then it becomes a thicket
+   integer, parameter :: most_curves = 8          !! in one panel, for legibility
 
-   !> What is drawn for every wheel: column without the wheel's name, title, label with its sign.
+   !> A quantity drawn for every wheel: column without the wheel's name, title, label with its sign.
    type :: quantity_t
       character(24) :: column
       character(28) :: title
       character(56) :: label
-      real(wp) :: noise                           !! unit of the column; a smaller span is drawn flat
+      real(wp) :: noise                           !! in units of the column; a smaller span is drawn flat
    end type quantity_t
 
    type(quantity_t), parameter :: toe = &
@@ -37,30 +37,30 @@ module ek_plot
    type(quantity_t), parameter :: trail = &
       quantity_t('caster_trail_mm', 'Caster trail', 'caster trail [mm]    (+ axis ahead of the patch)', 0.1_wp)
 
-   !> The run as the figures see it.
+   !> The properties of a run that its figures use.
    type :: view_t
       character(:), allocatable :: file, stem, subtitle
       character(name_length), allocatable :: wheels(:)   !! prefixes: '', or 'left_' and 'right_'
-      character(:), allocatable :: abscissa, label       !! column, and what is written along the axis
-      logical :: is_travel = .false.                     !! abscissa is each wheel's own travel, drawn upward
-      logical :: has_design = .false.                    !! a state with factor 0 is in the table
+      character(:), allocatable :: abscissa, label       !! column and axis label
+      logical :: is_travel = .false.                     !! the abscissa is the travel of each wheel, drawn upward
+      logical :: has_design = .false.                    !! the table has a state with factor 0
    end type view_t
 
 contains
 
-   !> Figures for the table of a run. What the table does not hold, or never has a value, is left out.
+   !> Figures for the table of a run. Quantities without a column or without a value are omitted.
    !>
-   !> The stroke stands upward when the wheel moves by 1 mm or more; otherwise (a lateral force, say)
-   !> everything is drawn over the load factor, or over `abscissa` when that is given.
+   !> The wheel travel is drawn upward if the wheel moves by 1 mm or more; otherwise (for instance under a lateral force)
+   !> the abscissa is the load factor, or `abscissa` if given.
    pure subroutine run_figures(table, model, case_name, csv_name, figures, abscissa, abscissa_label, elements, has_points)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: model, case_name          !! for the titles
       character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
-      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without extension>_<what>
-      character(*), intent(in), optional :: abscissa        !! column to draw over
+      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without extension>_<quantity>
+      character(*), intent(in), optional :: abscissa        !! column of the abscissa
       character(*), intent(in), optional :: abscissa_label  !! with its unit
-      character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; none: all with _fx_n, _fy_n, _fz_n
-      logical, intent(in), optional :: has_points           !! states that stand each for itself: no line between them
+      character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all with _fx_n, _fy_n, _fz_n
+      logical, intent(in), optional :: has_points           !! the states are independent: points without a line
       type(view_t) :: view
 
       allocate (figures(0))
@@ -79,7 +79,7 @@ contains
       end if
    end subroutine run_figures
 
-   !> Every state a point of its own.
+   !> Draws every state as a separate point.
    pure subroutine show_points(figures)
       type(figure_t), intent(inout) :: figures(:)
       integer :: f, p, k
@@ -93,7 +93,7 @@ contains
       end do
    end subroutine show_points
 
-   !> Which wheels there are and what everything is drawn over.
+   !> Finds the wheels and the abscissa.
    pure subroutine set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: model, case_name, csv_name
@@ -129,7 +129,7 @@ contains
       if (present(abscissa_label)) view%label = abscissa_label
    end subroutine set_view
 
-   !> One figure with a panel for every quantity that the table holds.
+   !> One figure with a panel for every quantity that has a column.
    pure subroutine add_quantities(figures, table, view, name, title, quantities)
       type(figure_t), allocatable, intent(inout) :: figures(:)
       type(table_t), intent(in) :: table
@@ -163,7 +163,7 @@ contains
          call add_panel(figure, panel)
       end do
       if (size(figure%panels) == 0) return
-      if (size(figure%panels) == 1 .and. size(quantities) > 1) return    ! that one has a figure of its own
+      if (size(figure%panels) == 1 .and. size(quantities) > 1) return    ! a single quantity already has its own figure
       call append(figures, figure)
    end subroutine add_quantities
 
@@ -183,7 +183,7 @@ contains
          place = len_trim(table%columns(k)) - len(tail)
          if (place < 1 .or. size(panel%curves) >= most_curves) cycle
          if (table%columns(k) (place + 1:) /= tail) cycle
-         if (column_index(table, table%columns(k) (:place)//'_length_mm') == 0 .and. &     ! the force of a wheel has neither
+         if (column_index(table, table%columns(k) (:place)//'_length_mm') == 0 .and. &     ! a wheel force has neither
             column_index(table, table%columns(k) (:place)//'_gap_mm') == 0) cycle
          if (.not. any(ieee_is_finite(table%values(k, :)))) cycle
          call add_curve(panel, new_curve(view%file, abscissa_of(view, table%columns(k)), &
@@ -195,7 +195,7 @@ contains
       call append(figures, figure)
    end subroutine add_springs
 
-   !> Magnitude of the force of every bushing, the strongest ones when there are many.
+   !> Magnitude of the force of every bushing; of many bushings those with the largest force.
    pure subroutine add_bushings(figures, table, view, elements)
       type(figure_t), allocatable, intent(inout) :: figures(:)
       type(table_t), intent(in) :: table
@@ -228,7 +228,7 @@ contains
          least = minval(peak, mask=peak > least)
       end do
       figure = new_figure(view%stem//'_bushing_force', 'Bushing force', view%subtitle)
-      if (count(peak > 0.0_wp) > most_curves) figure%title = 'Bushing force, the strongest'
+      if (count(peak > 0.0_wp) > most_curves) figure%title = 'Bushing force, largest'
       panel = view_panel(view, '', 'force, magnitude [N]')
       do k = 1, size(names)
          if (.not. peak(k) > least) cycle
@@ -242,7 +242,7 @@ contains
       call append(figures, figure)
    end subroutine add_bushings
 
-   !> The square of a column, in the words of gnuplot.
+   !> The square of a column as a gnuplot expression.
    pure function square(name) result(expression)
       character(*), intent(in) :: name
       character(:), allocatable :: expression
@@ -265,7 +265,7 @@ contains
       end do
    end function force_peak
 
-   !> Empty axes: the stroke upward, a load factor to the right.
+   !> Empty axes: wheel travel upward, a load factor to the right.
    pure type(panel_t) function view_panel(view, title, label) result(panel)
       type(view_t), intent(in) :: view
       character(*), intent(in) :: title, label
@@ -274,7 +274,7 @@ contains
       panel%swap = view%is_travel
    end function view_panel
 
-   !> A ring on the state without case load, on every curve.
+   !> Marks the state without case load by a ring on every curve.
    pure subroutine mark_design(panel, view)
       type(panel_t), intent(inout) :: panel
       type(view_t), intent(in) :: view
@@ -292,7 +292,7 @@ contains
       end do
    end subroutine mark_design
 
-   !> What a wheel, or an element that begins with the name of one, is drawn over.
+   !> The abscissa of a wheel, or of an element whose name begins with that of a wheel.
    pure function abscissa_of(view, element) result(name)
       type(view_t), intent(in) :: view
       character(*), intent(in) :: element
@@ -307,7 +307,7 @@ contains
       end do
    end function abscissa_of
 
-   !> The values that are numbers.
+   !> The finite values.
    pure function finite_only(values) result(numbers)
       real(wp), intent(in) :: values(:)
       real(wp), allocatable :: numbers(:)

@@ -1,24 +1,24 @@
-!> The quantities that charts show: column, title, unit and sign of each, and which of them belong to a kind of test.
+!> The quantities shown in charts: column, title, unit and sign, and the quantities of each kind of test.
 module ek_quantity
    use ek_kinds, only: wp
    implicit none(type, external)
    private
    public :: quantity_t, all_quantities, quantities_of, quantity_named, without_phase
 
-   !> A quantity as it is drawn: column without the wheel's name, title, unit and sign.
+   !> A quantity of a chart: column without the wheel's name, title, unit and sign.
    type :: quantity_t
       character(48) :: column = ''
       character(34) :: title = ''
       character(60) :: label = ''
-      real(wp) :: noise = 0.0_wp         !! unit of the column; a smaller span is drawn flat
+      real(wp) :: noise = 0.0_wp         !! in units of the column; a smaller span is drawn flat
    end type quantity_t
 
-   ! Every quantity with a name of its own, once
+   ! Every quantity with a declared title, once
    type(quantity_t), parameter :: all_quantities(*) = [ &
       quantity_t('toe_deg', 'Toe', 'deg    (+ front edge inward)', 0.01_wp), &
       quantity_t('steer_deg', 'Steer', 'deg    (+ to the left)', 0.01_wp), &
       quantity_t('camber_deg', 'Camber', 'deg    (+ top outward)', 0.01_wp), &
-      quantity_t('inclination_deg', 'Inclination to the road', 'deg    (+ top outward)', 0.01_wp), &
+      quantity_t('inclination_deg', 'Camber relative to the road', 'deg    (+ top outward)', 0.01_wp), &
       quantity_t('caster_deg', 'Caster', 'deg    (+ top rearward)', 0.01_wp), &
       quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'deg    (+ top inward)', 0.01_wp), &
       quantity_t('track_change_mm', 'Half-track change', 'contact patch, mm    (+ outward)', 0.1_wp), &
@@ -56,7 +56,7 @@ module ek_quantity
       quantity_t('turning_circle_m', 'Turning circle', 'm', 0.1_wp), &
       quantity_t('curb_to_curb_m', 'Turning circle, curb to curb', 'm', 0.1_wp), &
       quantity_t('wall_to_wall_m', 'Turning circle, wall to wall', 'm', 0.1_wp), &
-      quantity_t('outer_steer_error_deg', 'Deviation of the outer wheel', 'deg    (+ steers too much)', 0.01_wp), &
+      quantity_t('outer_steer_error_deg', 'Deviation of the outer wheel', 'deg    (+ steers more than ideal)', 0.01_wp), &
       quantity_t('steer_camber_deg_per_deg', 'Camber per steer, local slope', 'deg/deg    (+ top outward)', 0.001_wp), &
       quantity_t('steering_rack_force_n', 'Rack force', 'N    (reaction of the driver)', 1.0_wp), &
       quantity_t('side_view_angle_deg', 'Side-view angle', 'deg    (+ top rearward)', 0.01_wp), &
@@ -74,7 +74,7 @@ module ek_quantity
 
 contains
 
-   !> The columns drawn for a kind of test, in order; the first ones matter most.
+   !> The columns drawn for a kind of test, the most important ones first.
    pure function quantities_of(kind) result(columns)
       character(*), intent(in) :: kind
       character(48), allocatable :: columns(:)
@@ -117,7 +117,7 @@ contains
       end select
    end function quantities_of
 
-   !> A quantity by its column; one without a declared name is called by its column.
+   !> The quantity of a column; without a declared title the column name is the title.
    pure type(quantity_t) function quantity_named(name) result(quantity)
       character(*), intent(in) :: name
       integer :: k

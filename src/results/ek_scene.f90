@@ -1,6 +1,6 @@
-!> A scene in space: faces, lines and words, in metres; x rearward, y right, z up.
+!> A scene in space: faces, lines and labels, in metres; x rearward, y right, z up.
 !>
-!> Everything solid is made of faces, which can be sorted by depth and shaded (see ek_scene_script).
+!> All solids are made of faces, which can be sorted by depth and shaded (see ek_scene_script).
 module ek_scene
    use ek_kinds, only: wp
    use ek_units, only: pi
@@ -24,7 +24,7 @@ module ek_scene
 
    type :: words_t
       real(wp) :: at(3) = 0.0_wp
-      real(wp) :: aside = 0.0_wp               !! letters to the right
+      real(wp) :: aside = 0.0_wp               !! offset to the right, in characters
       character(:), allocatable :: text
    end type words_t
 
@@ -32,7 +32,7 @@ module ek_scene
       type(run_t) :: faces, lines
       type(words_t), allocatable :: words(:)
       integer :: labels = 0
-      character(:), allocatable :: bump, rebound   !! legend of the thin lines; unallocated: none
+      character(:), allocatable :: bump, rebound   !! labels of the thin lines; unallocated: none
    end type scene_t
 
 contains
@@ -53,7 +53,7 @@ contains
       call add_run(scene%lines, kind, at)
    end subroutine add_line
 
-   !> Appends the points of one face or line; room doubles when it runs out.
+   !> Appends the points of one face or line; the storage doubles when it is full.
    pure subroutine add_run(list, kind, at)
       type(run_t), intent(inout) :: list
       integer, intent(in) :: kind
@@ -86,12 +86,12 @@ contains
       list%first(list%runs + 1) = list%used + 1
    end subroutine add_run
 
-   !> Small letters at a point.
+   !> A small label at a point.
    pure subroutine add_words(scene, at, text, aside)
       type(scene_t), intent(inout) :: scene
       real(wp), intent(in) :: at(3)
       character(*), intent(in) :: text
-      real(wp), intent(in), optional :: aside    !! letters to the right of the point; none: 0.6
+      real(wp), intent(in), optional :: aside    !! offset to the right of the point, in characters; absent: 0.6
       type(words_t), allocatable :: grown(:)
 
       if (.not. allocated(scene%words)) allocate (scene%words(16))
@@ -107,7 +107,7 @@ contains
       if (present(aside)) scene%words(scene%labels)%aside = aside
    end subroutine add_words
 
-   !> A round bar from a to b, closed at both ends. Long ones are made of pieces: faces are sorted by their middle.
+   !> A round bar from a to b, closed at both ends. Long bars are made of pieces, because faces are sorted by their middle.
    pure subroutine add_tube(scene, kind, a, b, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -133,7 +133,7 @@ contains
       call add_surface(scene, kind, a, (b - a)/length, along, round, sides)
    end subroutine add_tube
 
-   !> A surface of revolution: radius at places along an axis through a point.
+   !> A surface of revolution: radius at positions along an axis through a point.
    pure subroutine add_surface(scene, kind, base, axis, along, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -201,7 +201,7 @@ contains
       end do
    end subroutine add_coil
 
-   !> A small ball.
+   !> A small sphere.
    pure subroutine add_ball(scene, kind, at, radius, sides)
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
@@ -212,7 +212,7 @@ contains
          radius*[0.0_wp, 0.8_wp, 0.8_wp, 0.0_wp], sides)
    end subroutine add_ball
 
-   !> Two unit vectors across an axis.
+   !> Two unit vectors normal to an axis.
    pure subroutine across(axis, u, v)
       real(wp), intent(in) :: axis(3)
       real(wp), intent(out) :: u(3), v(3)

@@ -1,8 +1,8 @@
 !> A scene in space as a gnuplot script, still or moving.
 !>
-!> gnuplot sorts the faces by depth and shades them. The script can be turned with the mouse: `gnuplot -p picture.gp` after
-!> `set terminal qt`. A view is two angles [deg] of gnuplot's `set view`: at turn = 0 one looks to the right of the car
-!> from its left, at 270 rearward from its front.
+!> gnuplot sorts the faces by depth and shades them. The scene can be rotated with the mouse: `gnuplot -p picture.gp` after
+!> `set terminal qt`. The camera has the two angles [deg] of gnuplot's `set view`: at turn = 0 it looks to the right, from
+!> the left of the car, at 270 rearward from its front.
 module ek_scene_script
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
@@ -23,11 +23,11 @@ module ek_scene_script
       'springs', 'struts, dampers', 'bushings', 'joints', 'chassis']
    character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4']
 
-   !> From where and how large.
+   !> Direction of view and scale.
    type :: camera_t
       real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! deg
-      real(wp) :: centre(3) = 0.0_wp                    !! m, in the middle of the picture
-      real(wp) :: span = 1.0_wp                         !! m, edge of the cube that gnuplot is told of
+      real(wp) :: centre(3) = 0.0_wp                    !! m, middle of the picture
+      real(wp) :: span = 1.0_wp                         !! m, edge of the cube of the axis ranges
       real(wp) :: zoom = 1.0_wp                         !! third number of `set view`
    end type camera_t
 
@@ -35,14 +35,14 @@ contains
 
    !> Sets centre, span and zoom so that all faces and lines of some scenes fill a picture of this shape.
    !>
-   !> gnuplot draws the longest edge of its box a certain share of the shorter side of the picture long, times the zoom.
+   !> gnuplot draws the longest edge of its box as a fixed share of the shorter side of the picture, times the zoom.
    subroutine fit_camera(camera, scenes, width, height, footer)
-      type(camera_t), intent(inout) :: camera     !! tilt and turn are given
+      type(camera_t), intent(inout) :: camera     !! tilt and turn are input
       type(scene_t), intent(in) :: scenes(:)
       real(wp), intent(in) :: width, height       !! of the picture, any unit
       real(wp), intent(in) :: footer              !! share of the height that is kept free below
-      real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, and letters of 12 to 13
-      real(wp), parameter :: above_middle = 0.014_wp   ! where it puts the centre, in heights of the picture; likewise
+      real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, font sizes 12 to 13
+      real(wp), parameter :: above_middle = 0.014_wp   ! offset of the centre in picture heights; measured likewise
       real(wp) :: right(3), up(3), low(2), high(2), p(2), scale
       integer :: s, k
 
@@ -64,7 +64,7 @@ contains
       p = (low + high)/2
       scale = 0.95_wp*min(width/max(high(1) - low(1), 1.0e-3_wp), height*(1 - footer)/max(high(2) - low(2), 1.0e-3_wp))
       camera%centre = right*p(1) + up*(p(2) - (footer/2 - above_middle)*height/scale)
-      ! the box must hold every vertex, or gnuplot would cut there
+      ! the box must contain every vertex; gnuplot clips at the box
       do s = 1, size(scenes)
          do k = 1, scenes(s)%faces%used
             camera%span = max(camera%span, 2.1_wp*maxval(abs(scenes(s)%faces%at(:, k) - camera%centre)))
@@ -87,7 +87,7 @@ contains
    end subroutine fit_camera
 
    !> A script that draws one scene as <name>.png and <name>.svg. A name with a folder, '../x', is drawn there unless the
-   !> variable `to` names another place.
+   !> variable `to` gives another folder.
    pure function scene_script(scene, camera, name, title) result(text)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera
@@ -96,7 +96,7 @@ contains
       type(buffer_t) :: script
 
       call script%line(gnuplot_comment(title))
-      call script%line(gnuplot_comment('Run gnuplot in this folder to draw it again; to turn it: gnuplot -e "look=1" -p '// &
+      call script%line(gnuplot_comment('Run gnuplot in this folder to redraw the picture; to rotate it: gnuplot -e "look=1" -p '// &
          name(index(name, '/', back=.true.) + 1:)//'.gp'))
       call add_place(script, name)
       call add_look(script, camera)
@@ -110,7 +110,7 @@ contains
       text = script%text()
    end function scene_script
 
-   !> A script that draws scenes one after the other as <name>.gif, for ever.
+   !> A script that draws a sequence of scenes as <name>.gif, which repeats endlessly.
    pure function animation_script(scenes, captions, camera, name, title) result(text)
       type(scene_t), intent(in) :: scenes(:)
       character(*), intent(in) :: captions(:)
@@ -120,7 +120,7 @@ contains
       type(buffer_t) :: script
       integer :: k
 
-      call script%line(gnuplot_comment(title//': '//str(size(scenes))//' pictures, one after the other'))
+      call script%line(gnuplot_comment(title//': '//str(size(scenes))//' pictures in sequence'))
       call add_place(script, name)
       call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
       call script%line('set output '//place_of(name//'.gif'))
@@ -135,7 +135,7 @@ contains
       text = script%text()
    end function animation_script
 
-   !> Where a picture goes whose name has a folder.
+   !> Default folder of a picture whose name has a folder.
    pure subroutine add_place(script, name)
       type(buffer_t), intent(inout) :: script
       character(*), intent(in) :: name
@@ -145,7 +145,7 @@ contains
       if (slash > 0) call script%line("if (!exists('to')) to = "//gnuplot_text(name(:slash)))
    end subroutine add_place
 
-   !> The picture of a name as gnuplot's expression.
+   !> The file of a picture as a gnuplot expression.
    pure function place_of(name) result(expression)
       character(*), intent(in) :: name
       character(:), allocatable :: expression
@@ -156,7 +156,7 @@ contains
       if (slash > 0) expression = 'to.'//expression
    end function place_of
 
-   !> Equal axes without box, view, shading.
+   !> Equal axes without box, direction of view, shading.
    pure subroutine add_look(script, camera)
       type(buffer_t), intent(inout) :: script
       type(camera_t), intent(in) :: camera
@@ -177,7 +177,7 @@ contains
       call script%line('set pm3d lighting primary 0.42 specular 0.12')
    end subroutine add_look
 
-   !> The vertices [mm], one block a kind.
+   !> The vertices [mm], one block per kind.
    pure subroutine add_blocks(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -191,7 +191,7 @@ contains
       end do
    end subroutine add_blocks
 
-   !> Whether there is anything of a kind to draw.
+   !> Whether the scene has faces or lines of a kind.
    pure logical function has_kind(list, kind)
       type(run_t), intent(in) :: list
       integer, intent(in) :: kind
@@ -206,7 +206,7 @@ contains
       character(*), intent(in) :: name
       type(run_t), intent(in) :: list
       integer, intent(in) :: kind
-      logical, intent(in) :: is_closed       !! polygons: gnuplot wants two blank lines between them
+      logical, intent(in) :: is_closed       !! polygons: gnuplot needs two blank lines between them
       character(3*longest_decimal + 3) :: line
       integer :: k, vertex, axis, used
 
@@ -260,7 +260,7 @@ contains
       call script%line("      1/0 notitle")
    end subroutine add_splot
 
-   !> Swatches and names below the picture. (gnuplot's own legend loses entries in splot when it has several columns.)
+   !> Swatches and labels below the picture. (gnuplot's own legend loses entries in splot if it has several columns.)
    pure subroutine add_legend(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
@@ -276,7 +276,7 @@ contains
       if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp, in_a_row)
    end subroutine add_legend
 
-   !> One swatch and its name.
+   !> One swatch and its label.
    pure subroutine add_entry(script, used, name, colour, height, in_a_row)
       type(buffer_t), intent(inout) :: script
       integer, intent(inout) :: used
@@ -302,7 +302,7 @@ contains
       if (kind == part_tyre) colour = '#CCCCCC'
    end function key_colour
 
-   !> The words of gnuplot for the faces of a kind.
+   !> The gnuplot fill style for the faces of a kind.
    pure function fill(kind) result(words)
       integer, intent(in) :: kind
       character(:), allocatable :: words

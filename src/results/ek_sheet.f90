@@ -1,9 +1,9 @@
-!> A table of numbers as people and spreadsheets write it: read with every mistake that is in it.
+!> A table of numbers written by hand or by a spreadsheet; the reader collects all errors in it.
 !>
-!> Lines with # are comments, empty lines (and lines of separators alone) are passed over, the first other line holds the
-!> heads. Columns are separated by commas, or by semicolons or tabs where the line of heads has one. Read as meant are
-!> also a byte order mark, a first line `sep=;`, line ends of Windows and old Macs, heads and numbers in double quotes,
-!> empty cells behind the last head, and decimal commas where the commas separate nothing.
+!> Lines with # are comments, empty lines (and lines of separators alone) are skipped, and the first other line has the
+!> heads. Columns are separated by commas, or by semicolons or tabs if the line of heads has one. Also accepted are a
+!> byte order mark, a first line `sep=;`, line ends of Windows and old Macs, heads and numbers in double quotes,
+!> empty cells behind the last head, and decimal commas if commas do not separate columns.
 module ek_sheet
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -19,17 +19,17 @@ module ek_sheet
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
-   real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are slips, and could overflow later
-   integer, parameter :: most_told = 100        !! mistakes in the rows of one table
+   real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are errors, and could overflow later
+   integer, parameter :: most_told = 100        !! errors reported in the rows of one table
 
-   !> What a file holds. Rows with a mistake are not among the values.
+   !> The content of a file. Rows with an error are not among the values.
    type :: sheet_t
       character(:), allocatable :: file
-      integer :: head_line = 0                          !! 0: there are no heads
-      character(name_length), allocatable :: heads(:)   !! '' where a column has none
+      integer :: head_line = 0                          !! 0: no heads
+      character(name_length), allocatable :: heads(:)   !! '' for a column without head
       real(wp), allocatable :: values(:, :)             !! (column, row)
       type(message_list_t) :: head_mistakes, row_mistakes
-      integer :: untold = 0                             !! mistakes beyond `most_told`
+      integer :: untold = 0                             !! number of errors beyond `most_told`
       character :: separator = ','
       logical :: has_decimal_commas = .false., has_decimal_points = .false.
    end type sheet_t
@@ -38,16 +38,16 @@ module ek_sheet
    type :: cells_t
       integer :: count = 0
       character(:), allocatable :: text(:)
-      logical :: is_closed = .true.                     !! every quote that was opened
+      logical :: is_closed = .true.                     !! every quote is closed
    end type cells_t
 
 contains
 
-   !> Reads a file; what is wrong with its content is kept in the sheet.
+   !> Reads a file; errors in its content are kept in the sheet.
    subroutine read_sheet(path, sheet, error)
       character(*), intent(in) :: path
       type(sheet_t), intent(out) :: sheet
-      type(error_t), allocatable, intent(out) :: error      !! exit_file: it cannot be read
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: the file cannot be read
       character(:), allocatable :: text, content
       integer :: first, last, line, rows
       logical, allocatable :: is_unnamed(:)
@@ -76,7 +76,7 @@ contains
          if (is_comment(content, sheet) .or. verify(content, ' ,;"'//tab) == 0) then
             continue
          else if (sheet%head_line == 0 .and. index(content, 'sep=') == 1 .and. len_trim(content) == 5) then
-            sheet%separator = content(5:5)               ! Excel's own line; what stands in the heads decides
+            sheet%separator = content(5:5)               ! a line of Excel; the line of heads decides
          else if (sheet%head_line == 0) then
             sheet%head_line = line
             call take_heads(content, sheet)
@@ -92,7 +92,7 @@ contains
       call judge_heads(sheet, rows, is_unnamed)
    end subroutine read_sheet
 
-   !> All mistakes, heads first.
+   !> All errors, heads first.
    subroutine mistakes_of(sheet, mistakes)
       type(sheet_t), intent(in) :: sheet
       type(message_list_t), intent(inout) :: mistakes
@@ -104,7 +104,7 @@ contains
       do k = 1, sheet%row_mistakes%count()
          call mistakes%add(sheet%row_mistakes%line(k))
       end do
-      if (sheet%untold > 0) call mistakes%add(sheet%file//': and '//plural(sheet%untold, 'more mistake', 'more mistakes'))
+      if (sheet%untold > 0) call mistakes%add(sheet%file//': and '//plural(sheet%untold, 'more error', 'more errors'))
    end subroutine mistakes_of
 
    !> 'table.csv:1: ', for a message about the heads.
@@ -114,7 +114,7 @@ contains
       words = sheet%file//':'//str(sheet%head_line)//': '
    end function head_place
 
-   !> Whether a line says nothing: it begins with #, but not with one of the errors that a spreadsheet writes into cells.
+   !> Whether a line is a comment: it begins with #, but not with an error value of a spreadsheet.
    pure logical function is_comment(content, sheet)
       character(*), intent(in) :: content
       type(sheet_t), intent(in) :: sheet
@@ -129,7 +129,7 @@ contains
       end do
    end function is_comment
 
-   !> The line of heads also says what separates the columns.
+   !> Reads the line of heads, which also defines the separator of the columns.
    subroutine take_heads(content, sheet)
       character(*), intent(in) :: content
       type(sheet_t), intent(inout) :: sheet
@@ -145,7 +145,7 @@ contains
       end if
       call cut(content, sheet%separator, cells)
       if (.not. cells%is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
-      do while (cells%text(cells%count) == '')     ! separators behind the last head; the line is not of separators alone
+      do while (cells%text(cells%count) == '')     ! separators behind the last head; the line has other characters too
          cells%count = cells%count - 1
       end do
       deallocate (sheet%heads)
@@ -155,7 +155,7 @@ contains
       end do
    end subroutine take_heads
 
-   !> Where commas separate nothing they may be decimal commas, unless there are decimal points too.
+   !> Commas that separate no columns may be decimal commas, unless there are decimal points too.
    pure subroutine find_decimal_marks(text, sheet)
       character(*), intent(in) :: text
       type(sheet_t), intent(inout) :: sheet
@@ -174,13 +174,13 @@ contains
       end do
    end subroutine find_decimal_marks
 
-   !> One line of numbers; it joins the rows when there is nothing wrong with it.
+   !> Reads one line of numbers and adds it to the rows if it has no error.
    subroutine take_row(content, line, sheet, rows, is_unnamed)
       character(*), intent(in) :: content
       integer, intent(in) :: line
       type(sheet_t), intent(inout) :: sheet
       integer, intent(inout) :: rows
-      logical, intent(inout) :: is_unnamed(:)     !! a column without a head that holds something
+      logical, intent(inout) :: is_unnamed(:)     !! columns without a head that have values
       type(cells_t) :: cells
       character(:), allocatable :: fault, where
       real(wp) :: row(size(sheet%heads))
@@ -194,7 +194,7 @@ contains
          return
       end if
       columns = size(sheet%heads)
-      do while (cells%count > columns)             ! empty cells behind the last head say nothing
+      do while (cells%count > columns)             ! empty cells behind the last head are ignored
          if (cells%text(cells%count) /= '') exit
          cells%count = cells%count - 1
       end do
@@ -222,7 +222,7 @@ contains
       sheet%values(:, rows) = row
    end subroutine take_row
 
-   !> The number in a cell, or what is wrong with it.
+   !> The number in a cell, or the error in it.
    subroutine read_number(cell, sheet, value, fault)
       character(*), intent(in) :: cell
       type(sheet_t), intent(in) :: sheet
@@ -249,26 +249,26 @@ contains
          return
       end if
       if (cell == '') then
-         fault = 'expected a number, found nothing'
+         fault = 'expected a number, found an empty cell'
       else if (verify(cell, '+-.0123456789eEdD') == 0 .and. scan(cell, '0123456789') > 0 .and. scan(cell, 'eEdD') > 1) then
          fault = 'expected a number below '//str(most)//', found '//quoted(cell)
       else
          fault = 'expected a number, found '//quoted(cell)
          blank = scan(cell, ' abcdfghijklmnopqrstuvwxyzABCDFGHIJKLMNOPQRSTUVWXYZ%')
          if (index(cell, ',') > 0 .and. index(cell, '.') > 0) then
-            fault = fault//' (write numbers without separators of thousands)'
+            fault = fault//' (write numbers without thousands separators)'
          else if (index(cell, ',') > 0) then
             fault = fault//' (write a decimal point, here and in all numbers of the file)'
          else if (index(cell, char(226)//char(136)//char(146)) == 1 .or. index(cell, char(226)//char(128)//char(147)) == 1) then
             fault = fault//' (write the minus sign as -)'
          else if (blank > 1) then
             call get_decimal(cell(:blank - 1), ignored, is_number)
-            if (is_number) fault = fault//' (write the number alone; its unit is the one in the name of the column)'
+            if (is_number) fault = fault//' (write the number alone; its unit is given in the column name)'
          end if
       end if
    end subroutine read_number
 
-   !> What is wrong with the heads themselves, and whether there are rows.
+   !> Checks the heads, and that there are rows.
    subroutine judge_heads(sheet, rows, is_unnamed)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: rows
@@ -276,7 +276,7 @@ contains
       integer :: k, j
 
       if (sheet%head_line == 0) then
-         call sheet%head_mistakes%add(sheet%file//': there is no line of column names')
+         call sheet%head_mistakes%add(sheet%file//': the line of column names is missing')
          return
       end if
       do k = 1, size(sheet%heads)
@@ -287,7 +287,7 @@ contains
          do j = 1, k - 1
             if (sheet%heads(j) /= sheet%heads(k)) cycle
             call sheet%head_mistakes%add(head_place(sheet)//'the column '//quoted(sheet%heads(k))// &
-               ' is there twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
+               ' is given twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
             exit
          end do
       end do
@@ -296,7 +296,7 @@ contains
          call sheet%row_mistakes%add(sheet%file//': the table has no rows')
    end subroutine judge_heads
 
-   !> Notes a mistake in a row; of very many the first.
+   !> Keeps an error in a row; of very many errors the first.
    subroutine complain(sheet, what)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what
@@ -308,7 +308,7 @@ contains
       end if
    end subroutine complain
 
-   !> Cuts a line at its separators, those in double quotes apart; blanks around a cell and its quotes go away.
+   !> Cuts a line at its separators outside double quotes; removes blanks around a cell and its quotes.
    subroutine cut(content, separator, cells)
       character(*), intent(in) :: content
       character, intent(in) :: separator

@@ -1,7 +1,7 @@
-!> A picture drawn by gnuplot as SVG, made fit to stand inside a page.
+!> Adapts a picture drawn by gnuplot as SVG for embedding in a page.
 !>
-!> Many pictures share one page, so every id gets a prefix of its own; prolog, document type, scripts, mouse events and
-!> fixed sizes go; the view box stays, so that the page decides the width.
+!> Many pictures share one page, so the ids of each get a unique prefix; prolog, document type, scripts, mouse events and
+!> fixed sizes are removed; the view box is kept, so that the page determines the width.
 module ek_svg
    use ek_letters, only: as_utf8
    use ek_buffer, only: buffer_t
@@ -11,11 +11,11 @@ module ek_svg
 
 contains
 
-   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' when the text holds none.
+   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the text has none.
    pure function embedded_svg(text, prefix, title) result(svg)
       character(*), intent(in) :: text       !! content of the file
       character(*), intent(in) :: prefix     !! unique in the page: letters and digits
-      character(*), intent(in) :: title      !! what the picture shows, for who cannot see it
+      character(*), intent(in) :: title      !! description of the picture, for screen readers
       character(:), allocatable :: svg
       type(buffer_t) :: out
       character(:), allocatable :: box
@@ -29,7 +29,7 @@ contains
       box = attribute(text(at:head), 'viewBox')
       if (len(box) == 0) box = '0 0 '//number_of(attribute(text(at:head), 'width'))//' '// &
          number_of(attribute(text(at:head), 'height'))
-      ! no xmlns: a page knows what svg and xlink are
+      ! no xmlns: HTML defines svg and xlink
       call out%add('<svg viewBox="'//box//'" role="img" aria-label="'//escape_html(title)//'">')
       at = head + 1
       do while (at < finish)
@@ -52,7 +52,7 @@ contains
             at = past(text, at, '-->')
          else
             last = past(text, at, '>') - 1
-            if (begins(text, at, '<g ')) then            ! gnuplot writes many groups with nothing in them
+            if (begins(text, at, '<g ')) then            ! gnuplot writes many empty groups
                if (begins(text, last + 2, '</g>') .and. text(last + 1:last + 1) == achar(10)) then
                   at = last + 6
                   cycle
@@ -66,7 +66,7 @@ contains
       svg = out%text()
    end function embedded_svg
 
-   !> A point symbol that nothing refers to: gnuplot defines all sixteen in every picture.
+   !> Whether a point symbol is unused: gnuplot defines all sixteen in every picture.
    pure logical function is_unused(text, tag)
       character(*), intent(in) :: text, tag
       character(:), allocatable :: id
@@ -77,7 +77,7 @@ contains
       if (len(id) > 0) is_unused = index(text, '#'//id//"'") == 0
    end function is_unused
 
-   !> Text between tags; what is only blank becomes one line end.
+   !> Text between tags; blank text becomes one line end.
    pure subroutine add_words(out, words)
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: words
@@ -124,7 +124,7 @@ contains
          else if (begins(tag, at, "href='#") .or. begins(tag, at, 'href="#')) then
             call out%add(tag(at:at + 6)//prefix//'_')
             at = at + 7
-         else if (begins(tag, at, ':Bold"')) then          ! gnuplot's way to name a font
+         else if (begins(tag, at, ':Bold"')) then          ! the form in which gnuplot writes a bold font
             call out%add('" font-weight="600"')
             at = at + 6
          else if (begins(tag, at, 'url(#')) then
@@ -137,7 +137,7 @@ contains
       end do
    end subroutine add_tag
 
-   !> Whether a word stands at a place of a text.
+   !> Whether a word begins at a position of a text.
    pure logical function begins(text, at, word)
       character(*), intent(in) :: text, word
       integer, intent(in) :: at
@@ -146,7 +146,7 @@ contains
       if (at + len(word) - 1 <= len(text)) begins = text(at:at + len(word) - 1) == word
    end function begins
 
-   !> The place behind the next `word`, or behind the text.
+   !> The position behind the next `word`, or behind the text.
    pure integer function past(text, at, word)
       character(*), intent(in) :: text, word
       integer, intent(in) :: at
@@ -159,7 +159,7 @@ contains
       end if
    end function past
 
-   !> Value of an attribute, '' when it is not there.
+   !> Value of an attribute, '' if it is missing.
    pure function attribute(tag, name) result(value)
       character(*), intent(in) :: tag, name
       character(:), allocatable :: value
@@ -173,7 +173,7 @@ contains
       if (last > 0) value = tag(at + 1:at + last - 1)
    end function attribute
 
-   !> The leading digits of '460px'.
+   !> The leading digits of a text such as '460px'.
    pure function number_of(text) result(digits)
       character(*), intent(in) :: text
       character(:), allocatable :: digits
@@ -181,8 +181,8 @@ contains
       digits = text(:verify(text//' ', '0123456789.') - 1)
    end function number_of
 
-   !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are no UTF-8, as in the name of
-   !> a file, would make the page invalid and are replaced.
+   !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file
+   !> name, would make the page invalid and are replaced.
    pure function escape_html(words) result(escaped)
       character(*), intent(in) :: words
       character(:), allocatable :: escaped

@@ -1,4 +1,4 @@
-!> A table of results: named columns, one row per state, and the lines that say where it came from.
+!> A table of results: named columns, one row per state, and header lines on its origin.
 module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
@@ -20,7 +20,7 @@ module ek_table
 
 contains
 
-   !> A table of `rows` rows, all values "not a number" until they are set.
+   !> A table of `rows` rows with all values "not a number".
    pure type(table_t) function new_table(columns, rows) result(table)
       character(*), intent(in) :: columns(:)    !! without comma, quote or line end
       integer, intent(in) :: rows
@@ -35,7 +35,7 @@ contains
       end do
    end function new_table
 
-   !> Place of a column, 0 when there is none of this name. Names are compared letter by letter.
+   !> Index of a column, 0 if there is none of this name. Names are case-sensitive.
    pure integer function column_index(table, name) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -45,7 +45,7 @@ contains
       end do
    end function column_index
 
-   !> The values of a column from the first row to the last; no values when there is no such column.
+   !> The values of a column from the first row to the last; empty if there is no such column.
    pure function column(table, name) result(values)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -60,7 +60,7 @@ contains
       end if
    end function column
 
-   !> Least and largest finite value of a column; both nan when it has none or is not there.
+   !> Minimum and maximum finite value of a column; both nan if it has none or does not exist.
    pure function column_range(table, name) result(range)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
@@ -76,13 +76,13 @@ contains
       end associate
    end function column_range
 
-   !> Rows of the table.
+   !> Number of rows of the table.
    pure integer function row_count(table)
       type(table_t), intent(in) :: table
       row_count = size(table%values, 2)
    end function row_count
 
-   !> Keep rows first…last only: what was reached before a state was not found.
+   !> Keeps rows first…last only: the states reached before one did not converge.
    pure subroutine keep_rows(table, first, last)
       type(table_t), intent(inout) :: table
       integer, intent(in) :: first, last

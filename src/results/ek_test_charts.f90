@@ -1,7 +1,7 @@
-!> The charts that an engineer expects of a test, side by side, in the order of ek_quantity: one a quantity, then springs,
-!> bushings and bars together.
+!> The standard charts of a test, side by side, in the order of ek_quantity: one per quantity, then motion ratios, springs,
+!> anti-roll bars and bushings together.
 !>
-!> A quantity whose column the table does not hold, or that never has a value, is left out.
+!> Quantities without a column or without a value are omitted.
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -13,8 +13,8 @@ module ek_test_charts
    private
    public :: test_charts, quantity_chart
 
-   real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is as good as none, and passes infinity
-   integer, parameter :: most_curves = 8       !! in one chart, then it becomes a thicket
+   real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
+   integer, parameter :: most_curves = 8       !! in one chart, for legibility
 
 contains
 
@@ -47,7 +47,7 @@ contains
       if (size(chart%traces) > 0) call append_chart(charts, chart)
    end subroutine append_if_drawn
 
-   !> A chart of a test without curves yet. The rows of a table of loads are no path: points.
+   !> A chart of a test, still without curves. The rows of a load table are no path and are drawn as points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, title, label
@@ -56,7 +56,7 @@ contains
       chart%has_points = test%kind == 'table'
    end function chart_of
 
-   !> A quantity of every wheel, or of the axle, over the abscissa of the test; without curves where there is none.
+   !> A quantity of every wheel, or of the axle, over the abscissa of the test; without curves if there is no such column.
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
       type(test_result_t), intent(in) :: test
       type(quantity_t), intent(in) :: quantity
@@ -77,11 +77,11 @@ contains
       end do
    end function quantity_chart
 
-   !> All columns with an ending, named by what stands before it; quantities of wheels and joints apart.
+   !> All columns with an ending, labelled by the name before it, except those of the wheels and the axle.
    pure type(chart_t) function ending_chart(test, name, ending, title, label, noise) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, ending, title, label
-      real(wp), intent(in) :: noise              !! unit of the column; a smaller span is drawn flat
+      real(wp), intent(in) :: noise              !! in units of the column; a smaller span is drawn flat
       character(name_length) :: stem
       integer :: k, place
 
@@ -99,7 +99,7 @@ contains
       end do
    end function ending_chart
 
-   !> The colour of the left twin of a right element, else the next that is free.
+   !> The colour of the corresponding left element for a right one, otherwise the next free colour.
    pure integer function colour_of(chart, name) result(colour)
       type(chart_t), intent(in) :: chart
       character(*), intent(in) :: name
@@ -115,7 +115,7 @@ contains
       end do
    end function colour_of
 
-   !> Magnitude of the force of every bushing, the strongest ones when there are many.
+   !> Magnitude of the force of every bushing; of many bushings those with the largest force.
    pure type(chart_t) function bushing_chart(test) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), parameter :: ending = '_fx_n'
@@ -168,7 +168,7 @@ contains
       end do
    end function bushing_chart
 
-   !> A column as a curve, where it has any value.
+   !> Adds a column as a curve if it has a value.
    pure subroutine add_column(chart, test, wheel, place, title, colour, dash)
       type(chart_t), intent(inout) :: chart
       type(test_result_t), intent(in) :: test
@@ -192,7 +192,7 @@ contains
       call add_trace(chart, trace)
    end subroutine add_column
 
-   !> Values along the abscissa for a wheel; none when the table lacks it.
+   !> Values along the abscissa for a wheel; empty if the table lacks it.
    pure function abscissa_of(test, wheel) result(values)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: wheel
@@ -208,7 +208,7 @@ contains
       where (ieee_is_finite(values)) values = values*test%abscissa_size
    end function abscissa_of
 
-   !> The wheel on whose side an element is, by its name; the first when the name does not say.
+   !> The wheel on the side of an element, from the name of the element; the first wheel if the name has no side.
    pure integer function side_of(test, name) result(wheel)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name

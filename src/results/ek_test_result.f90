@@ -1,6 +1,6 @@
-!> A test as it was run: its table, and what one has to know to read it.
+!> A test that was run: its table and the data needed to interpret it.
 !>
-!> Charts, gradients and pages are made from this alone; a column that a table does not hold is left out.
+!> Charts, gradients and pages are made from this alone; missing columns are omitted.
 module ek_test_result
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -13,33 +13,34 @@ module ek_test_result
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
    character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
-   real(wp), parameter :: least_stroke = 1.0_wp   !! mm; a wheel that moves less is not drawn over its travel
+   real(wp), parameter :: least_stroke = 1.0_wp   !! mm; with less travel the abscissa is the load factor
 
    type :: test_result_t
-      character(:), allocatable :: name      !! of the case, unique in a report
+      character(:), allocatable :: name      !! name of the case, unique in a report
       character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; 'other'
-      character(:), allocatable :: title     !! for a heading
-      character(:), allocatable :: file      !! of the table, in the folder of the report
-      !> What charts stand over: a column, of each wheel or of all; its label with unit; unit per unit of the column
+      character(:), allocatable :: title     !! heading
+      character(:), allocatable :: file      !! file of the table, in the folder of the report
+      !> Abscissa of the charts: a column of each wheel or of the axle; its label with unit; unit of the label per unit
+      !> of the column
       character(:), allocatable :: abscissa, label
       real(wp) :: abscissa_size = 1.0_wp
-      real(wp) :: factor_size = 1.0_wp       !! what 1 in the column `factor` is, in N, N m or mm
+      real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
       logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
       character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
       integer, allocatable :: sides(:)       !! of the wheels: −1 left, +1 right
-      logical :: is_run = .true.             !! else the model could not be solved, and the table is empty
+      logical :: is_run = .true.             !! false: the model could not be solved, and the table is empty
       type(table_t) :: table
-      type(message_list_t) :: remarks        !! what failed or is doubtful, in words
+      type(message_list_t) :: remarks        !! messages on failed or doubtful states
    end type test_result_t
 
 contains
 
-   !> The line of a table's header without which its signs cannot be read: the axes of its vectors, and on which side a
-   !> wheel stands whose columns have no prefix.
+   !> The header line of a table that defines its signs: the axes of its vectors, and the side of a single wheel, whose
+   !> columns have no prefix.
    pure function frame_line(is_iso, side) result(line)
       logical, intent(in) :: is_iso
-      integer, intent(in) :: side           !! of a single wheel: −1 left, +1 right; 0: there are two or none
+      integer, intent(in) :: side           !! of a single wheel: −1 left, +1 right; 0: two wheels or none
       character(:), allocatable :: line
 
       line = axes_mark//'x-rear'
@@ -47,7 +48,7 @@ contains
       if (side > 0) line = line//right_mark
    end function frame_line
 
-   !> What a line of a header says of axes and side; any other line changes nothing.
+   !> Reads axes and side from a header line; other lines change nothing.
    pure subroutine read_frame_line(line, is_iso, side)
       character(*), intent(in) :: line
       logical, intent(inout) :: is_iso
@@ -58,10 +59,10 @@ contains
       if (index(line, right_mark) > 0) side = 1
    end subroutine read_frame_line
 
-   !> Sets prefixes and sides from the columns, the left wheel first. A single wheel has no prefix; its side is as told.
+   !> Sets prefixes and sides from the columns, the left wheel first. A single wheel has no prefix; its side is given.
    pure subroutine find_wheels(test, side)
       type(test_result_t), intent(inout) :: test
-      integer, intent(in), optional :: side      !! of a single wheel; none: left
+      integer, intent(in), optional :: side      !! of a single wheel; absent: left
       integer :: k, place
 
       if (allocated(test%prefixes)) deallocate (test%prefixes)
@@ -84,7 +85,7 @@ contains
       test%sides = test%sides([2, 1])
    end subroutine find_wheels
 
-   !> Sets what the charts of a kind of test stand over, from what the table holds. What the caller has set stays.
+   !> Sets the abscissa of the charts for a kind of test, if the table has its column. An abscissa already set is kept.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
 
@@ -106,9 +107,9 @@ contains
          call set_factor('lateral force [N]    (+ to the right)')
          if (test%is_anti) call set_factor('lateral force on the left wheel [N]    (+ to the right)')
       case ('braking')
-         call set_factor('braking force a wheel [N]    (+ rearward)')
+         call set_factor('braking force per wheel [N]    (+ rearward)')
       case ('traction')
-         call set_factor('traction force a wheel [N]    (+ forward)')
+         call set_factor('traction force per wheel [N]    (+ forward)')
       case ('aligning_torque')
          call set_factor('aligning torque [N m]    (+ to the left)')
          if (test%is_anti) call set_factor('aligning torque on the left wheel [N m]    (+ to the left)')
@@ -154,7 +155,7 @@ contains
 
    end subroutine choose_abscissa
 
-   !> The column of a wheel, or of the axle where the wheel has none of this name; 0 when there is neither.
+   !> The column of a wheel, or of the axle if the wheel has none of this name; 0 if there is neither.
    pure integer function wheel_column(test, wheel, name) result(place)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: wheel
@@ -177,7 +178,7 @@ contains
       end do
    end function has_column
 
-   !> Which rows hold a state that was found.
+   !> The rows of converged states.
    pure function converged_rows(table) result(is_good)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -247,7 +248,7 @@ contains
       row = 0
    end function design_row
 
-   !> 'left' of 'left_'; the only wheel needs no name.
+   !> 'left' for 'left_'; '' for a single wheel.
    pure function wheel_word(prefix) result(word)
       character(*), intent(in) :: prefix
       character(:), allocatable :: word

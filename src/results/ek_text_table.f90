@@ -1,6 +1,6 @@
-!> A table of words as comma-separated text (RFC 4180): a line of column names, one line per row.
+!> A table of texts as comma-separated values (RFC 4180): a line of column names, one line per row.
 !>
-!> A cell that holds a comma, a quote or a line end stands between quotes. Lines that begin with # are skipped.
+!> A cell with a comma, a quote or a line end is quoted. Lines that begin with # are skipped.
 module ek_text_table
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, plural
@@ -18,7 +18,7 @@ module ek_text_table
    end type cell_t
 
    type :: text_table_t
-      character(:), allocatable :: file             !! where it was read; for messages
+      character(:), allocatable :: file             !! source file, for messages
       character(32), allocatable :: columns(:)
       type(cell_t), allocatable :: cells(:, :)      !! (column, row), the first `rows` rows
       integer, allocatable :: lines(:)              !! line of each row in its file
@@ -66,7 +66,7 @@ contains
       end do
    end subroutine add_row
 
-   !> The cell of a row in the column of a name; '' where there is no such column.
+   !> The cell of a row in a named column; '' if there is no such column.
    pure function cell_of(table, row, column) result(text)
       type(text_table_t), intent(in) :: table
       integer, intent(in) :: row
@@ -102,7 +102,7 @@ contains
       text = buffer%text()
    end function text_table_csv
 
-   !> Between quotes where it has to be.
+   !> A cell, quoted if necessary.
    pure function protected_cell(text) result(cell)
       character(*), intent(in) :: text
       character(:), allocatable :: cell
@@ -122,7 +122,7 @@ contains
    subroutine read_text_table(path, table, error)
       character(*), intent(in) :: path
       type(text_table_t), intent(out) :: table
-      type(error_t), allocatable, intent(out) :: error   !! exit_file: path:line: what is wrong
+      type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line
       type(cell_t), allocatable :: fields(:)
       character(:), allocatable :: text
       integer :: at, line, first_line, used, k
@@ -145,7 +145,7 @@ contains
          end if
          call take_record(text, at, line, fields, used)
          if (used < 1) then
-            call fail(error, exit_file, path//':'//str(first_line)//': a quoted cell has no end')
+            call fail(error, exit_file, path//':'//str(first_line)//': a quoted cell is not closed')
             return
          end if
          if (.not. has_names) then
@@ -167,10 +167,10 @@ contains
             call move_alloc(fields(k)%text, table%cells(k, table%rows)%text)
          end do
       end do
-      if (.not. has_names) call fail(error, exit_file, path//': there is no line of column names')
+      if (.not. has_names) call fail(error, exit_file, path//': the line of column names is missing')
    end subroutine read_text_table
 
-   !> The cells of one record, which may run over several lines; 0 cells when a quote is left open.
+   !> The cells of one record, which may span several lines; 0 cells if a quote is not closed.
    subroutine take_record(text, at, line, fields, used)
       character(*), intent(in) :: text
       integer, intent(inout) :: at, line
