@@ -224,7 +224,7 @@ contains
       if (text == 'not a number') text = '-'
    end function number_text
 
-   !> Padded with blanks to a width; the text stands at the left or at the right.
+   !> Padded with blanks to a width; aligned left or right.
    pure function left(text, width) result(filled)
       character(*), intent(in) :: text
       integer, intent(in) :: width

@@ -56,7 +56,7 @@ contains
       text = text//reason_words(suspension, case, path, failure, kkt)
    end function failure_words
 
-   !> Of a path that is walked by its arc length: that it does not come to its end, and where it goes instead.
+   !> A path followed by its arc length that does not reach its end, with the reason.
    function arc_words(suspension, case, path, failure) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -64,22 +64,23 @@ contains
       type(failure_t), intent(in) :: failure
       character(:), allocatable :: text
 
-      text = 'the path does not come to '//place_words(suspension, case, path%value(failure%state))//' (state '// &
+      text = 'the path does not reach '//place_words(suspension, case, path%value(failure%state))//' (state '// &
          str(failure%state - 1)//'): '
       select case (failure%ending)
       case (stuck)
          text = text//'it ends at '//place_words(suspension, case, failure%reached)
       case (gone_round)
-         text = text//'it is closed and comes back to design; the other states are shared out over one round of it'
+         text = text//'it is closed and returns to design; the other states are distributed over one circuit of it'
       case (gone_far)
-         text = text//'it was followed to '//place_words(suspension, case, failure%reached)//', where a body, or the place, '// &
-            'is further from design than any suspension goes'
+         text = text//'it was followed to '//place_words(suspension, case, failure%reached)//', where a body or the swept '// &
+            'value is further from design than in any suspension'
       case default
-         text = text//'it was given up at '//place_words(suspension, case, failure%reached)//', after '//str(most_steps)//' steps'
+         text = text//'it was abandoned at '//place_words(suspension, case, failure%reached)//' after '//str(most_steps)//' steps'
       end select
    end function arc_words
 
-   !> What is singular at the last equilibrium; without a reason, what the last attempt moved and could not close.
+   !> The singularity at the last equilibrium; if none is found, the body that the last attempt moved most and the joint
+   !> furthest from closing.
    function reason_words(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -106,7 +107,7 @@ contains
       case (limit_point)
          text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))//' gives way'
          if (path%is_settled .and. is_loaded(case) .and. .not. case%follows_arc) text = text// &
-            ': drive the travel instead of the load, or walk along the path (follow = ''arc'')'
+            ': drive the travel instead of the load, or follow the path by its arc length (follow = ''arc'')'
       case (mechanism)
          text = '; the matrix is singular there: nothing holds body '//quoted(body_name(suspension, found%body))
       case default
@@ -221,7 +222,7 @@ contains
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_words
 
-   !> A line each: states with a negative stiffness, limit points and bifurcations on the path, matrices that are nearly singular.
+   !> One message each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
    subroutine stability_words(suspension, case, path, words)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -235,10 +236,10 @@ contains
             'pivot '//str(path%pivot_ratio(first), 2)//') at '//place_words(suspension, case, path%value(first))// &
             ' (column near_singular); see elastokin check')
       end if
-      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness to tell by
+      if (case%method == 'recursive') return     ! its matrix has no geometric stiffness and shows no instability
       do k = 1, path%limits
          if (path%limit_state(k) > 0) call words%add('limit point at '//place_words(suspension, case, path%limit_place(k))// &
-            ' (near state '//str(path%limit_state(k) - 1)//'): there the path turns back')
+            ' (near state '//str(path%limit_state(k) - 1)//'): the path turns back there')
       end do
       do k = 1, path%crossings
          call words%add('bifurcation at '//place_words(suspension, case, path%crossing_place(k))// &

@@ -100,8 +100,8 @@ contains
       end if
       do k = 1, size(chosen)
          if (chosen(k)%follows_arc .and. len(arguments%method) > 0 .and. arguments%method /= 'equilibrium') then
-            call fail(error, exit_usage, '--method: case '//quoted(chosen(k)%name)//' has follow = ''arc'', along which only '// &
-               'method equilibrium can walk, found '//quoted(arguments%method))
+            call fail(error, exit_usage, '--method: case '//quoted(chosen(k)%name)//' has follow = ''arc'', which requires '// &
+               'method equilibrium, found '//quoted(arguments%method))
             return
          end if
          if (len(arguments%method) > 0) chosen(k)%method = arguments%method

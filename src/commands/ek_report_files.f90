@@ -41,7 +41,7 @@ contains
 
       write (number, '(es23.15)') factor_size
       line = mark//kind//', '
-      if (is_anti) line = line//anti_mark//', '
+      if (is_anti) line = line//'opposed ('//anti_mark//'), '
       line = line//size_mark//trim(adjustl(number))
    end function test_line
 

@@ -111,7 +111,7 @@ contains
       call end_section(page)
    end subroutine add_key_numbers
 
-   !> One or two cells of numbers; a value of the axle stands in the first.
+   !> One or two cells of numbers; a value of the axle is in the first.
    subroutine add_values(page, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
       logical, intent(in) :: has_sides, is_of_axle

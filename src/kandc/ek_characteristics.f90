@@ -69,7 +69,7 @@ module ek_characteristics
       real(wp) :: jacking(2) = 0.0_wp          !! (phase): vertical force per lateral force, patch heights held
       real(wp) :: anti_brake = 0.0_wp, anti_drive = 0.0_wp    !! −: anti-dive, anti-lift (drive) or anti-lift (brake), anti-squat
       real(wp) :: brake_travel = 0.0_wp, drive_travel = 0.0_wp           !! wheel travel per g [m]
-      real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), in phase, at the wheel centre [N/m, N m/rad]
+      real(wp) :: stiffness(6) = 0.0_wp        !! 1/C(i,i), parallel loads, at the wheel centre [N/m, N m/rad]
    end type wheel_characteristics_t
 
    !> Quantities of both wheels together.

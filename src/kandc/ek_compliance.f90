@@ -1,6 +1,6 @@
 !> The response of wheels and springs to small loads at one equilibrium: the compliance matrix and related responses.
 !>
-!> With the whole tangent K = [T Φqᵀ; Φq 0] of a state, ports P (what is read) and loads B (what is applied), the
+!> With the whole tangent K = [T Φqᵀ; Φq 0] of a state, ports P (displacements) and loads B (unit loads), the
 !> response is R = Pᵀ K⁻¹ B. The ports are the six displacements [x y z, rotations about x y z] of every wheel centre in
 !> global axes, then the length of every axial spring (not of dampers, stops, torsion springs). Loads are the unit
 !> loads of the same ports (virtual work: B = P; for a spring a pair of forces that pushes its ends apart), then a

@@ -217,7 +217,7 @@ contains
       ratio = motion_ratio(compliance%response(:n, :n), length)
    end function length_ratio
 
-   !> Response of the wheel centre per vertical force on every wheel: the third column of C, in phase. [m/N, rad/N]
+   !> Response of the wheel centre per vertical force on every wheel: the third column of C, parallel loads. [m/N, rad/N]
    pure function in_phase(compliance, place) result(column)
       type(compliance_t), intent(in) :: compliance     !! known
       integer, intent(in) :: place

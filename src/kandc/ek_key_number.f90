@@ -14,7 +14,7 @@ module ek_key_number
 
 contains
 
-   !> What stands for a number that a test does not give.
+   !> The value of a missing number.
    pure real(wp) function nothing()
       nothing = ieee_value(1.0_wp, ieee_quiet_nan)
    end function nothing

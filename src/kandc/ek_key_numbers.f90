@@ -17,11 +17,11 @@ module ek_key_numbers
    !> The source of a key number.
    type :: source_t
       character(34) :: group = ''
-      character(52) :: quantity = ''
+      character(64) :: quantity = ''
       character(52) :: name = ''          !! column, or quantity of a gradient without its ' (fitted)'
       character(8) :: how = ''            !! 'design': column at design; 'gradient'; 'largest', 'least': over a test
       character(16) :: kind = ''          !! kind of the test; '': any
-      character(4) :: phase = ''          !! in phase 'in', anti phase 'anti'; '': any
+      character(4) :: phase = ''          !! parallel 'in', opposed 'anti'; '': any
       character(12) :: unit = ''
       character(56) :: sign = ''
       character(1) :: steered = ' '       !! 'y': only for an axle with &steering; 'n': only without
@@ -65,7 +65,7 @@ module ek_key_numbers
       '+ above the ground')]
 
    type(source_t), parameter :: rates_list(*) = [ &
-      source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'both wheels in phase'), &
+      source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'wheels parallel, in phase'), &
       source_t(rates, 'wheel rate', 'wheel rate', 'gradient', 'parallel_travel', '', 'N/mm', ''), &
       source_t(rates, 'ride rate', 'ride_rate_n_per_mm', 'design', '', '', 'N/mm', 'with the tyre'), &
       source_t(rates, 'ride frequency', 'ride_frequency_hz', 'design', '', '', 'Hz', 'ride rate and sprung mass'), &
@@ -99,16 +99,23 @@ module ek_key_numbers
       source_t(roll, 'roll rate', 'roll rate', 'gradient', 'roll', '', '', '')]
 
    type(source_t), parameter :: comply_list(*) = [ &
-      source_t(comply, 'lateral deflection, in phase', 'lateral deflection', 'gradient', 'lateral_force', 'in', '', ''), &
-      source_t(comply, 'lateral force steer, in phase', 'lateral force steer', 'gradient', 'lateral_force', 'in', '', ''), &
-      source_t(comply, 'lateral force camber, in phase', 'lateral force camber', 'gradient', 'lateral_force', 'in', '', ''), &
-      source_t(comply, 'lateral deflection, anti phase', 'lateral deflection', 'gradient', 'lateral_force', 'anti', '', ''), &
-      source_t(comply, 'lateral force steer, anti phase', 'lateral force steer', 'gradient', 'lateral_force', 'anti', '', ''), &
-      source_t(comply, 'lateral force camber, anti phase', 'lateral force camber', 'gradient', 'lateral_force', 'anti', '', ''), &
-      source_t(comply, 'aligning torque steer, in phase', 'aligning torque steer', 'gradient', 'aligning_torque', 'in', '', ''), &
-      source_t(comply, 'aligning torque camber, in phase', 'aligning torque camber', 'gradient', 'aligning_torque', &
+      source_t(comply, 'lateral deflection, parallel (in phase)', 'lateral deflection', 'gradient', 'lateral_force', 'in', &
+      '', ''), &
+      source_t(comply, 'lateral force steer, parallel (in phase)', 'lateral force steer', 'gradient', 'lateral_force', 'in', &
+      '', ''), &
+      source_t(comply, 'lateral force camber, parallel (in phase)', 'lateral force camber', 'gradient', 'lateral_force', &
       'in', '', ''), &
-      source_t(comply, 'aligning torque steer, anti phase', 'aligning torque steer', 'gradient', 'aligning_torque', &
+      source_t(comply, 'lateral deflection, opposed (anti phase)', 'lateral deflection', 'gradient', 'lateral_force', &
+      'anti', '', ''), &
+      source_t(comply, 'lateral force steer, opposed (anti phase)', 'lateral force steer', 'gradient', 'lateral_force', &
+      'anti', '', ''), &
+      source_t(comply, 'lateral force camber, opposed (anti phase)', 'lateral force camber', 'gradient', 'lateral_force', &
+      'anti', '', ''), &
+      source_t(comply, 'aligning torque steer, parallel (in phase)', 'aligning torque steer', 'gradient', 'aligning_torque', &
+      'in', '', ''), &
+      source_t(comply, 'aligning torque camber, parallel (in phase)', 'aligning torque camber', 'gradient', 'aligning_torque', &
+      'in', '', ''), &
+      source_t(comply, 'aligning torque steer, opposed (anti phase)', 'aligning torque steer', 'gradient', 'aligning_torque', &
       'anti', '', ''), &
       source_t(comply, 'braking deflection', 'braking deflection', 'gradient', 'braking', '', '', ''), &
       source_t(comply, 'braking steer', 'braking steer', 'gradient', 'braking', '', '', ''), &
@@ -119,21 +126,22 @@ module ek_key_numbers
 
    ! at design, from the compliance matrix
    type(source_t), parameter :: held_list(*) = [ &
-      source_t(held, 'lateral deflection, in phase, load held', 'lateral_in_load_held_deflection_mm_per_kn', 'design', &
+      source_t(held, 'lateral deflection, parallel (in phase), load held', 'lateral_in_load_held_deflection_mm_per_kn', 'design', &
       '', '', 'mm/kN', '+ patch moves with the force'), &
-      source_t(held, 'lateral deflection, in phase, height held', 'lateral_in_height_held_deflection_mm_per_kn', 'design', &
-      '', '', 'mm/kN', '+ patch moves with the force'), &
-      source_t(held, 'lateral force steer, in phase, load held', 'lateral_in_load_held_steer_deg_per_kn', 'design', &
+      source_t(held, 'lateral deflection, parallel (in phase), height held', 'lateral_in_height_held_deflection_mm_per_kn', &
+      'design', '', '', 'mm/kN', '+ patch moves with the force'), &
+      source_t(held, 'lateral force steer, parallel (in phase), load held', 'lateral_in_load_held_steer_deg_per_kn', 'design', &
       '', '', 'deg/kN', '+ to the left under a force to the right'), &
-      source_t(held, 'lateral force steer, in phase, height held', 'lateral_in_height_held_steer_deg_per_kn', 'design', &
+      source_t(held, 'lateral force steer, parallel (in phase), height held', 'lateral_in_height_held_steer_deg_per_kn', 'design', &
       '', '', 'deg/kN', '+ to the left under a force to the right'), &
-      source_t(held, 'lateral force camber, in phase, load held', 'lateral_in_load_held_camber_deg_per_kn', 'design', &
+      source_t(held, 'lateral force camber, parallel (in phase), load held', 'lateral_in_load_held_camber_deg_per_kn', 'design', &
       '', '', 'deg/kN', '+ top outward under a force to the right'), &
-      source_t(held, 'lateral force camber, in phase, height held', 'lateral_in_height_held_camber_deg_per_kn', 'design', &
-      '', '', 'deg/kN', '+ top outward under a force to the right'), &
-      source_t(held, 'aligning torque steer, in phase, load held', 'aligning_in_load_held_steer_deg_per_100nm', 'design', &
-      '', '', 'deg/100 N m', '+ to the left under a torque to the left'), &
-      source_t(held, 'aligning torque steer, in phase, height held', 'aligning_in_height_held_steer_deg_per_100nm', 'design', &
+      source_t(held, 'lateral force camber, parallel (in phase), height held', 'lateral_in_height_held_camber_deg_per_kn', &
+      'design', '', '', 'deg/kN', '+ top outward under a force to the right'), &
+      source_t(held, 'aligning torque steer, parallel (in phase), load held', 'aligning_in_load_held_steer_deg_per_100nm', &
+      'design', '', '', 'deg/100 N m', '+ to the left under a torque to the left'), &
+      source_t(held, 'aligning torque steer, parallel (in phase), height held', &
+      'aligning_in_height_held_steer_deg_per_100nm', 'design', &
       '', '', 'deg/100 N m', '+ to the left under a torque to the left'), &
       source_t(held, 'braking deflection, load held', 'braking_load_held_deflection_mm_per_kn', 'design', '', '', 'mm/kN', &
       '+ patch moves rearward'), &
@@ -145,12 +153,12 @@ module ek_key_numbers
       '+ to the left'), &
       source_t(held, 'traction wind-up, load held', 'traction_load_held_rotation_y_deg_per_kn', 'design', '', '', 'deg/kN', &
       'rotation of the carrier about y'), &
-      source_t(held, 'jacking, in phase', 'lateral_in_jacking_n_per_kn', 'design', '', '', 'N/kN', &
+      source_t(held, 'jacking, parallel (in phase)', 'lateral_in_jacking_n_per_kn', 'design', '', '', 'N/kN', &
       '+ the ground pushes up under a force to the right'), &
       source_t(elastic, 'caster, elastic axis', 'instant_caster_deg', 'design', '', '', 'deg', &
-      '+ leans rearward at the top', 'n'), &
+      '+ top rearward', 'n'), &
       source_t(elastic, 'kingpin inclination, elastic axis', 'instant_kingpin_inclination_deg', 'design', '', '', 'deg', &
-      '+ leans inward at the top', 'n'), &
+      '+ top inward', 'n'), &
       source_t(elastic, 'scrub radius, elastic axis', 'instant_scrub_radius_mm', 'design', '', '', 'mm', &
       '+ inboard of the patch', 'n'), &
       source_t(elastic, 'caster trail, elastic axis', 'instant_caster_trail_mm', 'design', '', '', 'mm', &

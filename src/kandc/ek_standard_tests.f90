@@ -44,7 +44,7 @@ contains
 
    contains
 
-      !> In phase, and for an axle in anti phase.
+      !> Parallel loads, and for an axle also opposed loads.
       subroutine include_both(test, offset, reach)
          character(*), intent(in) :: test
          real(wp), intent(in) :: offset, reach       !! as for include
@@ -118,10 +118,10 @@ contains
 
    end subroutine standard_tests
 
-   !> A heading for a case: 'Lateral force, anti phase, 30 mm behind the patch'.
+   !> A heading for a case: 'Lateral force, opposed (anti phase), 30 mm behind the patch'.
    pure function test_title(this, wheels) result(title)
       type(case_t), intent(in) :: this
-      integer, intent(in) :: wheels              !! of the model; one alone has no phase
+      integer, intent(in) :: wheels              !! number of wheels of the model; a single wheel has no phase
       character(:), allocatable :: title
       integer :: k
 
@@ -134,9 +134,9 @@ contains
       end do
       if (wheels > 1 .and. any(this%test == [character(15) :: 'lateral_force', 'aligning_torque', 'braking', 'traction'])) then
          if (this%is_anti) then
-            title = title//', anti phase'
+            title = title//', opposed (anti phase)'
          else
-            title = title//', in phase'
+            title = title//', parallel (in phase)'
          end if
       end if
       if (abs(this%offset) > 0.0_wp) title = title//', '//str(this%offset/millimetre)//' mm behind the patch'

@@ -191,8 +191,8 @@ contains
       where (is_good) is_good = table%values(place, :) > 0.5_wp
    end function converged_rows
 
-   !> The converged rows around design over which the factor runs one way: where a path turns back (limit points,
-   !> follow = 'arc') a factor has more than one state, and slopes and places mean the branch through design.
+   !> The converged rows around design over which the factor is monotonic: if a path turns back (limit points,
+   !> follow = 'arc') a factor has more than one state, and slopes and interpolation use the branch through design.
    pure function unfolded_rows(table) result(is_good)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
@@ -210,7 +210,7 @@ contains
 
    contains
 
-      !> The first row on one side from which the factor runs the other way; one beyond the table when there is none.
+      !> The first row on one side at which the factor changes direction; one beyond the table if there is none.
       pure integer function turn_behind(middle, step) result(row)
          integer, intent(in) :: middle, step
          real(wp) :: before, way, first_way
@@ -231,7 +231,7 @@ contains
 
    end function unfolded_rows
 
-   !> The row of the design state, where `factor` is 0; 0 when there is none that was found.
+   !> The row of the design state, with `factor` = 0; 0 if there is no converged one.
    pure integer function design_row(table) result(row)
       type(table_t), intent(in) :: table
       logical :: is_good(size(table%values, 2))
