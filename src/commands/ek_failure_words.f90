@@ -80,7 +80,7 @@ contains
    end function arc_words
 
    !> The singularity at the last equilibrium; if none is found, the body that the last attempt moved most and the joint
-   !> furthest from closing.
+   !> with the largest constraint residual.
    function reason_words(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -105,7 +105,8 @@ contains
       case (lock)
          text = '; there the joints '//joint_list(suspension, found%locks)//' lock: they cannot be assembled any further'
       case (limit_point)
-         text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))//' gives way'
+         text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))// &
+            ' moves without resistance'
          if (path%is_settled .and. is_loaded(case) .and. .not. case%follows_arc) text = text// &
             ': drive the travel instead of the load, or follow the path by its arc length (follow = ''arc'')'
       case (mechanism)
@@ -115,7 +116,7 @@ contains
          if (failure%body > 0) text = text//'; body '//quoted(body_name(suspension, failure%body))// &
             ' moved most in the last attempt ('//str(failure%moved/millimetre, 3)//' mm)'
          if (failure%row > 0) text = text//'; joint '// &
-            quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)//' is furthest from closing'
+            quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)//' has the largest constraint residual'
       end select
       text = text//stop_words(suspension, state)
       if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) text = text//'; the deck has no spring'

@@ -19,7 +19,7 @@ module ek_report_files
 
    character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
       compliance_file = 'compliance.csv'
-   character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = 'anti phase'
+   character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = '(anti phase)'
 
    !> Results to be compared: a report folder or one table.
    type :: results_t
@@ -41,7 +41,7 @@ contains
 
       write (number, '(es23.15)') factor_size
       line = mark//kind//', '
-      if (is_anti) line = line//'opposed ('//anti_mark//'), '
+      if (is_anti) line = line//'opposed '//anti_mark//', '
       line = line//size_mark//trim(adjustl(number))
    end function test_line
 
@@ -149,7 +149,7 @@ contains
          if (index(line, mark) /= 1 .or. index(line, size_mark) == 0) cycle
          at = index(line, ',')
          test%kind = line(len(mark) + 1:at - 1)
-         test%is_anti = index(line, anti_mark) > 0
+         test%is_anti = index(line, anti_mark(2:11)) > 0         ! earlier versions wrote no brackets
          call get_decimal(line(index(line, size_mark) + len(size_mark):), test%factor_size, is_number)
          if (is_number) is_number = ieee_is_finite(test%factor_size)
          if (.not. is_number) test%factor_size = 1.0_wp

@@ -127,7 +127,7 @@ contains
       end do
       if (leads_only) return
       call words%add('the deck has no spring: the wheels are carried by bushings, anti-roll bars and stops alone, '// &
-         'and the reported rates are theirs')
+         'and the reported rates are those of these elements')
    end subroutine spring_words
 
    !> Warns of a steering test that exceeds the travel of the rack.
@@ -193,7 +193,8 @@ contains
       end do
    end subroutine warn_of_drift
 
-   !> Message on states of a linear method that are marked converged = 0 because their joints are open; '' if there are none.
+   !> Message on states of a linear method that are marked converged = 0 because they violate the joint constraints;
+   !> '' if there are none.
    function open_words(case, table) result(words)
       type(case_t), intent(in) :: case
       type(table_t), intent(in) :: table         !! of sweep_table

@@ -3,7 +3,7 @@
 !>
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
 !> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance_port).
-!> Parallel ("in phase"): both wheels carry the load; opposed ("anti phase"): the other carries the opposite load. The
+!> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
 !> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_angle_rate.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held

@@ -7,9 +7,9 @@
 !>     value = size · s_y/s_x · slope
 !>
 !> where `size` converts the unit (per m, per kN, per 100 N m) and the signs depend on the side of the wheel:
-!> steer is positive to the left on both wheels (s_y = side for toe), and with opposed loads (anti phase) x is the force on the wheel
-!> itself. These are the signs of the columns of the compliance matrix: in a small window the fitted slope equals the column, on either
-!> wheel. Only in steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
+!> steer is positive to the left on both wheels (s_y = side for toe), and with opposed loads (anti phase) x is the force on
+!> the wheel itself. These are the signs of the columns of the compliance matrix: in a small window the fitted slope equals the
+!> column, on either wheel. Only in steering is the input mirrored on the right wheel (s_x): positive towards the side of the wheel.
 !>
 !> A column whose change over the window does not exceed the tolerance of Newton and rounding has the slope 0.
 module ek_gradient

@@ -65,7 +65,7 @@ module ek_key_numbers
       '+ above the ground')]
 
    type(source_t), parameter :: rates_list(*) = [ &
-      source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'wheels parallel, in phase'), &
+      source_t(rates, 'wheel rate', 'wheel_rate_n_per_mm', 'design', '', '', 'N/mm', 'wheels parallel (in phase)'), &
       source_t(rates, 'wheel rate', 'wheel rate', 'gradient', 'parallel_travel', '', 'N/mm', ''), &
       source_t(rates, 'ride rate', 'ride_rate_n_per_mm', 'design', '', '', 'N/mm', 'with the tyre'), &
       source_t(rates, 'ride frequency', 'ride_frequency_hz', 'design', '', '', 'Hz', 'ride rate and sprung mass'), &

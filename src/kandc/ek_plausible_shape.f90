@@ -42,7 +42,7 @@ contains
                associate (other => suspension%wheels(v))
                   if (other%body == wheel%body .and. other%side == wheel%side) then
                      call doubts%add(wheel%where, 'same side', thing//': body '//quoted(body_name(suspension, wheel%body))// &
-                        ' has a second wheel on the same side, '//quoted(other%name)//'; twin tyres are one wheel')
+                        ' has a second wheel on the same side, '//quoted(other%name)//'; dual tyres count as one wheel')
                   else if (other%side /= wheel%side .and. max(abs(centre(2, w) + centre(2, v)), &
                         maxval(abs(centre([1, 3], w) - centre([1, 3], v)))) > much) then
                      call doubts%add(wheel%where, 'asymmetric', thing//': its centre is not opposite to that of wheel '// &

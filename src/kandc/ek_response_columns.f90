@@ -3,8 +3,8 @@
 !> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
 !> rotation of the carrier about an axis of the deck's frame; `…_deflection` is the movement of the contact point (of the
-!> wheel centre in traction), `…_centre_deflection` that of the wheel centre. `load_held`: constant vertical forces; `height_held`: constant
-!> heights of the wheel centres. input/QUANTITIES.md defines each of them.
+!> wheel centre in traction), `…_centre_deflection` that of the wheel centre. `load_held`: constant vertical forces;
+!> `height_held`: constant heights of the wheel centres. input/QUANTITIES.md defines each of them.
 module ek_response_columns
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre

@@ -1,4 +1,4 @@
-!> Runs gnuplot in a temporary folder, for a limited time, on scripts alone. A picture is moved to its place when it is
+!> Runs gnuplot in a temporary folder, for a limited time, on scripts alone. A picture is moved to its folder when it is
 !> complete; if gnuplot fails, hangs or draws nothing, earlier pictures stay and an error is returned.
 !>
 !> gnuplot runs with -d: no settings of the user or of the machine affect a picture.

@@ -95,7 +95,7 @@ contains
       call page%body%line('</dl>')
    end subroutine add_facts
 
-   !> Begins a table with its column heads; a head that begins with '>' marks a column of numbers, aligned right.
+   !> Begins a table with its column headings; a head that begins with '>' marks a column of numbers, aligned right.
    pure subroutine begin_table(page, heads)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)

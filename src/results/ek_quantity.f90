@@ -33,7 +33,7 @@ module ek_quantity
       quantity_t('instant_scrub_radius_mm', 'Scrub radius, instant axis', 'mm    (+ axis inboard of the patch)', 0.1_wp), &
       quantity_t('instant_caster_trail_mm', 'Caster trail, instant axis', 'mm    (+ axis ahead of the patch)', 0.1_wp), &
       quantity_t('vertical_force_n', 'Wheel load', 'N    (ground on wheel, + up)', 1.0_wp), &
-      quantity_t('wheel_rate_n_per_mm', 'Wheel rate', 'N/mm    (wheels parallel, in phase)', 0.1_wp), &
+      quantity_t('wheel_rate_n_per_mm', 'Wheel rate', 'N/mm    (wheels parallel (in phase))', 0.1_wp), &
       quantity_t('ride_rate_n_per_mm', 'Ride rate', 'N/mm    (with the tyre)', 0.1_wp), &
       quantity_t('roll_centre_height_mm', 'Roll centre, height', 'mm    (+ above the ground)', 0.1_wp), &
       quantity_t('roll_centre_z_mm', 'Roll centre, vertical', 'mm    (z of the deck)', 0.1_wp), &
@@ -66,11 +66,11 @@ module ek_quantity
       quantity_t('steering_ratio', 'Steering ratio', 'steering wheel over road wheel', 0.01_wp), &
       quantity_t('steering_wheel_deg', 'Steering wheel', 'deg    (+ left)', 0.1_wp), &
       quantity_t('lateral_in_load_held_steer_deg_per_kn', 'Lateral compliance, steer', &
-      'deg/kN    (parallel, in phase, load held)', 1e-4_wp), &
+      'deg/kN    (load held, parallel (in phase))', 1e-4_wp), &
       quantity_t('lateral_in_load_held_camber_deg_per_kn', 'Lateral compliance, camber', &
-      'deg/kN    (parallel, in phase, load held)', 1e-4_wp), &
+      'deg/kN    (load held, parallel (in phase))', 1e-4_wp), &
       quantity_t('lateral_in_load_held_deflection_mm_per_kn', 'Lateral compliance, patch', &
-      'mm/kN    (parallel, in phase, load held)', 1e-3_wp)]
+      'mm/kN    (load held, parallel (in phase))', 1e-3_wp)]
 
 contains
 
@@ -134,14 +134,13 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: words
       ! the longest first: each contains parts of the next ones
-      character(*), parameter :: phases(*) = [character(32) :: '    (wheels parallel, in phase)', &
-         'wheels parallel, in phase', ', parallel (in phase)', 'parallel, in phase, ']
+      character(*), parameter :: phases(*) = [character(32) :: '    (wheels parallel (in phase))', &
+         'wheels parallel (in phase)', ', parallel (in phase)']
       integer :: k, at, length
 
       words = trim(text)
       do k = 1, size(phases)
          length = len_trim(phases(k))
-         if (k == size(phases)) length = length + 1          ! including its blank
          at = index(words, phases(k) (:length))
          if (at > 0) words = words(:at - 1)//words(at + length:)
       end do
