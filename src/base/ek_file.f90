@@ -139,7 +139,7 @@ contains
       if (present(flag)) is_true = flag
    end function is_true
 
-   !> Read a pipe, whose size is unknown beforehand, up to `most_streamed` bytes.
+   !> Read a pipe, whose size is unknown beforehand, up to the largest allowed size.
    subroutine read_stream(unit, text)
       integer, intent(in) :: unit
       character(:), allocatable, intent(inout) :: text

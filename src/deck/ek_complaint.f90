@@ -120,7 +120,7 @@ contains
          if (k > 1) text = text//new_line('a')
          text = text//self%list(order(k))%text
       end do
-      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this file a deck?'
+      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this a deck?'
    end function complaints_text
 
    !> The order of messages: files in the order of reading, then lines.

@@ -1,4 +1,4 @@
-!> A position in a text, with procedures that read from it: blanks, words, subscripts, the rest of a line.
+!> A position in a text, with procedures that read from it: blanks, identifiers, subscripts, the rest of a line.
 !>
 !> Each `take_…` moves the cursor behind the text it returns. Nothing here can fail; the scanner reports mistakes.
 module ek_cursor

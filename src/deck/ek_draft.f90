@@ -2,7 +2,7 @@
 !> look-ups that convert names to points, bodies and directions, or report a mistake.
 !>
 !> Messages have the form `file:line: group 'name': what`. If an entry was already rejected (its key
-!> is then blank here) the look-ups report nothing: one mistake, one message.
+!> is then blank here) the searches report nothing: one mistake, one message.
 module ek_draft
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted

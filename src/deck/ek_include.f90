@@ -24,7 +24,7 @@ module ek_include
 
 contains
 
-   !> Reads all records of a text and of the files it includes. Mistakes are added to `complaints`.
+   !> Reads all records of a text and of the files it includes. Mistakes are added to the list of messages.
    subroutine read_text(text, file, records, used, complaints)
       character(*), intent(in) :: text
       character(*), intent(in) :: file                        !! its path, or its label in messages

@@ -4,7 +4,7 @@
 !> all bodies are written twice, as left_<name> and right_<name>, except those in `shared`; so is every element that refers
 !> to one of them. An element whose name already has a side, or that refers to such a name, is not duplicated.
 !>
-!> The right twin is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial vector (a moment,
+!> The right side is the image under y → −y: a polar vector v becomes M v with M = diag(1, −1, 1), an axial vector (a moment,
 !> the axis of a rotation) becomes −M v. The x and z axes of a bushing are mirrored as directions, so y = z × x becomes
 !> −M y: in marker axes, forces change the sign of y, moments the signs of x and z.
 module ek_mirror
@@ -45,7 +45,7 @@ contains
       end do
    end function has_mirror
 
-   !> The records of both sides, each left twin followed by its right twin. Without &mirror: a copy.
+   !> The records of both sides, each left one followed by its right one. Without &mirror: a copy.
    subroutine mirror_records(records, used, whole, whole_used, complaints)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
@@ -216,7 +216,7 @@ contains
       is_doubled_name = any(half%is_doubled .and. half%groups == named_group(role) .and. half%names == lower(name))
    end function is_doubled_name
 
-   !> Renames a twin and its references to other twins.
+   !> Renames the record of one side and its references to others.
    subroutine rename(half, twin, record)
       type(half_t), intent(in) :: half
       integer, intent(in) :: twin
@@ -291,7 +291,7 @@ contains
       end do
    end subroutine keep_single
 
-   !> Replaces every duplicated load by both twins.
+   !> Replaces every duplicated load by those of both sides.
    subroutine expand(half, role, entry)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role

@@ -119,7 +119,7 @@ contains
             do j = 2, entry%used
                if (entry%values(j)%is_string .or. entry%values(j)%is_empty) cycle
                if (scan(lower(entry%values(j)%text(:1)), 'abcdefghijklmnopqrstuvwxyz') == 1 .and. j < entry%used) then
-                  ! an unclosed string leaves only words
+                  ! an unclosed string leaves no numbers
                   if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, '0123456789') == 0) cycle
                   words = ' (is the = after '//quoted(entry%values(j)%text)//' missing?)'
                   return

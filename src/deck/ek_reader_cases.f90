@@ -22,7 +22,7 @@ module ek_reader_cases
 
 contains
 
-   !> All cases in the order of the deck, including those with a mistake, which is reported in the draft.
+   !> All cases in the order of the deck, including those with a mistake, which is reported in the reading.
    subroutine read_cases(deck, draft, cases)
       type(deck_t), intent(in) :: deck
       type(draft_t), intent(inout) :: draft

@@ -20,7 +20,7 @@ module ek_reader_tests
 
 contains
 
-   !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported in the draft.
+   !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported in the reading.
    subroutine read_test(deck, k, draft, words, this, factor)
       type(deck_t), intent(in) :: deck
       integer, intent(in) :: k

@@ -167,7 +167,7 @@ contains
       is_given = entry_index(record, key, 0) > 0
    end function is_given
 
-   !> The name of a record as written in the deck: without the prefix of a twin.
+   !> The name of a record as written in the deck: without the prefix of a side.
    pure function own_name(record) result(name)
       type(record_t), intent(in) :: record
       character(:), allocatable :: name

@@ -24,7 +24,7 @@ module ek_scanner
 
 contains
 
-   !> All records of a text. Mistakes are added to `complaints` as `file:line: what`. Line ends of any system are accepted.
+   !> All records of a text. Mistakes are added to the list of messages as `file:line: what`. Line ends of any system are accepted.
    subroutine scan_text(written, file, records, used, complaints, source)
       character(*), intent(in) :: written
       character(*), intent(in) :: file                        !! name for messages

@@ -1,4 +1,4 @@
-!> The twins that &mirror creates from a record of the left half, one per side, with the side in their names.
+!> The two records that &mirror creates from a record of the left half, one per side, with the side in their names.
 module ek_twin
    use ek_text, only: lower
    implicit none(type, external)

@@ -1,7 +1,7 @@
 !> Follows a path by its arc length across limit points, where the load or the driven value reaches an extremum and the
 !> path turns back.
 !>
-!> The place s is an additional unknown beside the bodies z and the reactions λ. Along a step of length Δl
+!> The swept value s is an additional unknown beside the bodies z and the reactions λ. Along a step of length Δl
 !>
 !>     F(z, λ, s) = 0,    t·(Δz, Δs) = Δl        t the unit tangent at the start of the step (pseudo arc length)
 !>
@@ -45,7 +45,7 @@ module ek_arc
 
    !> A segment of the path from a to b, the position of a probe on it, and work space.
    type :: arc_t
-      real(wp) :: range = 1.0_wp                     !! range of places equivalent to the size of the model
+      real(wp) :: range = 1.0_wp                     !! range of swept values equivalent to the size of the model
       real(wp) :: size = 1.0_wp                      !! characteristic length, or the longest spring [m]
       real(wp) :: tolerance = 0.0_wp                 !! m
       logical :: is_symmetric = .true.               !! no load makes the true matrix unsymmetric
@@ -104,7 +104,7 @@ contains
       type(schedule_t), intent(in) :: schedule
       real(wp), contiguous, intent(in) :: packed(:)
       real(wp), intent(in) :: place
-      logical, intent(in) :: upward              !! the place increases at first
+      logical, intent(in) :: upward              !! the swept value increases at first
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found           !! the direction of the path is unique
 
@@ -336,7 +336,7 @@ contains
       end do
    end function inner
 
-   !> The step from a state and its place to the last probe, in self%motion, and the largest motion of any body.
+   !> The step from a state and its swept value to the last probe, in self%motion, and the largest motion of any body.
    subroutine find_motion(self, kkt, packed, place, largest)
       type(arc_t), intent(inout) :: self
       type(kkt_t), intent(in) :: kkt

@@ -14,7 +14,7 @@ module ek_arc_survey
 
    integer, parameter, public :: arrived = 0        !! at the end of the case
    integer, parameter, public :: stuck = 1          !! no step was found
-   integer, parameter, public :: gone_far = 2       !! a body, or the place, moved further than in any suspension
+   integer, parameter, public :: gone_far = 2       !! a body, or the swept value, moved further than in any suspension
    integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
    integer, parameter, public :: gone_on = 4        !! too many steps
 
@@ -32,7 +32,7 @@ module ek_arc_survey
    type :: survey_t
       integer :: ending = stuck
       real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! lengths of the path from design to either end of the states
-      real(wp) :: last_place = 0.0_wp                            !! the place to which the path was followed
+      real(wp) :: last_place = 0.0_wp                            !! the swept value to which the path was followed
       integer :: limits = 0
       real(wp) :: limit_place(most_limits) = 0.0_wp, limit_length(most_limits) = 0.0_wp
       integer :: crossings = 0
@@ -41,12 +41,12 @@ module ek_arc_survey
 
 contains
 
-   !> Follows the path from design until the place `far` is reached for the first time.
+   !> Follows the path from design until the swept value `far` is reached for the first time.
    subroutine survey(arc, suspension, schedule, settled, near, far, kkt, found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
-      real(wp), contiguous, intent(in) :: settled(:)     !! packed state at place 0
+      real(wp), contiguous, intent(in) :: settled(:)     !! packed state at swept value 0
       real(wp), intent(in) :: near, far                  !! places on one side of 0; near may be 0
       type(kkt_t), intent(inout) :: kkt
       type(survey_t), intent(out) :: found
@@ -106,7 +106,7 @@ contains
          found%far_length = arc%length + max(arc%width - behind, 0.0_wp)
       end function ending
 
-      !> Finds the places near and far on a part of the segment over which the place is monotonic.
+      !> Finds the places near and far on a part of the segment over which the swept value is monotonic.
       subroutine look_between(low, place_low, high, place_high)
          real(wp), intent(in) :: low, place_low, high, place_high
          real(wp) :: width
@@ -192,7 +192,7 @@ contains
       if (abs(slope)*(high - low) > abs(f)) place = place - 0.5_wp*arc%range*f**2/slope
    end subroutine find_limit
 
-   !> The place on the current segment at which the inertia changes, by bisection.
+   !> The swept value on the current segment at which the inertia changes, by bisection.
    subroutine find_crossing(arc, suspension, schedule, kkt, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
@@ -224,7 +224,7 @@ contains
       place = 0.5_wp*(place_low + place_high)
    end subroutine find_crossing
 
-   !> Finds a place on a part of the current segment.
+   !> Finds a swept value on a part of the current segment.
    subroutine find_place(arc, suspension, schedule, kkt, goal, from, place_from, to, place_to, width)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension

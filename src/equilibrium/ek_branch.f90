@@ -281,7 +281,7 @@ contains
       call move_as_screw(state, width*self%tangent_a(:nq))
    end subroutine go_along
 
-   !> Records a bifurcation at a place.
+   !> Records a bifurcation at a swept value.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place

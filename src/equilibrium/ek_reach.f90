@@ -37,7 +37,7 @@ module ek_reach
 
 contains
 
-   !> Reaches equilibrium at a place of the path from the stored states, halving the step if needed.
+   !> Reaches equilibrium at a swept value of the path from the stored states, halving the step if needed.
    !>
    !> On failure `state` is the last equilibrium.
    subroutine reach(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, iterations, failure)
@@ -58,7 +58,7 @@ contains
    !> Goes from design to equilibrium under the constant loads and preloads only.
    !>
    !> In one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
-   !> is the place on the path.
+   !> is the swept value on the path.
    subroutine settle(suspension, tolerance, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance          !! m
@@ -79,7 +79,7 @@ contains
       call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, branch, state, kkt, iterations, failure)
    end subroutine settle
 
-   !> Goes from the newest stored state to the place `goal` of a path, in one step if the path allows it.
+   !> Goes from the newest stored state to the swept value `goal` of a path, in one step if the path allows it.
    !>
    !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
    !> accepted step. A step shorter than branch%least means the end of the path.
@@ -87,7 +87,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal
-      logical, intent(in) :: is_settling         !! the place is the share of the imbalance; otherwise that of the schedule
+      logical, intent(in) :: is_settling         !! the swept value is the share of the imbalance; otherwise that of the schedule
       real(wp), intent(in) :: tolerance
       type(predictor_t), intent(inout) :: predictor
       type(branch_t), intent(inout) :: branch
@@ -100,7 +100,7 @@ contains
       real(wp) :: here, place, step, bend
       real(wp) :: before      ! place of the newest state minus that of the one before it
       integer :: points, attempt, verdict, older
-      real(wp) :: beyond      ! the nearest place known behind a bifurcation
+      real(wp) :: beyond      ! the nearest swept value known behind a bifurcation
       logical :: was_compared, here_is_goal, is_long, knows_beyond, is_last_try
 
       here = predictor%abscissa(predictor%newest)

@@ -82,7 +82,7 @@ contains
    end subroutine demand_at
 
    !> share × place, share × tan(place), or the value of the table: linear between its rows, and from 0 at
-   !> place `rest` to the next row (initially from place 0 to row 1).
+   !> place `rest` to the next row (initially from swept value 0 to row 1).
    pure real(wp) function value_at(course, place, rest) result(value)
       type(course_t), intent(in) :: course
       real(wp), intent(in) :: place

@@ -26,7 +26,7 @@ module ek_characteristics
    public :: wheel_characteristics, axle_characteristics, motion_ratio, quotient
 
    real(wp), parameter :: least_compliance = 1.0e-12_wp   !! m/N
-   real(wp), parameter :: least_turn = 1.0e-13_wp         !! rad/(N m): 1/least_turn is stiffer than any block of steel
+   real(wp), parameter :: least_turn = 1.0e-13_wp         !! rad/(N m): its inverse is stiffer than any block of steel
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
    real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
    real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force behind the patch, typical of a tyre

@@ -29,7 +29,7 @@ module ek_sheet
       character(name_length), allocatable :: heads(:)   !! '' for a column without head
       real(wp), allocatable :: values(:, :)             !! (column, row)
       type(message_list_t) :: head_mistakes, row_mistakes
-      integer :: untold = 0                             !! number of errors beyond `most_told`
+      integer :: untold = 0                             !! number of errors beyond the largest number reported
       character :: separator = ','
       logical :: has_decimal_commas = .false., has_decimal_points = .false.
    end type sheet_t

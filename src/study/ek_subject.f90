@@ -1,4 +1,4 @@
-!> The subject of a study: one case of a deck, prepared for a sweep.
+!> What a study varies: one case of a deck, prepared for a sweep.
 module ek_subject
    use ek_error, only: error_t, fail, exit_deck, exit_model
    use ek_text, only: quoted
