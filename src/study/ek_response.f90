@@ -117,13 +117,13 @@ contains
       real(wp) :: second
       logical :: is_left(size(distance))
 
-      words = 'give the case more increments'
+      words = 'use more increments in the case'
       is_left = ieee_is_finite(distance)
       if (count(is_left) < 2) return
       is_left(minloc(distance, dim=1, mask=is_left)) = .false.
       second = minval(distance, mask=is_left)
-      words = 'give the case '//str(ceiling(second/window))//' or more times as many increments, or the response a window of '// &
-         str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more'
+      words = 'use at least '//str(ceiling(second/window))//' times as many increments in the case, or a window of '// &
+         str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more in the response'
    end function remedy
 
    !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, that on the side of the
