@@ -179,13 +179,14 @@ contains
          is_explained = rest <= smooth
          if (.not. is_explained .and. rest <= allowed) is_explained = is_bend(self, width, kkt%length)
       end if
-      if (.not. is_explained) then
-         verdict = doubtful
-      else if (negative_b /= self%negative .or. ((rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) &
-         .and. is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt))) then
-         verdict = crossing
-      else
+      verdict = doubtful
+      if (is_explained) then
          verdict = same_branch
+         if (negative_b /= self%negative) then
+            verdict = crossing
+         else if (rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) then
+            if (is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)) verdict = crossing
+         end if
       end if
       kkt%negative = negative_b
       self%was_bent = is_explained .and. rest > smooth
