@@ -51,6 +51,7 @@ module ek_branch
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
       type(orientation_t) :: orientation
+      real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
       real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
       logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: before, shifted
@@ -74,7 +75,7 @@ contains
       self%orientation = new_orientation(suspension)
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
-         self%motion_before(suspension%unknowns()), source=0.0_wp)
+         self%motion_before(suspension%unknowns()), self%twist(suspension%unknowns()), source=0.0_wp)
       allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
          self%defect(suspension%unknowns() + suspension%constraints()), source=0.0_wp)
       self%before = design_state(suspension)
@@ -253,7 +254,8 @@ contains
 
          self%shifted = state
          self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)
-         call move_as_screw(self%shifted, distance*self%whole(:kkt%nq))
+         self%twist = distance*self%whole(:kkt%nq)
+         call move_as_screw(self%shifted, self%twist)
          call assemble(suspension, self%shifted, demand, residual_only, kkt)
       end subroutine shifted_residual
 
@@ -272,14 +274,15 @@ contains
 
    !> Extrapolates from the newest state along its tangent.
    pure subroutine go_along(self, width, state)
-      type(branch_t), intent(in) :: self
+      type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: width              !! place
       type(state_t), intent(inout) :: state      !! the newest → the guess
       integer :: nq
 
       nq = size(self%motion)
       state%reaction = state%reaction + width*self%tangent_a(nq + 1:)
-      call move_as_screw(state, width*self%tangent_a(:nq))
+      self%twist = width*self%tangent_a(:nq)
+      call move_as_screw(state, self%twist)
    end subroutine go_along
 
    !> Records a bifurcation at a swept value.

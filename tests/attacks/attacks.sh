@@ -70,24 +70,24 @@ line_end_in_a_title() {
 }
 line_end_in_a_test() {
   evil_list $'x\nsystem "touch pwned"\n#' title sweep.csv
-  run 5 "$program" compare evil good --out both && gone pwned && gone both/figures/pwned && says 'no plain name of a file'
+  run 5 "$program" compare evil good --out both && gone pwned && gone both/figures/pwned && says 'is not a plain file name'
 }
 line_end_in_a_file() {
   evil_list sweep title $'sweep.csv\nsystem "touch pwned"'
-  run 5 "$program" compare evil good --out both && gone pwned && says 'no plain name of a file'
+  run 5 "$program" compare evil good --out both && gone pwned && says 'is not a plain file name'
 }
 test_that_leaves_the_folder() {
   mkdir victim && echo mine >victim/v.svg && cp victim/v.svg kept
   evil_list ../../victim/v title sweep.csv
-  run 5 "$program" compare evil good --out both && same victim/v.svg kept && [ "$(ls victim)" = v.svg ] && says 'no plain name'
+  run 5 "$program" compare evil good --out both && same victim/v.svg kept && [ "$(ls victim)" = v.svg ] && says 'is not a plain file name'
 }
 file_that_leaves_the_folder() {
   evil_list sweep title ../good/sweep.csv
-  run 5 "$program" compare evil good --out both && says 'no plain name'
+  run 5 "$program" compare evil good --out both && says 'is not a plain file name'
 }
 file_with_a_whole_path() {
   evil_list sweep title /etc/passwd
-  run 5 "$program" compare evil good --out both && says 'no plain name'
+  run 5 "$program" compare evil good --out both && says 'is not a plain file name'
 }
 column_that_leaves_the_folder() { # the name of a wheel becomes part of the name of a picture
   mkdir victim
@@ -107,14 +107,14 @@ column_with_a_quote() {
 pipe_in_a_report() { # would be waited for for ever
   a_report good && a_report evil
   rm evil/sweep.csv && mkfifo evil/sweep.csv
-  run 5 "$program" compare evil good --out both && says 'no plain file' || return 1
+  run 5 "$program" compare evil good --out both && says 'not a regular file' || return 1
   rm evil/tests.csv && mkfifo evil/tests.csv
-  run 5 "$program" compare evil good --out both && says 'no plain file'
+  run 5 "$program" compare evil good --out both && says 'not a regular file'
 }
 endless_table_in_a_report() {
   a_report good && a_report evil
   rm evil/gradients.csv && ln -s /dev/zero evil/gradients.csv
-  run 5 "$program" compare evil good --out both && says 'no plain file'
+  run 5 "$program" compare evil good --out both && says 'not a regular file'
 }
 
 # ---- S3, S4, S5 and settings of a user -----------------------------------------------------------
@@ -175,17 +175,17 @@ bomb_of_includes() { # ten files that include ten each, eight deep
 }
 endless_include() {
   echo "&include file = '/dev/zero' /" >zero.nml
-  run 2 "$program" check zero.nml && says 'no plain file' || return 1
+  run 2 "$program" check zero.nml && says 'not a regular file' || return 1
   mkfifo pipe && echo "&include file = 'pipe' /" >pipe.nml
-  run 2 "$program" check pipe.nml && says 'no plain file'
+  run 2 "$program" check pipe.nml && says 'not a regular file'
 }
 
 # ---- gnuplot -----------------------------------------------------------------------------------
 
 gnuplot_that_hangs() {
   fake_gnuplot 'trap "" TERM INT ALRM; sleep 300 & wait; sleep 300'
-  EK_GNUPLOT_SECONDS=2 PATH=$PWD/bin:$PATH run 5 "$program" report "$tiny" --out out && says 'did not end within 2 s' &&
-    grep -q 'did not end within 2 s' out/report.html && clean out && ! pgrep -f "$PWD/bin/gnuplot" >/dev/null
+  EK_GNUPLOT_SECONDS=2 PATH=$PWD/bin:$PATH run 5 "$program" report "$tiny" --out out && says 'did not finish within 2 s' &&
+    grep -q 'did not finish within 2 s' out/report.html && clean out && ! pgrep -f "$PWD/bin/gnuplot" >/dev/null
 }
 page_is_there_while_gnuplot_hangs() {
   fake_gnuplot 'sleep 20'
@@ -198,7 +198,7 @@ page_is_there_while_gnuplot_hangs() {
 }
 gnuplot_that_draws_nothing() {
   fake_gnuplot 'exit 0'
-  PATH=$PWD/bin:$PATH run 5 "$program" run "$tiny" --plot --out out && says 'has drawn no whole' && [ -s out/tiny_sweep.csv ] &&
+  PATH=$PWD/bin:$PATH run 5 "$program" run "$tiny" --plot --out out && says 'has not completed' && [ -s out/tiny_sweep.csv ] &&
     PATH=$PWD/bin:$PATH run 5 "$program" report "$tiny" --out report && grep -q '</html>' report/report.html
 }
 gnuplot_that_draws_half() {
