@@ -36,7 +36,7 @@ module ek_branch
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
    real(wp), parameter :: slight = 5.0e-2_wp       !! likewise if the rubber of a stop is steep
    !> Of the least step, 1/8 of the range: no corner is accepted in longer steps
-   real(wp), parameter :: widest_corner = 1.25e8_wp
+   real(wp), parameter :: widest_corner = 3.125e8_wp
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap

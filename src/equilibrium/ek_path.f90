@@ -22,7 +22,7 @@ module ek_path
    private
    public :: path_t, sweep, new_path, walk, progress_procedure
 
-   real(wp), parameter :: least_step = 1.0e-9_wp      !! of the range: resolution of the end of a path
+   real(wp), parameter :: least_step = 4.0e-10_wp     !! of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
    real(wp), parameter :: least_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
 

@@ -15,7 +15,7 @@ module ek_reach
    public :: failure_t, reach, settle
 
    integer, parameter :: bend_halvings = 5            !! after so many halvings a bend is accepted as the corner of a law
-   real(wp), parameter :: shortest_bend = 1.0e6_wp    !! of the least step: the longest step that may pass an unknown corner
+   real(wp), parameter :: shortest_bend = 2.5e6_wp    !! of the least step: the longest step that may pass an unknown corner
    real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a prediction this close confirms that the path is smooth
    real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
    integer, parameter :: most_attempts = 400          !! per increment
