@@ -16,45 +16,56 @@ module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
-   use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, residual_only
-   use ek_law, only: steep, corner
-   use ek_bent_law, only: sharpest_bend
-   use ek_orientation, only: orientation_t, new_orientation, is_turned_over
+   use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
+   use ek_tangent, only: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
+   use ek_chord, only: chord_t, new_chord, straighten, is_at_an_end, tilt, at_b, least, most
+   use ek_orientation, only: orientation_t, new_orientation, compare_orientation
    implicit none(type, external)
    private
-   public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, accept, note_crossing, go_along
+   public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, is_uneven, is_near_zero, accept
+   public :: note_crossing, go_along
    public :: same_branch, crossing, doubtful
 
    integer, parameter :: same_branch = 1   !! the step is accepted
    integer, parameter :: crossing = 2      !! the path continues smoothly, but inertia or assembly changed: a bifurcation
    integer, parameter :: doubtful = 3      !! the tangents disagree with the step: a jump, or a step too long to decide
 
+   real(wp), parameter :: same_place = 20.0_wp      !! of the width of a step across a bifurcation
+
    integer, parameter, public :: most_crossings = 8   !! largest number of bifurcations reported
 
    real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: allowed error of the trapezoidal rule
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times the error of Newton's method
-   real(wp), parameter :: bent = 5.0e-2_wp         !! likewise at a corner of a law
-   real(wp), parameter :: slight = 5.0e-2_wp       !! likewise if the rubber of a stop is steep
-   !> Of the least step, 1/8 of the range: no corner is accepted in longer steps
-   real(wp), parameter :: widest_corner = 3.125e8_wp
+   real(wp), parameter :: bent = 5.0e-2_wp         !! likewise in the shortest steps
+   real(wp), parameter :: slight = 1.0e-2_wp       !! likewise in a short step across the bend of a law
+   real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
+   real(wp), parameter :: short = 1.0e7_wp         !! of the least step, 1/250 of the range: such a step
+   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
+   real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
+   real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
+   real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
+   real(wp), parameter :: zero = 9.2_wp            !! likewise: less than 1e-4 of it is left
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
-   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
-   real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
 
    !> Data of the newest state of the path, and work space.
    type :: branch_t
       integer :: negative = -1              !! negative eigenvalues of N there; −1: not known
+      real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| there; huge: not known
+      logical :: was_uneven = .true.        !! |det N| changed much in the step to it
       logical :: has_tangent = .false.      !! tangent_a is that of the newest state
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
       real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
       type(orientation_t) :: orientation
+      type(tangent_t) :: work
+      type(chord_t) :: chord
+      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
       real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
-      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
-      logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
       type(state_t) :: before, shifted
+      logical :: is_singular = .false.      !! the joints lose rank at the end of the step compared last, or so near that it says nothing
+      logical :: is_over = .false.          !! they are in another assembly there
       logical :: was_bent = .false.         !! the step compared last passes a corner of a law
       logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
       integer :: factorisations = 0         !! number needed by the last comparison
@@ -70,19 +81,16 @@ contains
    function new_branch(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
-      integer :: k
 
       self%orientation = new_orientation(suspension)
+      self%work = new_tangent(suspension)
+      self%chord = new_chord(suspension)
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), self%twist(suspension%unknowns()), source=0.0_wp)
-      allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
-         self%defect(suspension%unknowns() + suspension%constraints()), source=0.0_wp)
+      allocate (self%chord_a(size(self%tangent_a)), self%chord_b(size(self%tangent_a)), source=0.0_wp)
       self%before = design_state(suspension)
       self%shifted = self%before
-      do k = 1, size(suspension%loads)
-         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
-      end do
    end function new_branch
 
    !> Continues from another state, of which only the inertia may be known.
@@ -92,32 +100,15 @@ contains
 
       self%negative = negative
       self%has_tangent = .false.
+      self%log_determinant = huge(1.0_wp)
    end subroutine leave
-
-   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m].
-   pure real(wp) function largest_motion(motion, length)
-      real(wp), contiguous, intent(in) :: motion(:)    !! twists
-      real(wp), intent(in) :: length                   !! m
-      integer :: k
-
-      largest_motion = 0.0_wp
-      do k = 1, size(motion), 6
-         largest_motion = max(largest_motion, body_motion(motion(k:k + 5), length))
-      end do
-   end function largest_motion
-
-   !> The same for one body.
-   pure real(wp) function body_motion(twist, length)
-      real(wp), intent(in) :: twist(6), length
-      body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
-   end function body_motion
 
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
    !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
    subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
-      is_short, missed, kkt, verdict)
+      missed, log_determinant, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       real(wp), contiguous, intent(in) :: packed_a(:)        !! state a
@@ -126,19 +117,23 @@ contains
       real(wp), contiguous, intent(in) :: packed_before(:)   !! the state before a
       real(wp), intent(in) :: width_before                   !! place of a minus place of the state before; 0: there is none
       type(state_t), intent(in) :: state_b
-      logical, intent(in) :: is_short                        !! halved often enough for a bend
+      real(wp), intent(in) :: log_determinant                !! ln |det N| at b
       real(wp), intent(in) :: missed                         !! distance from b at which the factors were computed [m]
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: verdict
       type(demand_t) :: rate
       integer :: negative_b
-      real(wp) :: rest, allowed
-      integer :: bend
-      logical :: is_explained
+      real(wp) :: rest
+      logical :: is_explained      ! the tangents at a and b agree with the motion
+      logical :: is_past           ! they need not, as laws bend between
+      logical :: is_fresh, is_new_at_a
 
       rate = demand_rate(demand_a, demand_b, width)
       negative_b = kkt%negative
       self%factorisations = 0
+      self%is_over = .false.
+      self%is_singular = .false.
+      is_new_at_a = .false.
       call unpack_state(packed_a, self%before)
       call motion_between(self%before, state_b, self%motion)
       self%width_before = width_before
@@ -146,52 +141,52 @@ contains
          call unpack_state(packed_before, self%shifted)
          call motion_between(self%shifted, self%before, self%motion_before)
       end if
-      call find_tangent(self, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
+      call find_tangent(self%work, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
       if (self%has_tangent) then
-         rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
+         rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
       else
          rest = three_point_rest(self, kkt%nq, width, kkt%length)
          ! the step to a approximates its tangent
          if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
       is_explained = rest <= smooth
-      allowed = 0.0_wp
-      if (.not. is_explained) then
-         bend = sharpest_bend(suspension, self%before, state_b)
-         if (bend == steep) allowed = slight
-         if (is_short .or. (bend == corner .and. abs(width) <= widest_corner*self%least)) allowed = huge(allowed)
-         if (rest <= allowed .and. (self%has_tangent .or. abs(width_before) > 0.0_wp)) &
-            is_explained = is_bend(self, width, kkt%length)
-      end if
-      if (.not. (is_explained .or. self%has_tangent)) then
+      is_fresh = .false.
+      is_past = .false.
+      if (.not. is_explained .and. self%negative < 0) call at_beginning()
+      if (.not. is_explained) call past_bent_laws()
+      if (.not. (is_explained .or. is_past) .and. abs(width) <= shortest*self%least) is_past = bends_so()
+      if (.not. (is_explained .or. is_past .or. self%has_tangent)) then
          call at_beginning()
-         rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
+         rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
          is_explained = rest <= smooth
-         if (rest <= allowed .and. .not. is_explained) is_explained = is_bend(self, width, kkt%length)
       end if
-      if (.not. is_explained) then
+      if (.not. (is_explained .or. is_past)) then
          call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
          call factorise(kkt)
          negative_b = kkt%negative
-         call find_tangent(self, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
-         if (self%factorisations == 0) call at_beginning()
+         call find_tangent(self%work, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
+         if (.not. is_new_at_a) call at_beginning()
          self%factorisations = self%factorisations + 1
-         rest = trapezoidal_rest(self, kkt%nq, width, kkt%length)
+         is_fresh = .true.
+         rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
          is_explained = rest <= smooth
-         if (.not. is_explained .and. rest <= allowed) is_explained = is_bend(self, width, kkt%length)
       end if
       verdict = doubtful
-      if (is_explained) then
+      if (is_explained .or. is_past) then
          verdict = same_branch
          if (negative_b /= self%negative) then
             verdict = crossing
-         else if (rest > exact .or. largest_motion(self%motion, kkt%length) > long*kkt%length) then
-            if (is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)) verdict = crossing
+         else if (rest > exact .or. is_uneven(self, log_determinant) .or. &
+            largest_motion(self%motion, kkt%length) > long*kkt%length) then
+            call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, self%is_over, &
+               self%is_singular)
+            if (self%is_over) verdict = crossing
+            if (self%is_singular .and. abs(width) > tiny_step*self%least) verdict = doubtful
          end if
       end if
       kkt%negative = negative_b
-      self%was_bent = is_explained .and. rest > smooth
-      self%knows_end = self%factorisations > 1 .or. missed <= fresh*largest_motion(self%motion, kkt%length)
+      self%was_bent = is_past
+      self%knows_end = is_fresh .or. missed <= fresh*largest_motion(self%motion, kkt%length)
 
    contains
 
@@ -200,77 +195,82 @@ contains
          call assemble(suspension, self%before, demand_a, whole_tangent, kkt)
          call factorise(kkt)
          self%negative = kkt%negative
-         call find_tangent(self, suspension, self%before, demand_a, rate, kkt, self%tangent_a)
+         call find_tangent(self%work, suspension, self%before, demand_a, rate, kkt, self%tangent_a)
          self%factorisations = self%factorisations + 1
          self%has_tangent = .true.
+         is_new_at_a = .true.
       end subroutine at_beginning
+
+      !> Whether the motion lies between the tangents, if these are known.
+      logical function bends_so()
+         bends_so = abs(width_before) > 0.0_wp .or. self%has_tangent
+         if (bends_so) bends_so = is_bend(self, width, kkt%length)
+      end function bends_so
+
+      !> Whether the step is on the path, past laws that bend (ek_chord).
+      subroutine past_bent_laws()
+         integer :: slope
+
+         call straighten(self%chord, suspension, self%before, state_b, is_past)
+         if (.not. is_past) return
+         ! a short step from a state to which the path was smooth, away from any singularity
+         if (abs(width) <= short*self%least .and. .not. self%was_uneven .and. negative_b == self%negative) then
+            is_past = bends_so()
+            if (is_past) return
+         end if
+         is_past = .false.
+         call assemble(self%chord%suspension, self%before, demand_a, whole_tangent, kkt)
+         call factorise(kkt)
+         self%factorisations = self%factorisations + 1
+         if (kkt%negative /= self%negative) return
+         call find_tangent(self%work, self%chord%suspension, self%before, demand_a, rate, kkt, self%chord_a)
+         call assemble(self%chord%suspension, state_b, demand_b, whole_tangent, kkt)
+         call factorise(kkt)
+         self%factorisations = self%factorisations + 1
+         if (kkt%negative /= self%negative) return
+         call find_tangent(self%work, self%chord%suspension, state_b, demand_b, rate, kkt, self%chord_b)
+         if (.not. trapezoidal_rest(self%motion, self%chord_a, self%chord_b, width, kkt%length) <= smooth) return
+         do slope = least, most, most - least
+            if (is_at_an_end(self%chord, slope)) cycle
+            call tilt(self%chord, at_b, slope)
+            call assemble(self%chord%suspension, state_b, demand_b, whole_tangent, kkt)
+            call factorise(kkt)
+            self%factorisations = self%factorisations + 1
+            if (kkt%negative /= self%negative) return
+         end do
+         is_past = .true.
+      end subroutine past_bent_laws
 
    end subroutine compare
 
-   !> dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
-   !>
-   !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
-   !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
-   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent)
-      type(branch_t), intent(inout) :: self
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand, rate
-      type(kkt_t), intent(inout) :: kkt
-      real(wp), intent(out) :: tangent(:)
-      integer, parameter :: most_refinements = 6
-      real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step
-      real(wp) :: step, largest
-      integer :: k
-
-      call assemble_rate(suspension, state, rate, kkt)
-      call solve(kkt)
-      self%whole = kkt%rhs
-      if (self%is_symmetric .and. .not. abs(rate%relief) > 0.0_wp) then
-         tangent = self%whole
-         return
-      end if
-      do k = 1, most_refinements
-         largest = largest_motion(self%whole(:kkt%nq), kkt%length)
-         if (.not. (largest > 0.0_wp .and. largest < huge(largest))) exit
-         step = small_motion*kkt%length/largest
-         call shifted_residual(step)
-         self%defect = kkt%rhs
-         call shifted_residual(-step)
-         self%defect = (self%defect - kkt%rhs)/(2.0_wp*step)
-         call assemble_rate(suspension, state, rate, kkt)
-         kkt%rhs = kkt%rhs + self%defect
-         call solve(kkt)
-         self%whole = self%whole + kkt%rhs
-         if (largest_motion(kkt%rhs(:kkt%nq), kkt%length) <= 0.1_wp*smooth*largest) exit
-      end do
-      tangent = self%whole
-
-   contains
-
-      !> The residual at a small distance along the tangent, with the same inputs.
-      subroutine shifted_residual(distance)
-         real(wp), intent(in) :: distance     !! place
-
-         self%shifted = state
-         self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)
-         self%twist = distance*self%whole(:kkt%nq)
-         call move_as_screw(self%shifted, self%twist)
-         call assemble(suspension, self%shifted, demand, residual_only, kkt)
-      end subroutine shifted_residual
-
-   end subroutine find_tangent
-
    !> Accepts the step: b becomes the newest state.
-   pure subroutine accept(self, negative, was_compared)
+   pure subroutine accept(self, negative, log_determinant, was_compared)
       type(branch_t), intent(inout) :: self
       integer, intent(in) :: negative            !! negative eigenvalues of N at b
+      real(wp), intent(in) :: log_determinant    !! ln |det N| at b
       logical, intent(in) :: was_compared
 
+      self%was_uneven = abs(log_determinant - self%log_determinant) > even
+      self%log_determinant = log_determinant
       self%negative = negative
       self%has_tangent = was_compared .and. self%knows_end
       if (self%has_tangent) self%tangent_a = self%tangent_b
    end subroutine accept
+
+   !> Whether the joints may lose rank in a step: |det N|, which is proportional to det(Φq Φqᵀ), changes much in it or has changed
+   !> much in the one before, as it does on the way to zero. Of a pair of states on either side of the zero it says nothing.
+   pure logical function is_uneven(self, log_determinant)
+      type(branch_t), intent(in) :: self
+      real(wp), intent(in) :: log_determinant    !! ln |det N| at b
+      is_uneven = self%was_uneven .or. abs(log_determinant - self%log_determinant) > even
+   end function is_uneven
+
+   !> Whether N is singular at b, in comparison with a.
+   pure logical function is_near_zero(self, log_determinant)
+      type(branch_t), intent(in) :: self
+      real(wp), intent(in) :: log_determinant    !! ln |det N| at b
+      is_near_zero = self%log_determinant < huge(1.0_wp) .and. log_determinant < self%log_determinant - zero
+   end function is_near_zero
 
    !> Extrapolates from the newest state along its tangent.
    pure subroutine go_along(self, width, state)
@@ -285,26 +285,28 @@ contains
       call move_as_screw(state, self%twist)
    end subroutine go_along
 
-   !> Records a bifurcation at a swept value.
+   !> Records a bifurcation at a swept value; one so near to the last that states cannot tell them apart is the same.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place
 
+      if (self%crossings > 0) then
+         if (abs(place - self%crossing_place(self%crossings)) <= same_place*self%width) return
+      end if
       self%crossings = min(self%crossings + 1, most_crossings)
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
 
    !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
-   pure real(wp) function trapezoidal_rest(self, nq, width, length) result(rest)
-      type(branch_t), intent(in) :: self
-      integer, intent(in) :: nq
+   pure real(wp) function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
+      real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
       real(wp), intent(in) :: width, length
       real(wp) :: twist(6), part
       integer :: k
 
       rest = 0.0_wp
-      do k = 1, nq, 6
-         twist = self%motion(k:k + 5) - 0.5_wp*width*(self%tangent_a(k:k + 5) + self%tangent_b(k:k + 5))
+      do k = 1, size(motion), 6
+         twist = motion(k:k + 5) - 0.5_wp*width*(tangent_a(k:k + 5) + tangent_b(k:k + 5))
          part = body_motion(twist, length)
          if (.not. part < huge(rest)) part = huge(rest)
          rest = max(rest, part)
@@ -312,7 +314,7 @@ contains
       if (rest <= nothing*smooth) then
          rest = 0.0_wp
       else if (rest < huge(rest)) then
-         rest = rest/max(largest_motion(self%motion, length), nothing)
+         rest = rest/max(largest_motion(motion, length), nothing)
       end if
    end function trapezoidal_rest
 
@@ -368,10 +370,10 @@ contains
          b = norm2(self%tangent_b(k:k + 5)*scale)
          if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < least_cosine*a*b) return
       end do
-      is_bend = rest <= bent*largest
+      is_bend = rest <= merge(bent, slight, abs(width) <= shortest*self%least)*largest
    end function is_bend
 
-   !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`.
+   !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`, or may, as its end is singular.
    logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -379,9 +381,12 @@ contains
       type(demand_t), intent(in) :: demand_a, demand_b
       type(state_t), intent(in) :: state_b
       type(kkt_t), intent(inout) :: kkt
+      logical :: is_singular
 
       call unpack_state(packed_a, self%before)
-      is_overturning = is_turned_over(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt)
+      call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, is_overturning, &
+         is_singular)
+      is_overturning = is_overturning .or. is_singular
    end function is_overturning
 
 end module ek_branch

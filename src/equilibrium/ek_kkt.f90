@@ -47,6 +47,7 @@ module ek_kkt
       real(wp) :: norm = 0.0_wp              !! 1-norm of the last matrix passed to `condition`
       integer :: negative = 0                !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
+      real(wp) :: log_determinant = 0.0_wp   !! ln |det| of the last matrix, scaled
       logical :: is_singular = .false.       !! the last factorisation met a zero pivot
    end type kkt_t
 
@@ -280,7 +281,8 @@ contains
 
       call scale_lower(kkt%n, kkt%scale, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
-      call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio)
+      call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, &
+         kkt%log_determinant)
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
 
@@ -296,28 +298,33 @@ contains
       end do
    end subroutine scale_lower
 
-   !> Number of negative eigenvalues, and smallest over largest |eigenvalue| of the block-diagonal factor.
+   !> Number of negative eigenvalues, smallest over largest |eigenvalue| of the block-diagonal factor, and its determinant.
    !>
    !> By Sylvester's law the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
    !> exactly one per constraint row.
-   pure subroutine count_inertia(n, matrix, pivots, negative, ratio)
+   pure subroutine count_inertia(n, matrix, pivots, negative, ratio, log_determinant)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrix(n, n)
       integer, intent(in) :: pivots(n)
       integer, intent(out) :: negative
-      real(wp), intent(out) :: ratio
-      real(wp) :: least, most, mean, radius, low, high
-      integer :: k
+      real(wp), intent(out) :: ratio, log_determinant
+      integer, parameter :: many = 8              ! blocks whose product neither overflows nor underflows
+      real(wp) :: least, most, mean, radius, low, high, product
+      integer :: k, blocks
 
       negative = 0
       least = huge(least)
       most = 0.0_wp
+      log_determinant = 0.0_wp
+      product = 1.0_wp
+      blocks = 0
       k = 1
       do while (k <= n)
          if (pivots(k) > 0) then
             low = matrix(k, k)
             high = low
             if (low < 0.0_wp) negative = negative + 1
+            product = product*low
             k = k + 1
          else
             mean = 0.5_wp*(matrix(k, k) + matrix(k + 1, k + 1))
@@ -326,10 +333,16 @@ contains
             high = mean + radius
             if (low < 0.0_wp) negative = negative + 1
             if (high < 0.0_wp) negative = negative + 1
+            product = product*low*high
             k = k + 2
          end if
          least = min(least, abs(low), abs(high))
          most = max(most, abs(low), abs(high))
+         blocks = blocks + 1
+         if (mod(blocks, many) == 0 .or. k > n) then
+            log_determinant = log_determinant + log(max(abs(product), tiny(product)))
+            product = 1.0_wp
+         end if
       end do
       ratio = 0.0_wp
       if (most > 0.0_wp) ratio = least/most

@@ -26,6 +26,7 @@ module ek_newton
       real(wp) :: last = 0.0_wp           !! length of the last correction [m]
       integer :: negative = 0             !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp    !! cheap condition estimate of the last matrix
+      real(wp) :: log_determinant = 0.0_wp   !! ln |det| of the last matrix
    end type outcome_t
 
 contains
@@ -51,6 +52,7 @@ contains
          outcome%factorisations = iteration
          outcome%negative = kkt%negative
          outcome%pivot_ratio = kkt%pivot_ratio
+         outcome%log_determinant = kkt%log_determinant
          outcome%is_singular = kkt%is_singular
          if (outcome%is_singular) return
          call take_step(state, kkt, huge(largest), outcome%last)

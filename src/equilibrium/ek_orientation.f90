@@ -10,7 +10,12 @@ module ek_orientation
    use ek_lapack, only: dgesv
    implicit none(type, external)
    private
-   public :: orientation_t, new_orientation, is_turned_over
+   public :: orientation_t, new_orientation, compare_orientation
+
+   !> Of the largest pivot of Φq Φqᵀ: some 1e-5 rad from a loss of rank, where Newton's method loses half of its digits
+   real(wp), parameter :: vanished = 2.5e-11_wp
+   !> The share of the same pivot of Φq(a) Φq(b)ᵀ: b lies so much nearer to a loss of rank than a that its side means nothing
+   real(wp), parameter :: near = 1.0e-2_wp
 
    !> The rigid rows (all except drivers with a stiffness), and work space.
    type :: orientation_t
@@ -47,20 +52,37 @@ contains
       end do
    end function new_orientation
 
-   !> Whether det(Φq(a) Φq(b)ᵀ) < 0.
-   logical function is_turned_over(self, suspension, state_a, state_b, demand_a, demand_b, kkt)
+   !> Compares two states: det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b itself, where that sign means nothing.
+   subroutine compare_orientation(self, suspension, state_a, state_b, demand_a, demand_b, kkt, is_turned_over, is_singular)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state_a, state_b
       type(demand_t), intent(in) :: demand_a, demand_b
       type(kkt_t), intent(inout) :: kkt
-      integer :: i, j, k, l, body, n, info
+      logical, intent(out) :: is_turned_over, is_singular
+      real(wp) :: least, at_end
 
+      call assemble(suspension, state_b, demand_b, residual_only, kkt)
+      call gather_rows(self, suspension, kkt, self%rows_a)
+      self%rows_b = self%rows_a
+      call multiply_out(self, is_turned_over, least)
+      at_end = least
       call assemble(suspension, state_a, demand_a, residual_only, kkt)
       call gather_rows(self, suspension, kkt, self%rows_a)
-      call assemble(suspension, state_b, demand_b, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_b)
-      is_turned_over = .false.
+      call multiply_out(self, is_turned_over, least)
+      is_singular = at_end < vanished .or. at_end < near*least
+   end subroutine compare_orientation
+
+   !> The sign of det(Φq(a) Φq(b)ᵀ), from the gathered rows, and the smallest of its pivots as a share of the largest.
+   subroutine multiply_out(self, is_negative, least)
+      type(orientation_t), intent(inout) :: self
+      logical, intent(out) :: is_negative
+      real(wp), intent(out) :: least
+      real(wp) :: pivot, most
+      integer :: i, j, k, l, body, n, info
+
+      is_negative = .false.
+      least = 1.0_wp
       n = size(self%held)
       if (n == 0) return
       self%product = 0.0_wp
@@ -77,12 +99,19 @@ contains
       ! for the LU factors; without a right-hand side OpenBLAS would not compute them
       self%unit = 0.0_wp
       call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
+      least = 0.0_wp
       if (info /= 0) return
+      least = huge(least)
+      most = 0.0_wp
       do k = 1, n
-         if (self%product(k, k) < 0.0_wp) is_turned_over = .not. is_turned_over
-         if (self%pivots(k) /= k) is_turned_over = .not. is_turned_over
+         pivot = self%product(k, k)
+         least = min(least, abs(pivot))
+         most = max(most, abs(pivot))
+         if (pivot < 0.0_wp) is_negative = .not. is_negative
+         if (self%pivots(k) /= k) is_negative = .not. is_negative
       end do
-   end function is_turned_over
+      least = least/most
+   end subroutine multiply_out
 
    !> Scaled Φq of the rigid rows, from the gradients of the last assembly.
    pure subroutine gather_rows(self, suspension, kkt, rows)

@@ -8,16 +8,17 @@ module ek_reach
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge, depth
-   use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, is_overturning, long, &
-      same_branch, crossing, doubtful
+   use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
+      is_near_zero, long, tiny_step, same_branch, crossing, doubtful
    implicit none(type, external)
    private
    public :: failure_t, reach, settle
 
-   integer, parameter :: bend_halvings = 5            !! after so many halvings a bend is accepted as the corner of a law
-   real(wp), parameter :: shortest_bend = 2.5e6_wp    !! of the least step: the longest step that may pass an unknown corner
    real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a prediction this close confirms that the path is smooth
    real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
+   integer, parameter :: quick = 6                    !! iterations: Newton's method needs more only where N is singular
+   real(wp), parameter :: coarse = 10.0_wp            !! of branch%width: a step across a loss of rank of the joints
+   real(wp), parameter :: away = 0.6_wp               !! of a step that ends at one: the next
    integer, parameter :: most_attempts = 400          !! per increment
 
    !> Where and how a sweep stopped.
@@ -97,7 +98,7 @@ contains
       type(failure_t), intent(inout) :: failure
       type(demand_t) :: here_demand, demand
       type(outcome_t) :: outcome
-      real(wp) :: here, place, step, bend
+      real(wp) :: here, place, step
       real(wp) :: before      ! place of the newest state minus that of the one before it
       integer :: points, attempt, verdict, older
       real(wp) :: beyond      ! the nearest swept value known behind a bifurcation
@@ -112,7 +113,6 @@ contains
       beyond = 0.0_wp
       points = predictor%trusted
       step = goal - here
-      bend = min(abs(step)*0.5_wp**bend_halvings, shortest_bend*branch%least)
       do attempt = 1, most_attempts
          place = here + step
          if (abs(step) >= abs(goal - here)) place = goal
@@ -128,9 +128,13 @@ contains
          call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
          iterations = iterations + outcome%factorisations
          verdict = doubtful
-         if (outcome%is_converged) then
+         branch%is_singular = is_near_zero(branch, outcome%log_determinant) .or. &
+            (outcome%factorisations > quick .and. is_uneven(branch, outcome%log_determinant))
+         if (abs(place - here) <= tiny_step*branch%least) branch%is_singular = .false.
+         if (outcome%is_converged .and. .not. branch%is_singular) then
             verdict = same_branch
             was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length, is_long)
+            is_long = is_long .or. is_uneven(branch, outcome%log_determinant)
             if (is_long .and. .not. was_compared) was_compared = is_overturning(branch, suspension, &
                predictor%packed(:, predictor%newest), here_demand, state, demand, kkt)
             if (was_compared) then
@@ -138,12 +142,11 @@ contains
                before = 0.0_wp
                if (predictor%count > 1) before = here - predictor%abscissa(older)
                call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
-                  predictor%packed(:, older), before, state, abs(place - here) <= bend, &
-                  outcome%first, kkt, verdict)
+                  predictor%packed(:, older), before, state, outcome%first, outcome%log_determinant, kkt, verdict)
                iterations = iterations + branch%factorisations
                kkt%pivot_ratio = outcome%pivot_ratio
                if (verdict == crossing) then
-                  if (abs(place - here) > branch%width .and. .not. is_last_try) then
+                  if (abs(place - here) > across(branch) .and. .not. is_last_try) then
                      verdict = doubtful
                      knows_beyond = .true.
                      beyond = place
@@ -155,7 +158,7 @@ contains
             end if
          end if
          if (verdict == same_branch) then
-            call accept(branch, outcome%negative, was_compared)
+            call accept(branch, outcome%negative, outcome%log_determinant, was_compared)
             call store(predictor, place, state, outcome%factorisations == 1)
             ! no polynomial goes round a corner
             if (was_compared .and. branch%was_bent) predictor%trusted = min(predictor%trusted, 2)
@@ -168,9 +171,12 @@ contains
          else
             points = min(points, 2)     ! the prediction may itself be the cause
             step = 0.5_wp*(place - here)
+            ! halves come to the same place again
+            if (branch%is_singular) step = away*(place - here)
+            if ((branch%is_singular .or. abs(step) < branch%least) .and. abs(goal - here) <= across(branch) &
+               .and. .not. is_settling) call step_over()
+            if (here_is_goal) return
             if (abs(step) < branch%least) then
-               if (abs(goal - here) <= branch%width .and. .not. is_settling) call step_over()
-               if (here_is_goal) return
                ! so near to a bifurcation the tangents say nothing: take the step across it that they explained last
                if (is_last_try .or. .not. knows_beyond) exit
                if ((beyond - here)*(goal - here) <= 0.0_wp .or. abs(beyond - here) > widest*branch%width) exit
@@ -188,7 +194,7 @@ contains
       subroutine step_over()
          real(wp) :: share
 
-         place = goal + sign(branch%width, goal - here)
+         place = goal + sign(across(branch), goal - here)
          call demand_of(place, demand)
          call predict(predictor, place, 2)
          call unpack_state(predictor%guess, state)
@@ -199,16 +205,17 @@ contains
          before = 0.0_wp
          if (predictor%count > 1) before = here - predictor%abscissa(older)
          call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
-            predictor%packed(:, older), before, state, .true., outcome%first, kkt, verdict)
+            predictor%packed(:, older), before, state, outcome%first, outcome%log_determinant, kkt, verdict)
          iterations = iterations + branch%factorisations
          if (verdict == doubtful) return
          if (verdict == crossing) call note_crossing(branch, goal)
-         call accept(branch, outcome%negative, .true.)
-         call pack_state(state, predictor%guess)
+         call accept(branch, outcome%negative, outcome%log_determinant, .true.)
+         ! the next step begins behind the bifurcation: at it the joints may be on either side
+         older = predictor%newest
          share = (goal - here)/(place - here)
-         predictor%guess = (1.0_wp - share)*predictor%packed(:, predictor%newest) + share*predictor%guess
+         call store(predictor, place, state, .false.)
+         predictor%guess = (1.0_wp - share)*predictor%packed(:, older) + share*predictor%packed(:, predictor%newest)
          call unpack_state(predictor%guess, state)
-         call store(predictor, goal, state, .false.)
          here_is_goal = .true.
       end subroutine step_over
 
@@ -254,6 +261,12 @@ contains
          is_foreseen = negative == negative_before .and. missed <= good_guess**2*moved
       end if
    end function is_foreseen
+
+   !> The widest step across a bifurcation: where joints lose rank, states are less exact than where N does alone.
+   pure real(wp) function across(branch)
+      type(branch_t), intent(in) :: branch
+      across = branch%width*merge(coarse, 1.0_wp, branch%is_over .or. branch%is_singular)
+   end function across
 
    !> Passes an equilibrium to the predictor, which also learns how good its prediction was.
    pure subroutine store(predictor, place, state, is_good)

@@ -14,7 +14,7 @@ module ek_curve
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, has_corner
+   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, slopes_between
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
 
@@ -134,26 +134,40 @@ contains
       end if
    end function curve_integral
 
-   !> Whether the slope jumps at a point of the curve between two places (of the kind `linear` at nearly every point).
-   pure logical function has_corner(curve, from, to)
+   !> The least and the largest slope between two places.
+   pure subroutine slopes_between(curve, from, to, least, most)
       type(curve_t), intent(in) :: curve
       real(wp), intent(in) :: from, to
-      real(wp), parameter :: jump = 1.0e-3_wp      ! of the slope
-      real(wp) :: h, left, right
-      integer :: k
+      real(wp), intent(out) :: least, most
+      real(wp) :: low, high, left, right, apex, slope(3)
+      integer :: k, n
 
-      has_corner = .true.
-      do k = 2, size(curve%breaks) - 1
-         if (curve%breaks(k) < min(from, to) .or. curve%breaks(k) > max(from, to)) cycle
-         associate (c => curve%coefficients(:, k - 1))
-            h = curve%breaks(k) - curve%breaks(k - 1)
-            left = c(2) + h*(2.0_wp*c(3) + 3.0_wp*h*c(4))
+      low = min(from, to)
+      high = max(from, to)
+      least = huge(least)
+      most = -huge(most)
+      n = size(curve%breaks)
+      if (low <= curve%breaks(1)) then
+         least = curve%coefficients(2, 1)
+         most = least
+      end if
+      if (high >= curve%breaks(n)) then
+         least = min(least, curve%end_slope)
+         most = max(most, curve%end_slope)
+      end if
+      do k = 1, n - 1
+         left = max(low, curve%breaks(k)) - curve%breaks(k)
+         right = min(high, curve%breaks(k + 1)) - curve%breaks(k)
+         if (left > right) cycle
+         associate (c => curve%coefficients(:, k))
+            apex = left
+            if (abs(c(4)) > 0.0_wp) apex = min(max(-c(3)/(3.0_wp*c(4)), left), right)
+            slope = c(2) + [left, apex, right]*(2.0_wp*c(3) + 3.0_wp*[left, apex, right]*c(4))
          end associate
-         right = curve%coefficients(2, k)
-         if (abs(right - left) > jump*max(abs(left), abs(right))) return
+         least = min(least, minval(slope))
+         most = max(most, maxval(slope))
       end do
-      has_corner = .false.
-   end function has_corner
+   end subroutine slopes_between
 
    !> The piece k with x_k ≤ x < x_{k+1}, by bisection; x lies between the first point and the last.
    pure integer function piece_of(breaks, x) result(low)

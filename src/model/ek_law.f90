@@ -8,13 +8,10 @@
 !>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
 module ek_law
    use ek_kinds, only: wp
-   use ek_curve, only: curve_t, look_up_curve, has_corner
+   use ek_curve, only: curve_t, look_up_curve, slopes_between
    implicit none(type, external)
    private
-   public :: law_t, look_up_law, deflection, bend_between
-   public :: no_bend, steep, corner
-
-   integer, parameter :: no_bend = 0, steep = 1, corner = 2
+   public :: law_t, look_up_law, deflection, find_slopes, set_line
 
    !> Units depend on the measure: m and N, or rad and N m.
    type :: law_t
@@ -25,6 +22,8 @@ module ek_law
       logical :: is_one_sided = .false.
       real(wp) :: rounding = 0.0_wp         !! r of a one-sided law, above 0
       type(curve_t) :: curve
+      logical :: is_line = .false.          !! a straight line replaces all of it (set_line)
+      real(wp) :: line_value = 0.0_wp, line_force = 0.0_wp, line_slope = 0.0_wp
    end type law_t
 
 contains
@@ -36,6 +35,11 @@ contains
       real(wp), intent(out) :: force, slope
       real(wp) :: p, share, y
 
+      if (law%is_line) then
+         slope = law%line_slope
+         force = law%line_force + slope*(value - law%line_value)
+         return
+      end if
       p = law%sign*(value - law%reference)
       share = 1.0_wp                       ! dp/de
       if (law%is_one_sided) then
@@ -65,33 +69,38 @@ contains
       deflection = law%sign*(value - law%reference)
    end function deflection
 
-   !> How sharply the law bends between two values of the measure: not at all, like rubber in contact whose stiffness differs
-   !> between the states, or at a corner (contact of a stop, or a corner of a curve).
-   pure integer function bend_between(law, from, to) result(bend)
+   !> The least and the largest slope of the force between two values of the measure.
+   pure subroutine find_slopes(law, from, to, least, most)
       type(law_t), intent(in) :: law
       real(wp), intent(in) :: from, to
-      real(wp) :: e(2)
+      real(wp), intent(out) :: least, most
+      real(wp) :: p(2), share(2), curve(2)
+      integer :: k
 
-      e = [deflection(law, from), deflection(law, to)]
-      bend = no_bend
+      p = [deflection(law, from), deflection(law, to)]
+      p = [minval(p), maxval(p)]
+      share = 1.0_wp
       if (law%is_one_sided) then
-         if (any(e > -0.5_wp*law%rounding)) bend = steep
-         if (zone(e(1)) /= zone(e(2)) .or. zone(e(1)) == 1) bend = corner
+         share = min(max((p + 0.5_wp*law%rounding)/law%rounding, 0.0_wp), 1.0_wp)
+         do k = 1, 2
+            if (p(k) < 0.5_wp*law%rounding) p(k) = 0.5_wp*law%rounding*share(k)**2
+         end do
       end if
-      if (law%has_curve) then
-         if (has_corner(law%curve, e(1), e(2))) bend = corner
-      end if
+      curve = law%rate
+      if (law%has_curve) call slopes_between(law%curve, p(1), p(2), curve(1), curve(2))
+      least = min(curve(1)*share(1), curve(1)*share(2))
+      most = max(curve(2)*share(1), curve(2)*share(2))
+   end subroutine find_slopes
 
-   contains
+   !> Makes a law a straight line: its force and slope at a value of the measure.
+   pure subroutine set_line(law, value, force, slope)
+      type(law_t), intent(inout) :: law
+      real(wp), intent(in) :: value, force, slope
 
-      !> Before contact, within the rounding, or beyond it.
-      pure integer function zone(e)
-         real(wp), intent(in) :: e
-         zone = 0
-         if (abs(e) <= 0.5_wp*law%rounding) zone = 1
-         if (e > 0.5_wp*law%rounding) zone = 2
-      end function zone
-
-   end function bend_between
+      law%is_line = .true.
+      law%line_value = value
+      law%line_force = force
+      law%line_slope = slope
+   end subroutine set_line
 
 end module ek_law

@@ -1,0 +1,109 @@
+!> The tangent of a path at a state: how the bodies and the reactions change with the swept value.
+module ek_tangent
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t, design_state, move_as_screw
+   use ek_kkt, only: kkt_t, assemble, assemble_rate, solve, residual_only
+   implicit none(type, external)
+   private
+   public :: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
+
+   !> Work space, and what the loads do to the matrix.
+   type :: tangent_t
+      private
+      real(wp), allocatable :: whole(:), defect(:)         !! [Δq; Δλ] per place, and a right-hand side
+      real(wp), allocatable :: twist(:)                    !! of the bodies [m, rad]
+      logical :: is_symmetric = .true.      !! no load makes the tangent unsymmetric
+      type(state_t) :: shifted
+   end type tangent_t
+
+contains
+
+   !> Allocates the work space for a model.
+   function new_tangent(suspension) result(self)
+      type(suspension_t), intent(in) :: suspension
+      type(tangent_t) :: self
+      integer :: k
+
+      allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
+         self%defect(suspension%unknowns() + suspension%constraints()), self%twist(suspension%unknowns()), source=0.0_wp)
+      self%shifted = design_state(suspension)
+      do k = 1, size(suspension%loads)
+         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
+      end do
+   end function new_tangent
+
+   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m].
+   pure real(wp) function largest_motion(motion, length)
+      real(wp), contiguous, intent(in) :: motion(:)    !! twists
+      real(wp), intent(in) :: length                   !! m
+      integer :: k
+
+      largest_motion = 0.0_wp
+      do k = 1, size(motion), 6
+         largest_motion = max(largest_motion, body_motion(motion(k:k + 5), length))
+      end do
+   end function largest_motion
+
+   !> The same for one body.
+   pure real(wp) function body_motion(twist, length)
+      real(wp), intent(in) :: twist(6), length
+      body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
+   end function body_motion
+
+   !> dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
+   !>
+   !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
+   !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
+   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent)
+      type(tangent_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(demand_t), intent(in) :: demand, rate
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: tangent(:)
+      integer, parameter :: most_refinements = 6
+      real(wp), parameter :: enough = 4.0e-4_wp           ! of the motion: a tenth of what a comparison of tangents allows
+      real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step
+      real(wp) :: step, largest
+      integer :: k
+
+      call assemble_rate(suspension, state, rate, kkt)
+      call solve(kkt)
+      self%whole = kkt%rhs
+      if (self%is_symmetric .and. .not. abs(rate%relief) > 0.0_wp) then
+         tangent = self%whole
+         return
+      end if
+      do k = 1, most_refinements
+         largest = largest_motion(self%whole(:kkt%nq), kkt%length)
+         if (.not. (largest > 0.0_wp .and. largest < huge(largest))) exit
+         step = small_motion*kkt%length/largest
+         call shifted_residual(step)
+         self%defect = kkt%rhs
+         call shifted_residual(-step)
+         self%defect = (self%defect - kkt%rhs)/(2.0_wp*step)
+         call assemble_rate(suspension, state, rate, kkt)
+         kkt%rhs = kkt%rhs + self%defect
+         call solve(kkt)
+         self%whole = self%whole + kkt%rhs
+         if (largest_motion(kkt%rhs(:kkt%nq), kkt%length) <= enough*largest) exit
+      end do
+      tangent = self%whole
+
+   contains
+
+      !> The residual at a small distance along the tangent, with the same inputs.
+      subroutine shifted_residual(distance)
+         real(wp), intent(in) :: distance     !! place
+
+         self%shifted = state
+         self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)
+         self%twist = distance*self%whole(:kkt%nq)
+         call move_as_screw(self%shifted, self%twist)
+         call assemble(suspension, self%shifted, demand, residual_only, kkt)
+      end subroutine shifted_residual
+
+   end subroutine find_tangent
+
+end module ek_tangent
