@@ -285,7 +285,7 @@ contains
       call move_as_screw(state, self%twist)
    end subroutine go_along
 
-   !> Records a bifurcation at a swept value; one so near to the last that states cannot tell them apart is the same.
+   !> Records a bifurcation at a swept value; one that is not distinct from the last one within rounding is left out.
    pure subroutine note_crossing(self, place)
       type(branch_t), intent(inout) :: self
       real(wp), intent(in) :: place
