@@ -3,12 +3,13 @@
 !> A key that is not listed is the same on both sides (a rate, a radius, static toe). To add a key that
 !> holds a name or a direction: add its row here as well as in ek_group.
 module ek_mirror_role
+   use ek_kinds, only: wp
    use ek_text, only: lower
    use ek_record, only: record_t, element
    implicit none(type, external)
    private
    public :: role_of, is_element, can_be_doubled, is_name, named_group, turns
-   public :: loads, polar, axial, curves, side
+   public :: loads, polar, axial, curves, side, sign_of_image
 
    ! names of other records; a vector; and the rest
    integer, parameter :: points = 1, bodies = 2, measures = 3, joints = 4, loads = 5, wheels = 6
@@ -96,6 +97,21 @@ contains
       end do
       if (role == polar .and. key == 'axis_vector' .and. turns(record)) role = axial
    end function role_of
+
+   !> The sign of element `at` of a key in the mirror image of its record.
+   pure real(wp) function sign_of_image(record, key, at) result(sign)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: key
+      integer, intent(in) :: at
+
+      sign = 1.0_wp
+      select case (role_of(record, key))
+      case (polar)
+         if (at == 2) sign = -1.0_wp
+      case (axial)
+         if (at /= 2) sign = -1.0_wp
+      end select
+   end function sign_of_image
 
    !> Whether the axis of the record is a rotation axis: the sense of rotation determines the sign of the value.
    pure logical function turns(record)

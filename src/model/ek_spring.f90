@@ -18,6 +18,7 @@ module ek_spring
    use ek_law, only: law_t, look_up_law
    implicit none(type, external)
    private
+   public :: spring_numbers_t, set_numbers
    public :: spring_t, new_spring, new_damper, new_stop, new_torsion, new_measure_spring, set_measure_design
    public :: axial_spring, damper, stop_spring, torsion_spring, measure_spring, is_of_angle
    public :: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material, add_measure_material
@@ -41,7 +42,42 @@ module ek_spring
       type(law_t) :: law
    end type spring_t
 
+   !> The numbers of an element, SI: all that a change of design can change.
+   type :: spring_numbers_t
+      type(measure_t) :: measure            !! design points instead of arms
+      real(wp) :: rate = 0.0_wp             !! N/m, N m/rad; of a damper its gas rate
+      real(wp) :: preload = 0.0_wp          !! N, N m; of a damper its gas force
+      real(wp) :: free_length = 0.0_wp      !! m; 0: not given
+      real(wp) :: clearance = 0.0_wp, rounding = 0.0_wp   !! of a stop [m]
+   end type spring_numbers_t
+
 contains
+
+   !> Sets all numbers of an element whose kind, law and curve are known.
+   !>
+   !> A free length sets the preload from the design length; with a curve, compression is measured from the free length.
+   pure subroutine set_numbers(spring, numbers)
+      type(spring_t), intent(inout) :: spring
+      type(spring_numbers_t), intent(in) :: numbers
+
+      spring%measure = numbers%measure
+      spring%design_length = 0.0_wp
+      if (numbers%measure%kind == distance) spring%design_length = norm2(numbers%measure%arm_j - numbers%measure%arm_i)
+      spring%preload = numbers%preload
+      spring%rate = 0.0_wp
+      if (spring%kind == stop_spring) then
+         spring%law%reference = spring%design_length + spring%law%sign*numbers%clearance
+         spring%law%rounding = numbers%rounding
+         spring%law%rate = numbers%rate
+      else if (spring%has_law) then
+         spring%law%reference = spring%design_length
+         if (numbers%free_length > 0.0_wp) spring%law%reference = numbers%free_length
+      else
+         spring%rate = numbers%rate
+         if (numbers%free_length > 0.0_wp) &
+            spring%preload = numbers%rate*(numbers%free_length - spring%design_length)
+      end if
+   end subroutine set_numbers
 
    !> A spring between two design points (global; `complete` of the builder converts them to arms).
    !>

@@ -21,6 +21,7 @@ module ek_suspension
       character(:), allocatable :: name, where
       real(wp) :: origin(3) = 0.0_wp      !! reference point r at design [m]
       logical :: has_origin = .false.     !! given in the deck; otherwise the mean of its attachment points
+      integer :: attached = 0             !! number of those points
       real(wp) :: mass = 0.0_wp           !! kg
       real(wp) :: centre(3) = 0.0_wp      !! centre of gravity: arm from the reference point, body axes [m]; if there is a mass
    end type body_t
@@ -112,6 +113,7 @@ module ek_suspension
       type(readout_t), allocatable :: readouts(:)
       type(axle_t) :: axle
       type(steering_t) :: steering
+      real(wp), allocatable :: vectors(:, :)   !! (3, 0:n) design points [m] and directions of the blueprint, see ek_realise
    contains
       procedure :: unknowns                    !! 6 × bodies
       procedure :: constraints                 !! number of rows
