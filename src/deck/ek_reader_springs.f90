@@ -224,6 +224,7 @@ contains
 
       associate (this => draft%plan%curves(number), x => draft%parameters%x)
          curve = new_curve(x(this%x:this%x + this%points - 1), x(this%y:this%y + this%points - 1), this%kind)
+         curve%name = this%name
       end associate
    end function curve_of
 
