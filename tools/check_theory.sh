@@ -48,7 +48,7 @@ LIST=$list perl -e '
     open(my $in, "<", $file) or die;
     while (<$in>) {
       for my $equation (/\(([A-Z]\.\d+)\)/g) { wrong("$file:$.: no equation ($equation)") unless $page{$equation} }
-      for my $path (m{`((?:src|tests|tools|input)/[\w/.]+)`}g) { wrong("$file:$.: no file $path") unless -e $path }
+      for my $path (m{`((?:src|tests|tools|input|studies)/[\w/.]+)`}g) { wrong("$file:$.: no file $path") unless -e $path }
     }
   }
 
