@@ -8,11 +8,11 @@ module ek_parameter
    use ek_twin, only: right_twin
    use ek_record, only: record_t, entry_index, element, own_name
    use ek_group, only: group_names, group_number, point_group, key_t, find_key, is_single
-   use ek_setting, only: path_t
+   use ek_setting, only: path_t, split_path, change_t, changed
    use ek_mirror_role, only: sign_of_image
    implicit none(type, external)
    private
-   public :: parameter_t, parameters_t, add_parameter, find_parameters, parameter_path
+   public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, parameter_path
 
    !> One number of the deck.
    type :: parameter_t
@@ -31,6 +31,12 @@ module ek_parameter
       type(parameter_t), allocatable :: list(:)     !! the first `used`
       real(wp), allocatable :: x(:)
    end type parameters_t
+
+   !> A parameter to which a path leads.
+   type :: choice_t
+      integer :: number = 0
+      real(wp) :: sign = 1.0_wp           !! −1: it takes the opposite of the value written to the path
+   end type choice_t
 
 contains
 
@@ -70,27 +76,64 @@ contains
       end do
    end subroutine add_parameter
 
-   !> The parameters with a path, which may have * in place of names; none if the path is that of a text or of nothing.
-   subroutine find_parameters(parameters, records, path, found)
+   !> The parameters with a path, which may have * in place of names; none if it is the path of a text, or of nothing that the
+   !> deck gives. The path of a half deck leads to both sides of the axle.
+   subroutine find_parameters(parameters, records, path_text, found)
       type(parameters_t), intent(in) :: parameters
       type(record_t), intent(in) :: records(:)
-      type(path_t), intent(in) :: path
-      integer, allocatable, intent(out) :: found(:)
-      logical :: is_meant(parameters%used)
+      character(*), intent(in) :: path_text
+      type(choice_t), allocatable, intent(out) :: found(:)
+      type(path_t) :: path
+      character(:), allocatable :: message
       integer :: k
 
+      allocate (found(0))
+      call split_path(trim(adjustl(path_text)), path, message)
+      if (message /= '') return
       do k = 1, parameters%used
-         associate (this => parameters%list(k))
-            is_meant(k) = .false.
-            if (records(this%record)%group /= group_names(path%group)) cycle
-            if (this%key /= path%key) cycle
+         associate (this => parameters%list(k), record => records(parameters%list(k)%record))
+            if (record%group /= group_names(path%group) .or. this%key /= path%key) cycle
             if (path%has_subscript .and. this%at /= path%first) cycle
-            is_meant(k) = is_single(path%group) .or. is_like(element(records(this%record), 'name', 1), path%name) .or. &
-               is_like(own_name(records(this%record)), path%name)
+            if (is_single(path%group) .or. is_like(element(record, 'name', 1), path%name)) then
+               found = [found, choice_t(k, 1.0_wp)]
+            else if (is_like(own_name(record), path%name)) then
+               found = [found, choice_t(k, this%sign)]
+            end if
          end associate
       end do
-      found = pack([(k, k=1, parameters%used)], is_meant)
    end subroutine find_parameters
+
+   !> Gives the parameters found by a path a value, in the unit of the deck.
+   pure subroutine put_value(parameters, found, value, x)
+      type(parameters_t), intent(in) :: parameters
+      type(choice_t), intent(in) :: found(:)
+      real(wp), intent(in) :: value
+      real(wp), intent(inout) :: x(:)
+      integer :: j
+
+      do j = 1, size(found)
+         x(found(j)%number) = (found(j)%sign*value)*parameters%list(found(j)%number)%unit
+      end do
+   end subroutine put_value
+
+   !> Changes the parameters found by a path relative to their values in x, on the right side of an axle as on the left.
+   subroutine put_change(parameters, found, change, x)
+      type(parameters_t), intent(in) :: parameters
+      type(choice_t), intent(in) :: found(:)
+      type(change_t), intent(in) :: change
+      real(wp), intent(inout) :: x(:)
+      character(:), allocatable :: text
+      real(wp) :: value
+      integer :: j
+
+      do j = 1, size(found)
+         associate (unit => parameters%list(found(j)%number)%unit, at => x(found(j)%number))
+            text = changed(change, found(j)%sign*at/unit)
+            read (text, *) value
+            at = found(j)%sign*value*unit
+         end associate
+      end do
+   end subroutine put_change
 
    !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
    function parameter_path(this, records) result(path)

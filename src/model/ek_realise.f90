@@ -364,8 +364,9 @@ contains
             if (this%moment > 0) load%moment = inward(plan, x(this%moment:this%moment + 2))
          end associate
       end do
-      is_good = is_good .and. ((suspension%gravity > 0.0_wp) .eqv. size(suspension%loads) > used .or. &
-         .not. any(suspension%bodies%mass > 0.0_wp))
+      ! a weight for every body with a mass, or none
+      if ((suspension%gravity > 0.0_wp) .neqv. size(suspension%loads) > used) &
+         is_good = is_good .and. .not. any(suspension%bodies%mass > 0.0_wp)
       do k = used + 1, size(suspension%loads)
          associate (load => suspension%loads(k), body => suspension%bodies(suspension%loads(k)%body))
             load%arm = body%centre
