@@ -14,7 +14,7 @@ module ek_group
    public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group, mass_group
    public :: most_values, most_loads, is_legal_name, illegal_name
    public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
-   public :: word, prose, number, whole, switch, range_fault
+   public :: word, prose, number, whole, switch, is_inside, range_words
 
    ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
@@ -320,25 +320,34 @@ contains
       end do
    end subroutine find_key
 
-   !> 'must be above 0, found -1' if a number is outside the range of its key; '' if it is inside.
-   pure function range_fault(key, value, shown) result(fault)
-      type(key_t), intent(in) :: key
+   !> Whether a number is inside a legal range.
+   pure logical function is_inside(range, value)
+      integer, intent(in) :: range
       real(wp), intent(in) :: value
-      character(*), intent(in) :: shown       !! the value as text
-      character(:), allocatable :: fault
 
-      fault = ''
-      select case (key%range)
+      is_inside = .true.
+      select case (range)
       case (positive)
-         if (.not. value > 0.0_wp) fault = 'must be above 0'//trim(key%unit)//', found '//shown
+         is_inside = value > 0.0_wp
       case (not_negative)
-         if (value < 0.0_wp) fault = 'must be 0 or more'//trim(key%unit)//', found '//shown
+         is_inside = value >= 0.0_wp
       case (not_zero)
-         if (.not. abs(value) > 0.0_wp) fault = 'must not be zero'
+         is_inside = abs(value) > 0.0_wp
       case (share)
-         if (value < 0.0_wp .or. value > 1.0_wp) fault = 'must be 0 to 1, found '//shown
+         is_inside = value >= 0.0_wp .and. value <= 1.0_wp
       end select
-   end function range_fault
+   end function is_inside
+
+   !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
+   pure function range_words(key, shown) result(words)
+      type(key_t), intent(in) :: key
+      character(*), intent(in) :: shown       !! the value as text
+      character(:), allocatable :: words
+      character(*), parameter :: ranges(4) = [character(12) :: 'above 0', '0 or more', 'not be zero', '0 to 1']
+
+      words = 'must be '//trim(ranges(key%range))//trim(key%unit)//', found '//shown
+      if (key%range == not_zero) words = 'must not be zero'
+   end function range_words
 
    !> All keys of a group, for suggestions and the manual.
    pure function key_names(group) result(names)

@@ -8,7 +8,7 @@ module ek_namelist
    use ek_letters, only: bad_byte
    use ek_complaint, only: place_t, complaints_t
    use ek_record, only: record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, range_fault, word, prose, number, whole, switch, &
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_words, word, prose, number, whole, switch, &
       word_length, note_length, largest_exponent, smallest_exponent
    implicit none(type, external)
    private
@@ -93,10 +93,10 @@ contains
       end function fits
 
       !> A number outside its range is rejected, but the others of the entry are checked too.
-      subroutine check_range(entry, is_inside)
+      subroutine check_range(entry, has_passed)
          type(entry_t), intent(in) :: entry
-         logical, intent(inout) :: is_inside
-         character(:), allocatable :: fault, name
+         logical, intent(inout) :: has_passed
+         character(:), allocatable :: name
          real(wp) :: value
          integer :: j
 
@@ -104,10 +104,9 @@ contains
             read (entry%values(j)%text, *) value
             name = trim(key%name)//element_text(entry%first + j - 1)
             if (key%least /= key%most) name = trim(key%name)
-            fault = range_fault(key, value, str(value))
-            if (fault == '') cycle
-            call complain(k, name//' '//fault)
-            is_inside = .false.
+            if (is_inside(key%range, value)) cycle
+            call complain(k, name//' '//range_words(key, str(value)))
+            has_passed = .false.
             if (key%least /= key%most) return
          end do
       end subroutine check_range

@@ -7,12 +7,12 @@ module ek_parameter
    use ek_text, only: str, is_like
    use ek_twin, only: right_twin
    use ek_record, only: record_t, entry_index, element, own_name
-   use ek_group, only: group_names, group_number, point_group, key_t, find_key, is_single
+   use ek_group, only: group_names, group_number, point_group, key_t, find_key, is_single, is_inside
    use ek_setting, only: path_t, split_path, change_t, changed
    use ek_mirror_role, only: sign_of_image
    implicit none(type, external)
    private
-   public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, parameter_path
+   public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range, parameter_path
 
    !> One number of the deck.
    type :: parameter_t
@@ -20,6 +20,7 @@ module ek_parameter
       character(14) :: key = ''
       integer :: at = 1                   !! subscript
       real(wp) :: unit = 1.0_wp           !! SI value of its unit in the deck
+      integer :: range = 0                !! of its key, see ek_group
       logical :: is_given = .true.        !! .false.: the deck omits it, x has its default
       real(wp) :: sign = 1.0_wp           !! −1: on the right side, the opposite of the value on the left
       integer :: tied = 0                 !! the parameter of the left side with the same path; 0: none
@@ -51,6 +52,8 @@ contains
       logical, intent(in) :: is_given
       type(parameter_t), allocatable :: grown(:)
       real(wp), allocatable :: grown_x(:)
+      type(key_t) :: row
+      logical :: is_known
       integer :: n, j
 
       n = parameters%used
@@ -65,7 +68,8 @@ contains
       n = n + 1
       parameters%used = n
       parameters%x(n) = value
-      parameters%list(n) = parameter_t(k, key, at, unit, is_given)
+      call find_key(group_number(records(k)%group), key, row, is_known)
+      parameters%list(n) = parameter_t(k, key, at, unit, row%range, is_given)
       if (records(k)%twin /= right_twin) return
       parameters%list(n)%sign = sign_of_image(records(k), key, at)
       do j = n - 1, 1, -1         ! the left record precedes the right one
@@ -134,6 +138,19 @@ contains
          end associate
       end do
    end subroutine put_change
+
+   !> Whether the parameters found by a path are inside their legal ranges.
+   pure logical function in_range(parameters, found, x)
+      type(parameters_t), intent(in) :: parameters
+      type(choice_t), intent(in) :: found(:)
+      real(wp), intent(in) :: x(:)
+      integer :: j
+
+      in_range = .true.
+      do j = 1, size(found)
+         in_range = in_range .and. is_inside(parameters%list(found(j)%number)%range, x(found(j)%number))
+      end do
+   end function in_range
 
    !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
    function parameter_path(this, records) result(path)
