@@ -4,7 +4,7 @@ module ek_reader_springs
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t, look_up_curve
    use ek_measure, only: distance
-   use ek_spring, only: new_spring, new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, spring_t
+   use ek_element, only: new_spring, new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, element_t
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_element
    use ek_group, only: measure_group, spring_group, damper_group, stop_group, torsion_group, word_length
@@ -34,7 +34,7 @@ contains
       real(wp) :: rate, preload, free_length
       logical :: balance
       namelist /spring/ name, bodies, at, measure, rate, curve, preload, free_length, balance
-      type(spring_t) :: element
+      type(element_t) :: element
       type(ends_t) :: ends
       real(wp), allocatable :: free
       type(curve_t), allocatable :: law      ! unallocated (none, or rejected): an absent argument
