@@ -11,8 +11,7 @@ module ek_reader
    use ek_complaint, only: place_t, place_in
    use ek_record, only: element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
-      word_length, note_length, record_head, did_you_mean, is_legal_name, illegal_name
+      case_group, word_length, note_length, record_head, did_you_mean, is_legal_name, illegal_name, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
@@ -20,7 +19,7 @@ module ek_reader
    use ek_reserved_name, only: reserved_because
    use ek_reader_curves, only: read_curves
    use ek_reader_masses, only: read_masses
-   use ek_reader_springs, only: read_springs, read_dampers, read_stops, read_torsions
+   use ek_reader_springs, only: read_scalar_elements
    use ek_reader_elements, only: read_bushings, read_loads
    use ek_reader_wheels, only: read_wheels
    use ek_reader_axle, only: read_axle, read_steering
@@ -92,10 +91,7 @@ contains
       call read_measures(deck, draft, suspension)
       call read_joints(deck, draft, suspension)
       call read_bushings(deck, draft, suspension)
-      call read_springs(deck, draft, suspension)
-      call read_dampers(deck, draft, suspension)
-      call read_stops(deck, draft, suspension)
-      call read_torsions(deck, draft, suspension)
+      call read_scalar_elements(deck, draft, suspension)
       call read_wheels(deck, draft, suspension)
       call read_axle(deck, draft, suspension)
       call read_steering(deck, draft, suspension)
@@ -201,13 +197,6 @@ contains
       end function doubling
 
    end subroutine check_new
-
-   !> Whether elements of a group have columns in the results.
-   pure logical function has_results(group)
-      integer, intent(in) :: group
-      has_results = any(group == [joint_group, measure_group, bushing_group, spring_group, damper_group, stop_group, &
-         torsion_group])
-   end function has_results
 
    !> &model: names, units, axes.
    subroutine read_model(deck, draft, suspension)

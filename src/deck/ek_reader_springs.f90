@@ -13,7 +13,7 @@ module ek_reader_springs
    use ek_reader_curves, only: find_law, find_curve, check_rate, check_either
    implicit none(type, external)
    private
-   public :: read_springs, read_dampers, read_stops, read_torsions
+   public :: read_scalar_elements
 
    real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
@@ -24,6 +24,18 @@ module ek_reader_springs
    end type ends_t
 
 contains
+
+   !> All elements of one measure. Their order here is that of their columns in the results.
+   subroutine read_scalar_elements(deck, draft, suspension)
+      type(deck_t), intent(in) :: deck
+      type(draft_t), intent(inout) :: draft
+      type(suspension_t), intent(inout) :: suspension
+
+      call read_springs(deck, draft, suspension)
+      call read_dampers(deck, draft, suspension)
+      call read_stops(deck, draft, suspension)
+      call read_torsions(deck, draft, suspension)
+   end subroutine read_scalar_elements
 
    !> &spring.
    subroutine read_springs(deck, draft, suspension)

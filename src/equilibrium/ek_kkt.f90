@@ -151,8 +151,7 @@ contains
             at_i = 6*(i - 1)
             at_j = 6*(j - 1)
             call look_element(element, poses(i), poses(j), element_view)
-            pull = -element_view%pull
-            call push(pull, at_i, at_j, rhs)
+            call resist(element_view%pull, at_i, at_j, rhs)
             if (mode == whole_tangent) then
                call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
             else if (mode == material_only) then
@@ -172,8 +171,8 @@ contains
                call look(term%measure, poses(i), poses(j), view)
                value = value + term%coefficient*view%value
                gradients(:, t) = term%coefficient*view%gradient
-               pull = (-reaction(k))*gradients(:, t)
-               call push(pull, at_i, at_j, rhs)
+               pull = reaction(k)*gradients(:, t)
+               call resist(pull, at_i, at_j, rhs)
                if (mode /= residual_only) then
                   if (i > 0) matrix(nq + k, at_i + 1:at_i + 6) = matrix(nq + k, at_i + 1:at_i + 6) + gradients(1:6, t)
                   if (j > 0) matrix(nq + k, at_j + 1:at_j + 6) = matrix(nq + k, at_j + 1:at_j + 6) + gradients(7:12, t)
@@ -237,14 +236,14 @@ contains
       end do
    end function load_factor
 
-   !> Adds a generalised force on both bodies to the right-hand side.
-   pure subroutine push(force, at_i, at_j, rhs)
-      real(wp), intent(in) :: force(12)
+   !> Subtracts a pull dV/dz (the force on both bodies is −dV/dz) from the right-hand side.
+   pure subroutine resist(pull, at_i, at_j, rhs)
+      real(wp), intent(in) :: pull(12)
       integer, intent(in) :: at_i, at_j        !! negative: the chassis
       real(wp), intent(inout) :: rhs(*)
-      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) + force(1:6)
-      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) + force(7:12)
-   end subroutine push
+      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) - pull(1:6)
+      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) - pull(7:12)
+   end subroutine resist
 
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
    !>
