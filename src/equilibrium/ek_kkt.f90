@@ -243,7 +243,7 @@ contains
       end do
    end function load_factor
 
-   !> Subtracts a pull dV/dz (the force on both bodies is −dV/dz) from the right-hand side.
+   !> Subtracts a generalised force dV/dz from the right-hand side: the force ON the bodies is −dV/dz.
    pure subroutine resist(pull, at_i, at_j, rhs)
       real(wp), intent(in) :: pull(12)
       integer, intent(in) :: at_i, at_j        !! negative: the chassis
