@@ -5,7 +5,7 @@ module ek_check
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_words, only: tell_result => tell
-   use ek_spring, only: axial_spring, measure_spring, stop_spring, torsion_spring
+   use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_rig, only: mount
    use ek_case, only: case_t, default_tolerance
@@ -120,21 +120,21 @@ contains
       character(*), intent(in) :: checksum
       type(buffer_t), intent(inout) :: words
       character(:), allocatable :: held, unused
-      integer :: k
+      integer :: k, kind
 
       call tell(words, 'model', suspension%name//' (checksum '//checksum//')')
       call tell(words, 'bodies', str(size(suspension%bodies)))
       call tell(words, 'unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
       call tell(words, 'constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
          ', rank '//str(diagnosis%rank))
-      held = plural(size(suspension%bushings), 'bushing', 'bushings')//' and '// &
-         plural(count(suspension%springs%kind == axial_spring), 'spring', 'springs')
-      k = count(suspension%springs%kind == torsion_spring)
-      if (k > 0) held = held//', '//plural(k, 'torsion spring', 'torsion springs')
-      k = count(suspension%springs%kind == measure_spring)
-      if (k > 0) held = held//', '//plural(k, 'spring on a measure', 'springs on measures')
-      k = count(suspension%springs%kind == stop_spring)
-      if (k > 0) held = held//', '//plural(k, 'stop', 'stops')
+      held = ''
+      do kind = 1, size(element_kinds)         ! bushings and springs are listed even if there are none
+         k = count(suspension%elements%kind == kind)
+         if (element_kinds(kind)%one == '' .or. (kind > 2 .and. k == 0)) cycle
+         if (kind == 2) held = held//' and '
+         if (kind > 2) held = held//', '
+         held = held//plural(k, trim(element_kinds(kind)%one), trim(element_kinds(kind)%many))
+      end do
       k = count(suspension%rows%compliance > 0.0_wp)
       if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
       call tell(words, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)

@@ -7,7 +7,7 @@ module ek_group
    use ek_letters, only: visible
    implicit none(type, external)
    private
-   public :: group_names, group_number, is_deck_group, names_of_groups, is_single
+   public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single
    public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
@@ -26,6 +26,8 @@ module ek_group
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass']
 
+   integer, parameter :: result_groups(7) = [measure_group, joint_group, bushing_group, spring_group, damper_group, &
+      stop_group, torsion_group]                                    ! their names make the names of columns
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
 
    ! types of value
@@ -282,6 +284,12 @@ contains
       integer, intent(in) :: group
       is_deck_group = group > 0 .and. .not. any(study_groups == group)
    end function is_deck_group
+
+   !> Whether records of a group have columns in the results: their names must differ. &mirror duplicates them.
+   pure logical function has_results(group)
+      integer, intent(in) :: group
+      has_results = any(result_groups == group)
+   end function has_results
 
    !> The group names of a deck or of a study, for suggestions.
    pure function names_of_groups(of_deck) result(names)

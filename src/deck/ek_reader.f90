@@ -13,7 +13,7 @@ module ek_reader
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
       curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
-      word_length, record_head, did_you_mean, is_legal_name, illegal_name
+      word_length, record_head, did_you_mean, is_legal_name, illegal_name, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, has_key, choice, text_of, switch_of, &
@@ -289,13 +289,6 @@ contains
       end function doubling
 
    end subroutine check_new
-
-   !> Whether elements of a group have columns in the results.
-   pure logical function has_results(group)
-      integer, intent(in) :: group
-      has_results = any(group == [joint_group, measure_group, bushing_group, spring_group, damper_group, stop_group, &
-         torsion_group])
-   end function has_results
 
    !> &model: names, units, axes.
    subroutine read_model(draft)

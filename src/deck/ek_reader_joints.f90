@@ -5,7 +5,7 @@ module ek_reader_joints
    use ek_rotation, only: angle_between
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
    use ek_joint, only: joint_geometry_t, joint_kinds, needs_axis, needs_second_axis, axes_fit
-   use ek_spring, only: is_of_angle
+   use ek_element, only: is_of_angle
    use ek_suspension, only: readout_t
    use ek_builder, only: add_readout, add_joint, add_driver, add_coupler
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright

@@ -6,7 +6,7 @@ module ek_reader_springs
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t, new_curve, scaled_curve, look_up_curve, curve_kinds, least_step
    use ek_measure, only: measure_t, distance
-   use ek_spring, only: new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, spring_t
+   use ek_element, only: new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, element_t
    use ek_builder, only: add_element
    use ek_blueprint, only: element_plan_t, curve_plan_t
    use ek_group, only: measure_group
@@ -62,7 +62,7 @@ contains
       type(draft_t), intent(inout) :: draft
       type(element_plan_t) :: plan
       type(measure_t) :: measure
-      type(spring_t) :: element
+      type(element_t) :: element
       type(curve_t), allocatable :: law      ! unallocated: an absent argument
       integer :: bodies(2)
 
@@ -209,7 +209,7 @@ contains
    !> Adds an element to the prototype and its plan to the blueprint.
    subroutine add(draft, element, plan)
       type(draft_t), intent(inout) :: draft
-      type(spring_t), intent(in) :: element
+      type(element_t), intent(in) :: element
       type(element_plan_t), intent(in) :: plan
 
       call add_element(draft%plan%prototype, element)

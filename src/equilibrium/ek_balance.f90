@@ -14,7 +14,7 @@ module ek_balance
    use ek_text, only: str, quoted, plural
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
-   use ek_spring, only: axial_spring, spring_t
+   use ek_element, only: axial_spring, element_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
@@ -43,9 +43,9 @@ contains
    end subroutine balance
 
    !> Whether balance may change the preload of an element.
-   elemental logical function is_free(spring)
-      type(spring_t), intent(in) :: spring
-      is_free = spring%kind == axial_spring .and. spring%is_balanced
+   elemental logical function is_free(element)
+      type(element_t), intent(in) :: element
+      is_free = element%kind == axial_spring .and. element%is_balanced
    end function is_free
 
    !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel
@@ -85,7 +85,7 @@ contains
             end associate
          end do
       case ('spring')
-         springs = count(is_free(suspension%springs))
+         springs = count(is_free(suspension%elements))
          if (springs > size(suspension%wheels)) call words%add('balance: '//str(springs)//' springs are balanced for '// &
             plural(size(suspension%wheels), 'wheel', 'wheels')//', so their preloads are not unique; the smallest change of '// &
             'them is used. Springs in series carry one force: set balance = .false. in the &spring that is to keep its preload')
@@ -120,7 +120,7 @@ contains
       real(wp) :: height(size(suspension%wheels))
       integer :: w, iteration
 
-      if (.not. any(is_free(suspension%springs)) .or. size(suspension%wheels) == 0) then
+      if (.not. any(is_free(suspension%elements)) .or. size(suspension%wheels) == 0) then
          call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
          return
       end if
@@ -165,14 +165,14 @@ contains
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
       type(view_t) :: view
-      real(wp) :: slope(size(suspension%wheels), size(suspension%springs))
-      real(wp) :: change(size(suspension%springs))         ! per spring; 0 for other elements
+      real(wp) :: slope(size(suspension%wheels), suspension%scalars)
+      real(wp) :: change(suspension%scalars)         ! per spring; 0 for other elements
       integer :: s, w, at
 
       slope = 0.0_wp
       do s = 1, size(change)
-         if (.not. is_free(suspension%springs(s))) cycle
-         associate (m => suspension%springs(s)%measure)
+         if (.not. is_free(suspension%elements(s))) cycle
+         associate (m => suspension%elements(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             kkt%rhs = 0.0_wp     ! a unit preload pushes the ends apart
             at = 6*(m%body_i - 1)
@@ -187,7 +187,7 @@ contains
       end do
       call least_norm(slope, -height, change)
       do s = 1, size(change)
-         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
+         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = suspension%elements(s)%preload + change(s)
       end do
    end subroutine lower_by
 
@@ -216,32 +216,32 @@ contains
       real(wp), allocatable :: root(:), column(:)
       integer :: b, k, s, at, t, nx, ny
 
-      do s = 1, size(suspension%springs)
-         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = 0.0_wp
+      do s = 1, suspension%scalars
+         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = 0.0_wp
       end do
-      do b = 1, size(suspension%bushings)
-         suspension%bushings(b)%preload_force = 0.0_wp
-         suspension%bushings(b)%preload_moment = 0.0_wp
-         call set_bushing_axes(suspension%bushings(b))
+      do b = 1, size(suspension%elements) - suspension%scalars
+         suspension%elements(suspension%scalars + b)%bushing%preload_force = 0.0_wp
+         suspension%elements(suspension%scalars + b)%bushing%preload_moment = 0.0_wp
+         call set_bushing_axes(suspension%elements(suspension%scalars + b)%bushing)
       end do
       kkt = new_kkt(suspension)
       state = design_state(suspension)
       call assemble(suspension, state, demand_t(), residual_only, kkt)
       allocate (load(kkt%nq), remainder(kkt%nq))
       load = kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
-      nx = 6*size(suspension%bushings)
-      ny = size(suspension%springs) + kkt%nc
+      nx = 6*(size(suspension%elements) - suspension%scalars)
+      ny = suspension%scalars + kkt%nc
       allocate (weighted(kkt%nq, nx), free(kkt%nq, ny), root(nx), column(kkt%nq), source=0.0_wp)
-      do b = 1, size(suspension%bushings)
-         root(6*b - 5:6*b) = sqrt(max(design_rates(suspension%bushings(b)), 0.0_wp))
+      do b = 1, size(suspension%elements) - suspension%scalars
+         root(6*b - 5:6*b) = sqrt(max(design_rates(suspension%elements(suspension%scalars + b)%bushing), 0.0_wp))
          do k = 1, 6
             call bushing_column(suspension, b, k, column)
             weighted(:, 6*(b - 1) + k) = column*root(6*(b - 1) + k)*kkt%scale(:kkt%nq)
          end do
       end do
-      do s = 1, size(suspension%springs)
-         if (.not. is_free(suspension%springs(s))) cycle
-         associate (m => suspension%springs(s)%measure)
+      do s = 1, suspension%scalars
+         if (.not. is_free(suspension%elements(s))) cycle
+         associate (m => suspension%elements(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)
             if (at >= 0) free(at + 1:at + 6, s) = view%gradient(1:6)
@@ -252,7 +252,7 @@ contains
       do k = 1, kkt%nc
          if (.not. takes_part(suspension, k)) cycle
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
-            associate (m => suspension%terms(t)%measure, c => size(suspension%springs) + k)
+            associate (m => suspension%terms(t)%measure, c => suspension%scalars + k)
                at = 6*(m%body_i - 1)
                if (at >= 0) free(at + 1:at + 6, c) = free(at + 1:at + 6, c) - kkt%gradients(1:6, t)
                at = 6*(m%body_j - 1)
@@ -277,16 +277,16 @@ contains
             kept_out(suspension))
          return
       end if
-      do s = 1, size(suspension%springs)
-         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = y(s)
+      do s = 1, suspension%scalars
+         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = y(s)
       end do
       do k = 1, kkt%nc      ! the prescribed value of a driver with a stiffness compensates its deflection
-         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(size(suspension%springs) + k)
+         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(suspension%scalars + k)
       end do
-      do b = 1, size(suspension%bushings)
-         suspension%bushings(b)%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
-         suspension%bushings(b)%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
-         call set_bushing_axes(suspension%bushings(b))
+      do b = 1, size(suspension%elements) - suspension%scalars
+         suspension%elements(suspension%scalars + b)%bushing%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
+         suspension%elements(suspension%scalars + b)%bushing%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
+         call set_bushing_axes(suspension%elements(suspension%scalars + b)%bushing)
       end do
    end subroutine balance_all
 
@@ -299,7 +299,7 @@ contains
       integer :: at
 
       column = 0.0_wp
-      associate (bushing => suspension%bushings(b))
+      associate (bushing => suspension%elements(suspension%scalars + b)%bushing)
          axis = bushing%axes(:, merge(k, k - 3, k <= 3))
          at = 6*(bushing%body_j - 1)
          if (at >= 0) call put(at, bushing%arm_j, 1.0_wp)

@@ -16,8 +16,8 @@ module ek_diagnosis
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted, plural
-   use ek_spring, only: axial_spring, spring_tension
-   use ek_elastic, only: design_rates
+   use ek_element, only: axial_spring, bushing_element, element_label
+   use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t, assemble, condition, whole_tangent, material_only
@@ -313,17 +313,13 @@ contains
    real(wp) function softest_rate(suspension, kkt) result(least)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
-      real(wp) :: rates(6), tension, slope
+      real(wp) :: rates(6)
       integer :: k
 
       least = kkt%stiffness
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%kind /= axial_spring) cycle
-         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
-         if (slope > 0.0_wp) least = min(least, slope)
-      end do
-      do k = 1, size(suspension%bushings)
-         rates = design_rates(suspension%bushings(k))
+      do k = 1, size(suspension%elements)
+         if (all(suspension%elements(k)%kind /= [axial_spring, bushing_element])) cycle
+         rates = design_stiffness(suspension%elements(k))
          least = min(least, minval(rates(1:3), mask=rates(1:3) > 0.0_wp))
       end do
       least = least/kkt%stiffness
@@ -355,14 +351,14 @@ contains
 
       text = ''
       stiffest = 0
-      do k = 1, size(suspension%bushings)
+      do k = suspension%scalars + 1, size(suspension%elements)
          if (stiffest == 0) stiffest = k
-         if (maxval(suspension%bushings(k)%kt) > maxval(suspension%bushings(stiffest)%kt)) stiffest = k
+         if (maxval(suspension%elements(k)%bushing%kt) > maxval(suspension%elements(stiffest)%bushing%kt)) stiffest = k
       end do
       if (stiffest == 0) return
-      associate (b => suspension%bushings(stiffest))
-         if (maxval(b%kt) < much*stiffness) return
-         text = ', '//str(maxval(b%kt)/stiffness, 2)//' times softer than bushing '//quoted(b%name)//place(b%where)
+      associate (element => suspension%elements(stiffest), kt => suspension%elements(stiffest)%bushing%kt)
+         if (maxval(kt) < much*stiffness) return
+         text = ', '//str(maxval(kt)/stiffness, 2)//' times softer than '//element_label(element)//place(element%where)
       end associate
    end function softer_than
 

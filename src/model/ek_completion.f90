@@ -3,7 +3,7 @@ module ek_completion
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t, measure_value, axis_axis, rotation
-   use ek_spring, only: measure_spring, is_of_angle, set_measure_design
+   use ek_element, only: measure_spring, bushing_element, is_of_angle, set_measure_design
    use ek_elastic, only: set_bushing_axes
    use ek_suspension, only: suspension_t
    implicit none(type, external)
@@ -33,19 +33,18 @@ contains
       do k = 1, size(self%readouts)
          call subtract_origins(self, self%readouts(k)%measure)
       end do
-      do k = 1, size(self%springs)
-         if (.not. is_of_angle(self%springs(k)%measure%kind)) call subtract_origins(self, self%springs(k)%measure)
+      do k = 1, size(self%elements)
+         if (.not. is_of_angle(self%elements(k)%measure%kind)) call subtract_origins(self, self%elements(k)%measure)
+         if (self%elements(k)%kind /= bushing_element) cycle
+         associate (b => self%elements(k)%bushing, m => self%elements(k)%measure)
+            b%gap0 = b%arm_j - b%arm_i
+            b%arm_i = m%arm_i
+            b%arm_j = m%arm_j
+            call set_bushing_axes(b)
+         end associate
       end do
       do k = 1, size(self%joints)
          self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
-      end do
-      do k = 1, size(self%bushings)
-         associate (b => self%bushings(k))
-            b%gap0 = b%arm_j - b%arm_i
-            b%arm_i = b%arm_i - origin_of(self, b%body_i)
-            b%arm_j = b%arm_j - origin_of(self, b%body_j)
-         end associate
-         call set_bushing_axes(self%bushings(k))
       end do
       do k = 1, size(self%bodies)
          self%bodies(k)%centre = self%bodies(k)%centre - self%bodies(k)%origin
@@ -75,10 +74,10 @@ contains
             self%readouts(k)%design_value = design_value(self, m)
          end associate
       end do
-      do k = 1, size(self%springs)
-         if (self%springs(k)%kind /= measure_spring) cycle
-         associate (m => self%springs(k)%measure)
-            call set_measure_design(self%springs(k), design_value(self, m))
+      do k = 1, size(self%elements)
+         if (self%elements(k)%kind /= measure_spring) cycle
+         associate (m => self%elements(k)%measure)
+            call set_measure_design(self%elements(k), design_value(self, m))
          end associate
       end do
    end subroutine settle_design
@@ -112,12 +111,8 @@ contains
          end select
          call include_points(self, self%terms(t)%measure)
       end do
-      do k = 1, size(self%springs)
-         if (.not. is_of_angle(self%springs(k)%measure%kind)) call include_points(self, self%springs(k)%measure)
-      end do
-      do k = 1, size(self%bushings)
-         call include_point(self, self%bushings(k)%body_i, self%bushings(k)%arm_i)
-         call include_point(self, self%bushings(k)%body_j, self%bushings(k)%arm_j)
+      do k = 1, size(self%elements)
+         if (.not. is_of_angle(self%elements(k)%measure%kind)) call include_points(self, self%elements(k)%measure)
       end do
       do k = 1, size(self%bodies)
          associate (body => self%bodies(k))
@@ -171,8 +166,7 @@ contains
       if (.not. allocated(self%joints)) allocate (self%joints(0))
       if (.not. allocated(self%rows)) allocate (self%rows(0))
       if (.not. allocated(self%terms)) allocate (self%terms(0))
-      if (.not. allocated(self%springs)) allocate (self%springs(0))
-      if (.not. allocated(self%bushings)) allocate (self%bushings(0))
+      if (.not. allocated(self%elements)) allocate (self%elements(0))
       if (.not. allocated(self%loads)) allocate (self%loads(0))
       if (.not. allocated(self%wheels)) allocate (self%wheels(0))
       if (.not. allocated(self%readouts)) allocate (self%readouts(0))

@@ -12,7 +12,7 @@ module ek_realise
    use ek_curve, only: curve_t, new_curve, scaled_curve, has_points, look_up_curve, least_step
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, axes_fit, max_terms
-   use ek_spring, only: spring_numbers_t, set_numbers, stop_spring
+   use ek_element, only: element_numbers_t, set_numbers, stop_spring
    use ek_suspension, only: suspension_t, wheel_t
    use ek_case, only: case_t
    use ek_completion, only: settle_design
@@ -227,12 +227,12 @@ contains
       real(wp), intent(in) :: x(:)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
-      type(spring_numbers_t) :: numbers
+      type(element_numbers_t) :: numbers
       real(wp) :: force, slope
       integer :: k
 
       do k = 1, size(plan%elements)
-         associate (spring => suspension%springs(k), this => plan%elements(k))
+         associate (spring => suspension%elements(k), this => plan%elements(k))
             if (this%readout > 0) then
                numbers%measure = suspension%readouts(this%readout)%measure
             else
@@ -269,7 +269,10 @@ contains
       integer :: k, c
 
       do k = 1, size(plan%bushings)
-         associate (bushing => suspension%bushings(k), this => plan%bushings(k))
+         associate (measure => suspension%elements(suspension%scalars + k)%measure, this => plan%bushings(k), &
+            bushing => suspension%elements(suspension%scalars + k)%bushing)
+            measure%arm_i = suspension%vectors(:, this%ends(1))
+            measure%arm_j = suspension%vectors(:, this%ends(2))
             bushing%arm_i = suspension%vectors(:, this%ends(1))
             bushing%arm_j = suspension%vectors(:, this%ends(2))
             call marker_axes(plan, suspension%vectors(:, this%z), suspension%vectors(:, this%x), bushing%axes, is_good)
@@ -277,15 +280,15 @@ contains
             call take(this%kr, bushing%kr)
             call take(this%preload_force, bushing%preload_force)
             call take(this%preload_moment, bushing%preload_moment)
-            do c = 1, 6
-               if (this%curves(c) == 0) cycle
-               if (c <= 3) then
+            do c = 1, 3
+               if (this%curves(c) > 0) then
                   call renew(plan, this%curves(c), x, plan%length_unit, plan%force_unit, bushing%laws(c)%curve, is_good)
-                  is_good = is_good .and. abs(bushing%kt(c)) <= 0.0_wp
-               else
-                  call renew(plan, this%curves(c), x, plan%angle_unit, plan%force_unit*plan%length_unit, &
-                     bushing%laws(c)%curve, is_good)
-                  is_good = is_good .and. abs(bushing%kr(c - 3)) <= 0.0_wp
+                  is_good = is_good .and. abs(bushing%kt(c)) <= 0.0_wp      ! a component has either a rate or a curve
+               end if
+               if (this%curves(c + 3) > 0) then
+                  call renew(plan, this%curves(c + 3), x, plan%angle_unit, plan%force_unit*plan%length_unit, &
+                     bushing%laws(c + 3)%curve, is_good)
+                  is_good = is_good .and. abs(bushing%kr(c)) <= 0.0_wp
                end if
             end do
          end associate

@@ -9,8 +9,7 @@ module ek_suspension
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t
    use ek_joint, only: joint_t, row_t, term_t
-   use ek_spring, only: spring_t
-   use ek_elastic, only: bushing_t
+   use ek_element, only: element_t
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
@@ -106,8 +105,9 @@ module ek_suspension
       type(joint_t), allocatable :: joints(:)
       type(row_t), allocatable :: rows(:)      !! Φ(q) = 0, in joint order
       type(term_t), allocatable :: terms(:)
-      type(spring_t), allocatable :: springs(:)  !! springs, dampers, stops, torsion springs, in this order if built from a deck
-      type(bushing_t), allocatable :: bushings(:)
+      type(element_t), allocatable :: elements(:)
+      integer :: scalars = 0   !! elements(:scalars) act along one measure: springs, dampers, stops, torsion springs, in this order
+                               !! if built from a deck; the others have six components: bushings
       type(load_t), allocatable :: loads(:)
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
