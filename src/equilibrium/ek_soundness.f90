@@ -6,7 +6,7 @@
 !>
 !>     1/|S⁻¹|₁ > s,   s = max(stiffness that counts as zero, rank_tolerance |S|₁)
 !>
-!> The reverse is not true: a model without this proof may be sound. Only the full diagnosis can tell.
+!> The reverse is not true: a model without this proof may be sound. Only the full diagnosis decides.
 module ek_soundness
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
