@@ -7,9 +7,8 @@ module ek_check
    use ek_words, only: tell_result => tell
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
-   use ek_rig, only: mount
    use ek_case, only: case_t, default_tolerance
-   use ek_examination, only: add_distinct
+   use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance, balance_words
@@ -40,7 +39,7 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(buffer_t), intent(inout) :: words
       type(error_t), allocatable, intent(out) :: error
-      type(suspension_t) :: base, suspension
+      type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
@@ -61,11 +60,8 @@ contains
       call diagnose(base, design_state(base), kkt, diagnosis)
       call tell_model(base, diagnosis, checksum, words)
       do k = 1, size(chosen)
-         suspension = base
-         call mount(suspension, chosen(k), error)
+         call examine_case(base, chosen(k), diagnosis, error=error)
          if (allocated(error)) return
-         kkt = new_kkt(suspension)
-         call diagnose(suspension, design_state(suspension), kkt, diagnosis)
          call tell_case(chosen(k), diagnosis, words)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives

@@ -9,6 +9,7 @@
 !> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Others (a rack, a steering
 !> column) take part.
 module ek_balance
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
@@ -21,10 +22,13 @@ module ek_balance
    use ek_state, only: state_t, demand_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
    use ek_reach, only: settle, failure_t
-   use ek_lapack, only: dgelsd
+   use ek_singular_values, only: singular_values_t, decompose, least_norm
    implicit none(type, external)
    private
    public :: balance, balance_words, takes_part
+
+   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
+   character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
 
 contains
 
@@ -133,7 +137,8 @@ contains
          do w = 1, size(height)
             height(w) = rise(suspension, state, w, kkt%rhs)
          end do
-         call lower_by(height, suspension, state, kkt)
+         call lower_by(height, suspension, state, kkt, error)
+         if (allocated(error)) return
       end if
       do iteration = 1, 30
          state = design_state(suspension)
@@ -152,23 +157,30 @@ contains
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
          call assemble(suspension, state, demand_t(), whole_tangent, kkt)
          call factorise(kkt)
-         call lower_by(height, suspension, state, kkt)
+         call lower_by(height, suspension, state, kkt, error)
+         if (allocated(error)) return
       end do
       call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; "// &
          'the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm')
    end subroutine balance_springs
 
    !> Changes the spring preloads so that, according to the tangent at a state, the wheels move down by `height`.
-   subroutine lower_by(height, suspension, state, kkt)
+   subroutine lower_by(height, suspension, state, kkt, error)
       real(wp), intent(in) :: height(:)                    !! per wheel [m]
       type(suspension_t), intent(inout) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
+      type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the tangent is singular
+      type(singular_values_t) :: parts
       type(view_t) :: view
       real(wp) :: slope(size(suspension%wheels), suspension%scalars)
       real(wp) :: change(suspension%scalars)         ! per spring; 0 for other elements
       integer :: s, w, at
 
+      if (kkt%is_singular) then
+         call fail(error, exit_convergence, "balance = 'spring': the matrix is singular where the suspension settles")
+         return
+      end if
       slope = 0.0_wp
       do s = 1, size(change)
          if (.not. is_free(suspension%elements(s))) cycle
@@ -185,7 +197,12 @@ contains
             slope(w, s) = rise(suspension, state, w, kkt%rhs)
          end do
       end do
-      call least_norm(slope, -height, change)
+      call decompose(slope, rank_share, parts)
+      if (.not. parts%is_found) then
+         call fail(error, exit_convergence, "balance = 'spring': "//not_finite)
+         return
+      end if
+      call least_norm(parts, -height, change)
       do s = 1, size(change)
          if (is_free(suspension%elements(s))) suspension%elements(s)%preload = suspension%elements(s)%preload + change(s)
       end do
@@ -212,7 +229,8 @@ contains
       type(kkt_t) :: kkt
       type(state_t) :: state
       type(view_t) :: view
-      real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), projector(:, :)
+      type(singular_values_t) :: carried, held
+      real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), uncarried(:, :)
       real(wp), allocatable :: root(:), column(:)
       integer :: b, k, s, at, t, nx, ny
 
@@ -266,13 +284,19 @@ contains
 
       ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
       ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
-      allocate (x(nx), y(ny), projector(kkt%nq, kkt%nq))
-      call complement(free, projector)
-      call least_norm(matmul(projector, weighted), -matmul(projector, load), x, norm2(weighted))
+      call decompose(free, rank_share, carried)
+      allocate (uncarried, source=transpose(carried%left(:, carried%rank + 1:)))
+      call decompose(matmul(uncarried, weighted), rank_share, held, whole=norm2(weighted))
+      if (.not. (carried%is_found .and. held%is_found .and. all(ieee_is_finite(load)))) then
+         call fail(error, exit_model, "balance = 'all': "//not_finite)
+         return
+      end if
+      allocate (x(nx), y(ny))
+      call least_norm(held, -matmul(uncarried, load), x)
       remainder = -load - matmul(weighted, x)
-      call least_norm(free, remainder, y)
+      call least_norm(carried, remainder, y)
       remainder = remainder - matmul(free, y)
-      if (norm2(remainder) > 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
+      if (.not. norm2(remainder) <= 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
          call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
             kept_out(suspension))
          return
@@ -321,50 +345,5 @@ contains
       end subroutine put
 
    end subroutine bushing_column
-
-   !> The projector on the complement of the columns of a matrix: I − A A⁺, column by column.
-   subroutine complement(a, projector)
-      real(wp), intent(in) :: a(:, :)
-      real(wp), intent(out) :: projector(:, :)
-      real(wp) :: unit(size(a, 1)), x(size(a, 2))
-      integer :: k
-
-      do k = 1, size(a, 1)
-         unit = 0.0_wp
-         unit(k) = 1.0_wp
-         call least_norm(a, unit, x)
-         projector(:, k) = unit - matmul(a, x)
-      end do
-   end subroutine complement
-
-   !> Minimum-norm least squares (LAPACK dgelsd); singular values below 1e-11 of the largest, or of `whole`, are neglected.
-   subroutine least_norm(a, b, x, whole)
-      real(wp), intent(in) :: a(:, :), b(:)
-      real(wp), intent(out) :: x(:)
-      real(wp), intent(in), optional :: whole        !! norm of the unprojected matrix: its rounding must not count as rank
-      real(wp), parameter :: threshold = 1.0e-11_wp
-      real(wp) :: share
-      real(wp) :: copy(size(a, 1), size(a, 2)), rhs(max(size(a, 1), size(a, 2)))
-      real(wp) :: singular(max(1, min(size(a, 1), size(a, 2)))), query(1)
-      real(wp), allocatable :: work(:)
-      integer :: rank, info
-      integer :: iwork(max(1, 20*min(size(a, 1), size(a, 2))*12))
-
-      x = 0.0_wp
-      if (size(a) == 0) return
-      share = threshold
-      if (present(whole)) then
-         if (norm2(a) <= threshold*whole) return     ! dgelsd does not accept a share of 1 or more
-         share = threshold*whole/norm2(a)
-      end if
-      copy = a
-      rhs = 0.0_wp
-      rhs(:size(b)) = b
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, query, -1, iwork, info)
-      allocate (work(int(query(1))))
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, work, size(work), &
-         iwork, info)
-      x = rhs(:size(x))
-   end subroutine least_norm
 
 end module ek_balance

@@ -349,8 +349,10 @@ contains
       end do
       call factorise(kkt)
       rcond = 0.0_wp
+      info = 0
       if (.not. kkt%is_singular) call dsycon('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%norm, rcond, &
          kkt%work, kkt%iwork, info)
+      if (info /= 0) rcond = 0.0_wp
    end subroutine condition
 
 end module ek_kkt

@@ -114,8 +114,10 @@ contains
       else
          call factorise(kkt)
          self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+         info = 0
          if (self%is_known) call dsytrs('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
             kkt%n, info)
+         if (info /= 0) self%is_known = .false.
       end if
       if (.not. self%is_known) then
          self%response = ieee_value(1.0_wp, ieee_quiet_nan)
