@@ -1,7 +1,7 @@
 !> The state of the reader while a blueprint is made: the records and what is known about each, the values of their keys,
-!> and complaints about them. ek_reference looks up the names to which they refer.
+!> and the messages about them. ek_reference looks up the names to which they refer.
 !>
-!> `draft%k` is the record that is being read. Messages have the form `file:line: group 'name': what`. A value that was rejected
+!> `k` is the record that is being read. Messages have the form `file:line: group 'name': what`. A value that was rejected
 !> counts as not given, with a legal default: one mistake, one message.
 module ek_draft
    use ek_kinds, only: wp

@@ -152,7 +152,7 @@ contains
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
    end subroutine read_records
 
-   !> The record draft%k.
+   !> The record being read.
    subroutine read_record(draft)
       type(draft_t), intent(inout) :: draft
 

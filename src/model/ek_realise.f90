@@ -5,7 +5,7 @@
 !> the rows of a joint from `joint_terms`, an element from `set_numbers`, arms and design values from `settle_design`.
 !>
 !> Where x is outside the range for which the blueprint is valid (an axis without length, a point that leaves its side), `is_good` is
-!> .false. and the suspension must not be used: the deck reader describes the reason in words.
+!> .false. and the suspension must not be used; the deck reader reports the reason.
 module ek_realise
    use ek_kinds, only: wp
    use ek_rotation, only: cross, perpendicular, unit_vector, angle_between
