@@ -9,16 +9,16 @@
 !> - det(Φq(a) Φq(b)ᵀ) > 0: the joints are in the same assembly. Where Φq loses rank, the inertia of N does not
 !>   change: its determinant is proportional to the square of that of Φq.
 !>
-!> A law with a corner bends the path. If a law has a corner between a and b, or if the step was halved often enough,
-!> d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60 degrees. No
-!> memory is allocated after new_branch.
+!> Where laws bend between a and b, tangents with their chords must agree instead (ek_chord). If the step was halved often
+!> enough, d need only lie between h t_a and h t_b, and the direction of motion of no body may change by more than 60
+!> degrees. No memory is allocated after new_branch.
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_tangent, only: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
-   use ek_chord, only: chord_t, new_chord, straighten, is_at_an_end, tilt, at_b, least, most
+   use ek_chord, only: chord_t, new_chord, straighten, look_along_chord, at_a, at_b
    use ek_orientation, only: orientation_t, new_orientation, compare_orientation
    implicit none(type, external)
    private
@@ -37,9 +37,7 @@ module ek_branch
    real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: allowed error of the trapezoidal rule
    real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times the error of Newton's method
    real(wp), parameter :: bent = 5.0e-2_wp         !! likewise in the shortest steps
-   real(wp), parameter :: slight = 1.0e-2_wp       !! likewise in a short step across the bend of a law
    real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
-   real(wp), parameter :: short = 1.0e7_wp         !! of the least step, 1/250 of the range: such a step
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
    real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
    real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
@@ -48,6 +46,19 @@ module ek_branch
    real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
    real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
+
+   !> What is known of a step from a to b.
+   type :: step_t
+      type(demand_t) :: demand_a, demand_b, rate
+      real(wp) :: width = 0.0_wp            !! h: place of b minus place of a
+      real(wp) :: rest = 0.0_wp             !! of the tangents' agreement with the motion
+      integer :: negative_b = 0             !! negative eigenvalues of N at b
+      logical :: is_explained = .false.     !! the tangents at a and b agree with the motion
+      logical :: is_past = .false.          !! they need not, as laws bend between
+      logical :: is_bent = .false.          !! laws bend between
+      logical :: is_regular(2) = .false.    !! N at a, at b, with all slopes that these laws have between
+      logical :: is_fresh = .false., is_new_at_a = .false.   !! the tangents at b, at a are from factors there
+   end type step_t
 
    !> Data of the newest state of the path, and work space.
    type :: branch_t
@@ -121,19 +132,16 @@ contains
       real(wp), intent(in) :: missed                         !! distance from b at which the factors were computed [m]
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: verdict
-      type(demand_t) :: rate
-      integer :: negative_b
-      real(wp) :: rest
-      logical :: is_explained      ! the tangents at a and b agree with the motion
-      logical :: is_past           ! they need not, as laws bend between
-      logical :: is_fresh, is_new_at_a
+      type(step_t) :: step
 
-      rate = demand_rate(demand_a, demand_b, width)
-      negative_b = kkt%negative
+      step%demand_a = demand_a
+      step%demand_b = demand_b
+      step%rate = demand_rate(demand_a, demand_b, width)
+      step%width = width
+      step%negative_b = kkt%negative
       self%factorisations = 0
       self%is_over = .false.
       self%is_singular = .false.
-      is_new_at_a = .false.
       call unpack_state(packed_a, self%before)
       call motion_between(self%before, state_b, self%motion)
       self%width_before = width_before
@@ -141,42 +149,22 @@ contains
          call unpack_state(packed_before, self%shifted)
          call motion_between(self%shifted, self%before, self%motion_before)
       end if
-      call find_tangent(self%work, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
+      call find_tangent(self%work, suspension, state_b, demand_b, step%rate, kkt, self%tangent_b)
       if (self%has_tangent) then
-         rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
+         step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
       else
-         rest = three_point_rest(self, kkt%nq, width, kkt%length)
+         step%rest = three_point_rest(self, kkt%nq, width, kkt%length)
          ! the step to a approximates its tangent
-         if (rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
+         if (step%rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
       end if
-      is_explained = rest <= smooth
-      is_fresh = .false.
-      is_past = .false.
-      if (.not. is_explained .and. self%negative < 0) call at_beginning()
-      if (.not. is_explained) call past_bent_laws()
-      if (.not. (is_explained .or. is_past) .and. abs(width) <= shortest*self%least) is_past = bends_so()
-      if (.not. (is_explained .or. is_past .or. self%has_tangent)) then
-         call at_beginning()
-         rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
-         is_explained = rest <= smooth
-      end if
-      if (.not. (is_explained .or. is_past)) then
-         call assemble(suspension, state_b, demand_b, whole_tangent, kkt)
-         call factorise(kkt)
-         negative_b = kkt%negative
-         call find_tangent(self%work, suspension, state_b, demand_b, rate, kkt, self%tangent_b)
-         if (.not. is_new_at_a) call at_beginning()
-         self%factorisations = self%factorisations + 1
-         is_fresh = .true.
-         rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
-         is_explained = rest <= smooth
-      end if
+      step%is_explained = step%rest <= smooth
+      if (.not. step%is_explained) call look_closer(self, step, suspension, state_b, kkt)
       verdict = doubtful
-      if (is_explained .or. is_past) then
+      if (step%is_explained .or. step%is_past) then
          verdict = same_branch
-         if (negative_b /= self%negative) then
+         if (step%negative_b /= self%negative) then
             verdict = crossing
-         else if (rest > exact .or. is_uneven(self, log_determinant) .or. &
+         else if (step%rest > exact .or. is_uneven(self, log_determinant) .or. &
             largest_motion(self%motion, kkt%length) > long*kkt%length) then
             call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, self%is_over, &
                self%is_singular)
@@ -184,64 +172,72 @@ contains
             if (self%is_singular .and. abs(width) > tiny_step*self%least) verdict = doubtful
          end if
       end if
-      kkt%negative = negative_b
-      self%was_bent = is_past
-      self%knows_end = is_fresh .or. missed <= fresh*largest_motion(self%motion, kkt%length)
-
-   contains
-
-      !> The tangent at a, from new factors at a.
-      subroutine at_beginning()
-         call assemble(suspension, self%before, demand_a, whole_tangent, kkt)
-         call factorise(kkt)
-         self%negative = kkt%negative
-         call find_tangent(self%work, suspension, self%before, demand_a, rate, kkt, self%tangent_a)
-         self%factorisations = self%factorisations + 1
-         self%has_tangent = .true.
-         is_new_at_a = .true.
-      end subroutine at_beginning
-
-      !> Whether the motion lies between the tangents, if these are known.
-      logical function bends_so()
-         bends_so = abs(width_before) > 0.0_wp .or. self%has_tangent
-         if (bends_so) bends_so = is_bend(self, width, kkt%length)
-      end function bends_so
-
-      !> Whether the step is on the path, past laws that bend (ek_chord).
-      subroutine past_bent_laws()
-         integer :: slope
-
-         call straighten(self%chord, suspension, self%before, state_b, is_past)
-         if (.not. is_past) return
-         ! a short step from a state to which the path was smooth, away from any singularity
-         if (abs(width) <= short*self%least .and. .not. self%was_uneven .and. negative_b == self%negative) then
-            is_past = bends_so()
-            if (is_past) return
-         end if
-         is_past = .false.
-         call assemble(self%chord%suspension, self%before, demand_a, whole_tangent, kkt)
-         call factorise(kkt)
-         self%factorisations = self%factorisations + 1
-         if (kkt%negative /= self%negative) return
-         call find_tangent(self%work, self%chord%suspension, self%before, demand_a, rate, kkt, self%chord_a)
-         call assemble(self%chord%suspension, state_b, demand_b, whole_tangent, kkt)
-         call factorise(kkt)
-         self%factorisations = self%factorisations + 1
-         if (kkt%negative /= self%negative) return
-         call find_tangent(self%work, self%chord%suspension, state_b, demand_b, rate, kkt, self%chord_b)
-         if (.not. trapezoidal_rest(self%motion, self%chord_a, self%chord_b, width, kkt%length) <= smooth) return
-         do slope = least, most, most - least
-            if (is_at_an_end(self%chord, slope)) cycle
-            call tilt(self%chord, at_b, slope)
-            call assemble(self%chord%suspension, state_b, demand_b, whole_tangent, kkt)
-            call factorise(kkt)
-            self%factorisations = self%factorisations + 1
-            if (kkt%negative /= self%negative) return
-         end do
-         is_past = .true.
-      end subroutine past_bent_laws
-
+      kkt%negative = step%negative_b
+      self%was_bent = step%is_past
+      self%knows_end = step%is_fresh .or. missed <= fresh*largest_motion(self%motion, kkt%length)
    end subroutine compare
+
+   !> The same with what a first look lacks: the tangent at a, the chords of laws that bend, new factors at b.
+   subroutine look_closer(self, step, suspension, state_b, kkt)
+      type(branch_t), intent(inout) :: self
+      type(step_t), intent(inout) :: step
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state_b
+      type(kkt_t), intent(inout) :: kkt          !! factors at or near b
+
+      call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
+      if (step%is_bent) call look_along_chord(self%chord, self%work, at_b, state_b, step%demand_b, step%rate, kkt, self%chord_b, &
+         step%is_regular(at_b))
+      if (self%negative < 0) call look_at_beginning(self, step, suspension, kkt)
+      if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
+         step%is_past = is_bend(self, step%width, kkt%length)
+      if (step%is_past) return
+      if ((step%is_bent .or. .not. self%has_tangent) .and. .not. step%is_new_at_a) &
+         call look_at_beginning(self, step, suspension, kkt)
+      if (step%is_new_at_a) call decide(self, step, kkt%length)
+      if (step%is_explained .or. step%is_past) return
+      if (.not. step%is_new_at_a) call look_at_beginning(self, step, suspension, kkt)
+      call assemble(suspension, state_b, step%demand_b, whole_tangent, kkt)
+      call factorise(kkt)
+      step%negative_b = kkt%negative
+      self%factorisations = self%factorisations + 1
+      step%is_fresh = .true.
+      call find_tangent(self%work, suspension, state_b, step%demand_b, step%rate, kkt, self%tangent_b)
+      if (step%is_bent) call look_along_chord(self%chord, self%work, at_b, state_b, step%demand_b, step%rate, kkt, self%chord_b, &
+         step%is_regular(at_b))
+      call decide(self, step, kkt%length)
+   end subroutine look_closer
+
+   !> The tangent at a, and that with the chords of bent laws, from new factors at a.
+   subroutine look_at_beginning(self, step, suspension, kkt)
+      type(branch_t), intent(inout) :: self
+      type(step_t), intent(inout) :: step
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(inout) :: kkt
+
+      call assemble(suspension, self%before, step%demand_a, whole_tangent, kkt)
+      call factorise(kkt)
+      self%factorisations = self%factorisations + 1
+      self%negative = kkt%negative
+      call find_tangent(self%work, suspension, self%before, step%demand_a, step%rate, kkt, self%tangent_a)
+      self%has_tangent = .true.
+      step%is_new_at_a = .true.
+      if (step%is_bent) call look_along_chord(self%chord, self%work, at_a, self%before, step%demand_a, step%rate, kkt, &
+         self%chord_a, step%is_regular(at_a))
+   end subroutine look_at_beginning
+
+   !> Whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
+   pure subroutine decide(self, step, length)
+      type(branch_t), intent(in) :: self
+      type(step_t), intent(inout) :: step
+      real(wp), intent(in) :: length             !! m
+
+      step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, length)
+      step%is_explained = step%rest <= smooth
+      if (step%is_explained .or. .not. step%is_bent) return
+      step%is_past = all(step%is_regular) .and. step%negative_b == self%negative .and. &
+         trapezoidal_rest(self%motion, self%chord_a, self%chord_b, step%width, length) <= smooth
+   end subroutine decide
 
    !> Accepts the step: b becomes the newest state.
    pure subroutine accept(self, negative, log_determinant, was_compared)
@@ -298,6 +294,7 @@ contains
    end subroutine note_crossing
 
    !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
+   !> Equation (K.14) of docs/theory/kkt.md.
    pure real(wp) function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
       real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
       real(wp), intent(in) :: width, length
@@ -319,6 +316,7 @@ contains
    end function trapezoidal_rest
 
    !> The same for the parabola through the state before a, a and b: the difference of its slope at b from the tangent there.
+   !> Equation (K.15) of docs/theory/kkt.md.
    pure real(wp) function three_point_rest(self, nq, width, length) result(rest)
       type(branch_t), intent(in) :: self
       integer, intent(in) :: nq
@@ -370,7 +368,7 @@ contains
          b = norm2(self%tangent_b(k:k + 5)*scale)
          if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < least_cosine*a*b) return
       end do
-      is_bend = rest <= merge(bent, slight, abs(width) <= shortest*self%least)*largest
+      is_bend = rest <= bent*largest
    end function is_bend
 
    !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`, or may, as its end is singular.

@@ -9,29 +9,47 @@
 !>   quadratic form), and so does each of its eigenvalues. If N has as many negative ones with all slopes at their least as with
 !>   all at their most, it is regular for all slopes between: no limit point, however the laws follow each other.
 !>
+!> The forces at both ends stay, so that only the slopes change: N of the changed model is N plus a dyad per bent law (ek_dyads).
 !> No memory is allocated after new_chord.
 module ek_chord
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_measure, only: measure_value
+   use ek_measure, only: measure_t, view_t, body_gap, rotation, measure_value, look
    use ek_law, only: law_t, look_up_law, find_slopes, set_line
-   use ek_elastic, only: bushing_view_t, look_bushing
-   use ek_state, only: state_t
+   use ek_element, only: bushing_element
+   use ek_state, only: state_t, demand_t
+   use ek_kkt, only: kkt_t
+   use ek_tangent, only: tangent_t, find_tangent
+   use ek_dyads, only: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes
    implicit none(type, external)
    private
-   public :: chord_t, new_chord, straighten, is_at_an_end, tilt, at_a, at_b, least, most
+   public :: chord_t, new_chord, straighten, look_along_chord, chord_laws, slopes_between_ends
+   public :: at_a, at_b
 
    integer, parameter :: at_a = 1, at_b = 2
    integer, parameter :: least = 1, mean = 2, most = 3
 
    real(wp), parameter :: bent = 1.0e-2_wp      !! of the largest slope: a smaller change is no bend
 
+   !> Where a law stands in the model.
+   type :: place_t
+      integer :: element = 0, component = 0     !! component of a bushing, 1 to 6; 0: the law of the element
+      type(measure_t) :: measure                !! on which it acts
+      real(wp) :: offset = 0.0_wp               !! its argument is the measure minus this [m]
+   end type place_t
+
    !> The changed model; one column per law.
    type :: chord_t
+      private
       type(suspension_t) :: suspension
-      real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): measure and force there [m, N; rad, N m]
+      type(place_t), allocatable :: place(:)
+      real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force there [m, N; rad, N m]
       real(wp), allocatable :: own(:, :)                   !! (at_a or at_b, law): slope there [N/m, N m/rad]
       real(wp), allocatable :: slope(:, :)                 !! (least, mean or most, law): between them [N/m, N m/rad]
+      real(wp), allocatable :: change(:)                   !! of the slope of each bent law [N/m, N m/rad]
+      integer, allocatable :: bent_law(:)                  !! numbers of the laws that bend in the step
+      integer :: bends = 0                                 !! how many
+      type(dyads_t) :: dyads
    end type chord_t
 
 contains
@@ -40,15 +58,63 @@ contains
    function new_chord(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t) :: self
-      integer :: k, laws
+      integer :: laws
 
-      laws = count(suspension%springs%has_law)
-      do k = 1, size(suspension%bushings)
-         if (suspension%bushings(k)%has_curves) laws = laws + count(suspension%bushings(k)%laws%has_curve)
-      end do
-      allocate (self%value(2, laws), self%force(2, laws), self%own(2, laws), self%slope(3, laws), source=0.0_wp)
-      if (laws > 0) self%suspension = suspension
+      laws = count_laws(suspension)
+      allocate (self%place(laws), self%bent_law(laws))
+      allocate (self%value(2, laws), self%force(2, laws), self%own(2, laws), self%slope(3, laws), self%change(laws), source=0.0_wp)
+      self%bent_law = 0
+      if (laws == 0) return
+      self%suspension = suspension
+      self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
+      call find_places(suspension, self%place)
    end function new_chord
+
+   !> The number of laws: of elements of one measure, and of components of bushings.
+   pure integer function count_laws(suspension) result(laws)
+      type(suspension_t), intent(in) :: suspension
+      integer :: k
+
+      laws = 0
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k))
+            if (element%kind /= bushing_element) then
+               if (element%has_law) laws = laws + 1
+            else if (element%bushing%has_curves) then
+               laws = laws + count(element%bushing%laws%has_curve)
+            end if
+         end associate
+      end do
+   end function count_laws
+
+   !> Their elements and measures: a component of a bushing acts along an axis of its marker, or about it.
+   pure subroutine find_places(suspension, place)
+      type(suspension_t), intent(in) :: suspension
+      type(place_t), intent(out) :: place(:)
+      integer :: k, component, law
+
+      law = 0
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
+            if (element%kind /= bushing_element) then
+               if (.not. element%has_law) cycle
+               law = law + 1
+               place(law) = place_t(element=k, measure=element%measure)
+               cycle
+            end if
+            if (.not. bushing%has_curves) cycle
+            do component = 1, 6
+               if (.not. bushing%laws(component)%has_curve) cycle
+               law = law + 1
+               place(law)%element = k
+               place(law)%component = component
+               place(law)%measure = measure_t(kind=merge(body_gap, rotation, component <= 3), body_i=bushing%body_i, &
+                  body_j=bushing%body_j, arm_i=bushing%arm_i, arm_j=bushing%arm_j, u=bushing%axes(:, 1 + mod(component - 1, 3)))
+               if (component <= 3) place(law)%offset = dot_product(bushing%axes(:, component), bushing%gap0)
+            end do
+         end associate
+      end do
+   end subroutine find_places
 
    !> Replaces every law by its chord between two states; `is_bent`: the slope of one changes between them.
    pure subroutine straighten(self, suspension, a, b, is_bent)
@@ -56,97 +122,114 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: a, b
       logical, intent(out) :: is_bent
-      type(bushing_view_t) :: from, to
-      integer :: k, axis, i, j, law
+      integer :: k, i, j
 
-      is_bent = .false.
-      if (size(self%slope, 2) == 0) return
-      law = 0
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
-            if (.not. spring%has_law) cycle
-            i = spring%measure%body_i + 1
-            j = spring%measure%body_j + 1
-            call draw(self, law, spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
-               measure_value(spring%measure, b%poses(i), b%poses(j)))
+      self%bends = 0
+      do k = 1, size(self%place)
+         associate (place => self%place(k))
+            i = place%measure%body_i + 1
+            j = place%measure%body_j + 1
+            self%value(at_a, k) = measure_value(place%measure, a%poses(i), a%poses(j)) - place%offset
+            self%value(at_b, k) = measure_value(place%measure, b%poses(i), b%poses(j)) - place%offset
+            if (place%component == 0) then
+               call draw(self, k, suspension%elements(place%element)%law)
+            else
+               call draw(self, k, suspension%elements(place%element)%bushing%laws(place%component))
+            end if
          end associate
+         if (.not. self%slope(most, k) - self%slope(least, k) > bent*maxval(abs(self%slope(:, k)))) cycle
+         self%bends = self%bends + 1
+         self%bent_law(self%bends) = k
       end do
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
-            if (.not. bushing%has_curves) cycle
-            call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
-            call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
-            do axis = 1, 3
-               if (bushing%laws(axis)%has_curve) call draw(self, law, bushing%laws(axis), &
-                  dot_product(bushing%axes(:, axis), from%gap), dot_product(bushing%axes(:, axis), to%gap))
-            end do
-            do axis = 1, 3
-               if (bushing%laws(axis + 3)%has_curve) call draw(self, law, bushing%laws(axis + 3), &
-                  dot_product(bushing%axes(:, axis), from%turn%theta), dot_product(bushing%axes(:, axis), to%turn%theta))
-            end do
-         end associate
-      end do
-      is_bent = any(self%slope(most, :) - self%slope(least, :) > bent*max(abs(self%slope(least, :)), abs(self%slope(most, :))))
-      call tilt(self, at_a, mean)
+      is_bent = self%bends > 0
    end subroutine straighten
 
-   !> Stores a law at both ends.
-   pure subroutine draw(self, number, law, value_a, value_b)
+   !> Forces and slopes of a law at both ends and between them.
+   pure subroutine draw(self, number, law)
       type(chord_t), intent(inout) :: self
-      integer, intent(inout) :: number             !! of the law before → of this one
+      integer, intent(in) :: number                !! of the law; its values are set
       type(law_t), intent(in) :: law
-      real(wp), intent(in) :: value_a, value_b     !! of its measure
-      real(wp) :: force(2), slope
+      real(wp) :: slope
+      integer :: end
 
-      number = number + 1
-      call look_up_law(law, value_a, force(at_a), self%own(at_a, number))
-      call look_up_law(law, value_b, force(at_b), self%own(at_b, number))
-      self%value(:, number) = [value_a, value_b]
-      self%force(:, number) = force
-      call find_slopes(law, value_a, value_b, self%slope(least, number), self%slope(most, number))
-      slope = self%own(at_a, number)
-      if (abs(value_b - value_a) > 0.0_wp) slope = (force(at_b) - force(at_a))/(value_b - value_a)
+      associate (value => self%value(:, number), force => self%force(:, number))
+         do end = at_a, at_b
+            call look_up_law(law, value(end), force(end), self%own(end, number))
+         end do
+         call find_slopes(law, value(at_a), value(at_b), self%slope(least, number), self%slope(most, number))
+         slope = self%own(at_a, number)
+         if (abs(value(at_b) - value(at_a)) > 0.0_wp) slope = (force(at_b) - force(at_a))/(value(at_b) - value(at_a))
+      end associate
       ! of nearly equal values the quotient is rounding
       self%slope(mean, number) = min(max(slope, self%slope(least, number)), self%slope(most, number))
    end subroutine draw
 
-   !> Whether all laws have their least, or their largest, slope together at a or at b: N was factorised with these there.
-   pure logical function is_at_an_end(self, slope)
-      type(chord_t), intent(in) :: self
-      integer, intent(in) :: slope        !! least or most
-      logical :: is_at(2)
-      integer :: k
+   !> The tangent of the changed model at one end, with the factors of N there, and whether N stays regular for all slopes.
+   !> Equation (K.16) of docs/theory/kkt.md.
+   subroutine look_along_chord(self, work, end, state, demand, rate, kkt, tangent, is_regular)
+      type(chord_t), intent(inout) :: self
+      type(tangent_t), intent(inout) :: work
+      integer, intent(in) :: end                   !! at_a or at_b
+      type(state_t), intent(in) :: state           !! there
+      type(demand_t), intent(in) :: demand, rate
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(out) :: tangent(:)
+      logical, intent(out) :: is_regular
+      type(view_t) :: view
+      integer :: k, slope
 
-      is_at = .true.
-      do k = 1, size(self%slope, 2)
-         is_at = is_at .and. abs(self%own(:, k) - self%slope(slope, k)) <= bent*maxval(abs(self%slope(:, k)))
+      call clear(self%dyads)
+      do k = 1, self%bends
+         associate (measure => self%place(self%bent_law(k))%measure)
+            call look(measure, state%poses(measure%body_i + 1), state%poses(measure%body_j + 1), view)
+            call add_dyad(self%dyads, measure%body_i, measure%body_j, view%gradient)
+         end associate
       end do
-      is_at_an_end = any(is_at)
-   end function is_at_an_end
+      call solve_columns(self%dyads, kkt)
+      is_regular = .true.
+      tangent = 0.0_wp
+      do slope = least, most
+         do k = 1, self%bends
+            self%change(k) = self%slope(slope, self%bent_law(k)) - self%own(end, self%bent_law(k))
+         end do
+         call set_changes(self%dyads, self%change, kkt%negative)
+         is_regular = is_regular .and. self%dyads%negative == kkt%negative
+         if (.not. is_regular) return
+         if (slope /= mean) cycle
+         call tilt(self, end)
+         call find_tangent(work, self%suspension, state, demand, rate, kkt, tangent, self%dyads)
+      end do
+   end subroutine look_along_chord
 
    !> Replaces every law by a straight line through its force at a or b.
-   pure subroutine tilt(self, end, slope)
+   pure subroutine tilt(self, end)
       type(chord_t), intent(inout) :: self
       integer, intent(in) :: end          !! at_a or at_b
-      integer, intent(in) :: slope        !! least, mean or most
-      integer :: k, component, law
+      integer :: k
 
-      law = 0
-      do k = 1, size(self%suspension%springs)
-         if (.not. self%suspension%springs(k)%has_law) cycle
-         law = law + 1
-         call set_line(self%suspension%springs(k)%law, self%value(end, law), self%force(end, law), self%slope(slope, law))
-      end do
-      do k = 1, size(self%suspension%bushings)
-         associate (bushing => self%suspension%bushings(k))
-            if (.not. bushing%has_curves) cycle
-            do component = 1, 6
-               if (.not. bushing%laws(component)%has_curve) cycle
-               law = law + 1
-               call set_line(bushing%laws(component), self%value(end, law), self%force(end, law), self%slope(slope, law))
-            end do
+      do k = 1, size(self%place)
+         associate (place => self%place(k), element => self%suspension%elements(self%place(k)%element))
+            if (place%component == 0) then
+               call set_line(element%law, self%value(end, k), self%force(end, k), self%slope(mean, k))
+            else
+               call set_line(element%bushing%laws(place%component), self%value(end, k), self%force(end, k), self%slope(mean, k))
+            end if
          end associate
       end do
    end subroutine tilt
+
+   !> The number of laws.
+   pure integer function chord_laws(self)
+      type(chord_t), intent(in) :: self
+      chord_laws = size(self%place)
+   end function chord_laws
+
+   !> Least, mean and largest slope of a law in the step [N/m, N m/rad].
+   pure function slopes_between_ends(self, law) result(slopes)
+      type(chord_t), intent(in) :: self
+      integer, intent(in) :: law
+      real(wp) :: slopes(3)
+      slopes = self%slope(:, law)
+   end function slopes_between_ends
 
 end module ek_chord

@@ -53,6 +53,7 @@ contains
    end function new_orientation
 
    !> Compares two states: det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b itself, where that sign means nothing.
+   !> Equation (K.17) of docs/theory/kkt.md.
    subroutine compare_orientation(self, suspension, state_a, state_b, demand_a, demand_b, kkt, is_turned_over, is_singular)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

@@ -4,6 +4,7 @@ module ek_tangent
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, solve, residual_only
+   use ek_dyads, only: dyads_t, correct
    implicit none(type, external)
    private
    public :: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
@@ -55,13 +56,15 @@ contains
    !>
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
    !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
-   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent)
+   !> Equation (K.13) of docs/theory/kkt.md.
+   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent, dyads)
       type(tangent_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)
+      type(dyads_t), intent(inout), optional :: dyads     !! the matrix is N plus these
       integer, parameter :: most_refinements = 6
       real(wp), parameter :: enough = 4.0e-4_wp           ! of the motion: a tenth of what a comparison of tangents allows
       real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step
@@ -70,6 +73,7 @@ contains
 
       call assemble_rate(suspension, state, rate, kkt)
       call solve(kkt)
+      if (present(dyads)) call correct(dyads, kkt%rhs)
       self%whole = kkt%rhs
       if (self%is_symmetric .and. .not. abs(rate%relief) > 0.0_wp) then
          tangent = self%whole
@@ -86,6 +90,7 @@ contains
          call assemble_rate(suspension, state, rate, kkt)
          kkt%rhs = kkt%rhs + self%defect
          call solve(kkt)
+         if (present(dyads)) call correct(dyads, kkt%rhs)
          self%whole = self%whole + kkt%rhs
          if (largest_motion(kkt%rhs(:kkt%nq), kkt%length) <= enough*largest) exit
       end do

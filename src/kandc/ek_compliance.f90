@@ -21,13 +21,15 @@
 !>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own rotation less ½ g̃)
 !>
 !> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
+!> Equation (C.4) of docs/theory/compliance.md.
+!> Equation (R.8) of docs/theory/rotations.md.
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
-   use ek_spring, only: axial_spring
+   use ek_element, only: axial_spring
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
@@ -61,9 +63,9 @@ contains
       integer :: n, k, side, ports
 
       self%wheels = size(suspension%wheels)
-      self%springs = count(suspension%springs%kind == axial_spring)
-      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%springs))], &
-         suspension%springs%kind == axial_spring))
+      self%springs = count(suspension%elements%kind == axial_spring)
+      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%elements))], &
+         suspension%elements%kind == axial_spring))
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
@@ -81,6 +83,7 @@ contains
    end function new_compliance
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
+   !> Equations (C.1), (C.3) of docs/theory/compliance.md.
    subroutine wheel_compliance(suspension, state, demand, released_rows, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -111,8 +114,10 @@ contains
       else
          call factorise(kkt)
          self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+         info = 0
          if (self%is_known) call dsytrs('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
             kkt%n, info)
+         if (info /= 0) self%is_known = .false.
       end if
       if (.not. self%is_known) then
          self%response = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -127,6 +132,7 @@ contains
    end subroutine wheel_compliance
 
    !> Removes a row of Φ from an assembled matrix.
+   !> Equation (C.5) of docs/theory/compliance.md.
    pure subroutine release(row, kkt)
       integer, intent(in) :: row
       type(kkt_t), intent(inout) :: kkt
@@ -138,6 +144,7 @@ contains
    end subroutine release
 
    !> The ports as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_ports(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -160,7 +167,7 @@ contains
          end do
       end do
       do k = 1, self%springs
-         associate (m => suspension%springs(self%spring(k))%measure)
+         associate (m => suspension%elements(self%spring(k))%measure)
             port = 6*self%wheels + k
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)
@@ -195,6 +202,7 @@ contains
    end function has_skew_part
 
    !> Solves with T + N, scaled like T; the columns are scaled on input and output.
+   !> Equation (C.4) of docs/theory/compliance.md.
    subroutine solve_full(suspension, state, demand, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

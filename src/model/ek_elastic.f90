@@ -1,22 +1,20 @@
-!> Elastic elements: measures with a law, each with an energy, so that all forces balance.
+!> Bushings: six components with an energy, so that all forces balance.
 !>
-!> Springs: one measure, a distance or a rotation (ek_spring); re-exported here.
-!> Bushing: V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ, d the gap from marker I to marker J and θ the
-!>          relative rotation vector, both in the axes of marker I (fixed in body i). A component may have a
-!>          curve c instead of a rate; ∫c then takes the place of ½ k d².
+!>     V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ
+!>
+!> d is the gap from marker I to marker J and θ the relative rotation vector, both in the axes of marker I (fixed in body i).
+!> A component may have a curve c instead of a rate; ∫c then takes the place of ½ k d².
 !>
 !> "Pull" below means the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic
    use ek_kinds, only: wp
    use ek_law, only: law_t, look_up_law
-   use ek_spring, only: spring_t, spring_tension, add_spring_tangent
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
    use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
-   public :: spring_t, bushing_t, bushing_view_t
-   public :: spring_tension, add_spring_tangent, set_bushing_axes
+   public :: bushing_t, bushing_view_t, set_bushing_axes
    public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> A six-axis bushing from marker I on body i to marker J on body j. The markers are parallel
@@ -55,6 +53,7 @@ contains
 
    !> Transforms rates and preloads from marker axes to the axes of body i (A_i = I at design):
    !> K = E diag(k) Eᵀ. Call it after any change of axes, rates or preload.
+   !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine set_bushing_axes(bushing)
       type(bushing_t), intent(inout) :: bushing
 
@@ -78,6 +77,7 @@ contains
    end function in_body
 
    !> Gap, rotation, and the force and moment of the law.
+   !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine look_bushing(bushing, pose_i, pose_j, view)
       type(bushing_t), intent(in) :: bushing
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -171,6 +171,7 @@ contains
    end function design_rates
 
    !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
+   !> Equation (M.16) of docs/theory/measures.md.
    pure function bushing_pull(view) result(pull)
       type(bushing_view_t), intent(in) :: view
       real(wp) :: pull(12), w(3)
@@ -183,6 +184,7 @@ contains
    end function bushing_pull
 
    !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
+   !> Equation (M.17) of docs/theory/measures.md.
    pure subroutine add_bushing_tangent(bushing, view, at_i, at_j, ld, matrix)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view
@@ -223,6 +225,7 @@ contains
 
    !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], for u = each of the three
    !> marker axes. Forces do not enter, and the rotation of the marker frame itself (u×d) is neglected.
+   !> Equation (M.18) of docs/theory/measures.md.
    pure subroutine add_bushing_material(bushing, view, at_i, at_j, ld, matrix)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view

@@ -1,0 +1,139 @@
+!> N plus a few dyads: its solution and inertia from the factors of N, without another factorisation of its size.
+!>
+!>     N' = N + Σ s_k g_k g_kᵀ = N + G Σ Gᵀ,   G = [√|s_k| g_k],  Σ = diag(sign s_k)
+!>
+!> With the small matrix W = −Σ − Gᵀ N⁻¹ G, one row per dyad:
+!>
+!> - N'⁻¹ x = N⁻¹ x + N⁻¹ G W⁻¹ Gᵀ N⁻¹ x (Sherman, Morrison and Woodbury);
+!> - N' has as many negative eigenvalues as N and W together, minus the number of s_k > 0: N' and W are the Schur complements
+!>   of [N G; Gᵀ −Σ] (Haynsworth 1968).
+!>
+!> An elastic element whose slope changes by s adds such a dyad, g the gradient of its measure. No memory is allocated after
+!> new_dyads.
+module ek_dyads
+   use ek_kinds, only: wp
+   use ek_kkt, only: kkt_t, solve, count_inertia
+   use ek_lapack, only: dsytrf
+   use ek_substitution, only: substitute
+   implicit none(type, external)
+   private
+   public :: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes, correct
+
+   !> Gradients, N⁻¹ g, and the small matrix.
+   type :: dyads_t
+      integer :: number = 0                 !! of the dyads
+      integer :: negative = -1              !! negative eigenvalues of N'; −1: N' is singular
+      integer, allocatable :: at(:, :)      !! (2, dyad): unknowns before each of the two bodies; negative: the chassis
+      real(wp), allocatable :: gradient(:, :)    !! (12, dyad): g
+      real(wp), allocatable :: column(:, :)      !! (unknown, dyad): N⁻¹ g
+      real(wp), allocatable :: product(:, :)     !! gᵀ N⁻¹ g
+      real(wp), allocatable :: root(:)      !! √|s|
+      real(wp), allocatable :: small(:)     !! W by columns, then its factors
+      real(wp), allocatable :: part(:), work(:)
+      integer, allocatable :: pivots(:)
+   end type dyads_t
+
+contains
+
+   !> Allocates the work space.
+   pure function new_dyads(n, most) result(self)
+      integer, intent(in) :: n            !! rows of N
+      integer, intent(in) :: most         !! largest number of dyads
+      type(dyads_t) :: self
+
+      allocate (self%at(2, most), self%pivots(most), source=0)
+      allocate (self%gradient(12, most), self%column(n, most), self%product(most, most), source=0.0_wp)
+      allocate (self%root(most), self%small(most**2), self%part(most), self%work(64*max(most, 1)), source=0.0_wp)
+   end function new_dyads
+
+   !> Removes all dyads.
+   pure subroutine clear(self)
+      type(dyads_t), intent(inout) :: self
+      self%number = 0
+   end subroutine clear
+
+   !> Adds a dyad: the gradient of a measure of two bodies.
+   pure subroutine add_dyad(self, body_i, body_j, gradient)
+      type(dyads_t), intent(inout) :: self
+      integer, intent(in) :: body_i, body_j       !! 0: the chassis
+      real(wp), intent(in) :: gradient(12)
+
+      self%number = self%number + 1
+      self%at(:, self%number) = [6*(body_i - 1), 6*(body_j - 1)]
+      self%gradient(:, self%number) = gradient
+   end subroutine add_dyad
+
+   !> N⁻¹ g of all dyads, with the current factors of N.
+   pure subroutine solve_columns(self, kkt)
+      type(dyads_t), intent(inout) :: self
+      type(kkt_t), intent(inout) :: kkt
+      integer :: j, k, at
+
+      do k = 1, self%number
+         kkt%rhs = 0.0_wp
+         at = self%at(1, k)
+         if (at >= 0) kkt%rhs(at + 1:at + 6) = self%gradient(1:6, k)
+         at = self%at(2, k)
+         if (at >= 0) kkt%rhs(at + 1:at + 6) = kkt%rhs(at + 1:at + 6) + self%gradient(7:12, k)
+         call solve(kkt)
+         self%column(:, k) = kkt%rhs
+         do j = 1, k
+            self%product(j, k) = along(self, j, kkt%rhs)
+            self%product(k, j) = self%product(j, k)
+         end do
+      end do
+   end subroutine solve_columns
+
+   !> Sets the changes s: factorises W and counts the negative eigenvalues of N'.
+   !> Equation (K.16) of docs/theory/kkt.md.
+   pure subroutine set_changes(self, change, negative)
+      type(dyads_t), intent(inout) :: self
+      real(wp), intent(in) :: change(:)           !! s of each dyad
+      integer, intent(in) :: negative             !! negative eigenvalues of N
+      real(wp) :: ratio, log_determinant
+      integer :: k, n, info
+
+      n = self%number
+      self%root(:n) = sqrt(abs(change(:n)))
+      do k = 1, n
+         self%small((k - 1)*n + 1:k*n) = -self%root(:n)*self%product(:n, k)*self%root(k)
+         self%small((k - 1)*n + k) = self%small((k - 1)*n + k) - sign(1.0_wp, change(k))
+      end do
+      call dsytrf('L', n, self%small, max(n, 1), self%pivots, self%work, size(self%work), info)
+      call count_inertia(n, self%small, self%pivots, self%negative, ratio, log_determinant)
+      ! sign(1, +0) = 1: a dyad without a change counts in both and drops out
+      self%negative = self%negative + negative - count(sign(1.0_wp, change(:n)) > 0.0_wp)
+      if (n > 0 .and. (info /= 0 .or. .not. ratio > 0.0_wp)) self%negative = -1
+   end subroutine set_changes
+
+   !> N⁻¹ x → N'⁻¹ x; N' must not be singular.
+   !> Equation (K.16) of docs/theory/kkt.md.
+   pure subroutine correct(self, x)
+      type(dyads_t), intent(inout) :: self
+      real(wp), intent(inout) :: x(:)
+      integer :: k
+
+      do k = 1, self%number
+         self%part(k) = self%root(k)*along(self, k, x)
+      end do
+      call substitute(self%number, self%small, self%pivots, self%part)
+      do k = 1, self%number
+         x = x + (self%root(k)*self%part(k))*self%column(:, k)
+      end do
+   end subroutine correct
+
+   !> gᵀ x
+   pure real(wp) function along(self, number, x)
+      type(dyads_t), intent(in) :: self
+      integer, intent(in) :: number
+      real(wp), intent(in) :: x(:)
+      integer :: at
+
+      along = 0.0_wp
+      at = self%at(1, number)
+      if (at >= 0) along = dot_product(self%gradient(1:6, number), x(at + 1:at + 6))
+      at = self%at(2, number)
+      if (at >= 0) along = along + dot_product(self%gradient(7:12, number), x(at + 1:at + 6))
+   end function along
+
+end module ek_dyads
