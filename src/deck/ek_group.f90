@@ -343,13 +343,14 @@ contains
       character(14), allocatable :: names(:)
       integer :: k, used
 
-      allocate (names(count(keys%group == group .or. keys%group == every_group)))
+      allocate (names(count(keys%group == group) + 1))
       used = 0
       do k = 1, size(keys)
-         if (keys(k)%group /= group .and. keys(k)%group /= every_group) cycle
+         if (keys(k)%group /= group) cycle
+         names(used + merge(1, 2, used == 0)) = keys(k)%name      ! the second is `note`
          used = used + 1
-         names(used) = keys(k)%name
       end do
+      names(2) = 'note'
    end function key_names
 
    !> "bushing 'top_mount': "
