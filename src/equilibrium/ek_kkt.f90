@@ -13,10 +13,11 @@ module ek_kkt
    use ek_kinds, only: wp
    use ek_measure, only: view_t, look, add_measure_hessian, distance, rotation
    use ek_turn, only: pose_t
-   use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated
+   use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated, dyad
    use ek_spring, only: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material, add_measure_material
    use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
    use ek_rotation, only: cross, skew
+   use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
    use ek_scale, only: characteristic, scale_factors
@@ -98,7 +99,7 @@ contains
 
       call assemble_into(suspension, state%poses, state%reaction, demand, mode, kkt%nq, kkt%n, kkt%gradients, &
          kkt%values, kkt%matrix, kkt%rhs)
-      if (demand%relief > 0.0_wp) kkt%rhs(:kkt%nq) = kkt%rhs(:kkt%nq) - demand%relief*kkt%imbalance
+      if (demand%relief > 0.0_wp) call add_multiple(kkt%nq, -demand%relief, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
    !> The same with explicit shapes, which the compiler turns into tight code.
@@ -112,7 +113,7 @@ contains
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
       type(view_t) :: view
       type(bushing_view_t) :: bushing_view
-      real(wp) :: tension, slope, pull(12), value, force(3), moment(3), arm(3)
+      real(wp) :: tension, slope, pull(12), value, force(3), moment(3), arm(3), block(3, 3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
@@ -138,9 +139,11 @@ contains
          if (mode == whole_tangent) then
             if (suspension%loads(k)%follows) then
                ! δf = π×f: T_rπ = f̃; its symmetric part is distributed half to rπ and half to πr
-               call add_block(0.5_wp*skew(force), at_j, at_j + 3, n, matrix)
+               block = 0.5_wp*skew(force)
+               call add_block(block, at_j, at_j + 3, n, matrix)
             else
-               call add_diagonal_block(-s_matrix(arm, force), at_j + 3, at_j, n, matrix)
+               block = -s_matrix(arm, force)
+               call add_diagonal_block(block, at_j + 3, at_j, n, matrix)
             end if
          end if
       end do
@@ -163,8 +166,8 @@ contains
             else if (mode == whole_tangent) then
                call add_spring_tangent(view, tension, slope, at_i, at_j, n, matrix)
             else if (mode == material_only) then
-               call add_link_stiffness(slope*reshape([view%u(1)*view%u, view%u(2)*view%u, view%u(3)*view%u], [3, 3]), &
-                  view%a, view%b, at_i, at_j, n, matrix)
+               block = slope*dyad(view%u, view%u)
+               call add_link_stiffness(block, view%a, view%b, at_i, at_j, n, matrix)
             end if
          end associate
       end do
@@ -220,7 +223,8 @@ contains
       if (mode == whole_tangent) then
          ! screw increments: r moves by Δr + ½ Δπ×Δr + …, so the unbalanced force g contributes ½ g̃
          do at_j = 0, nq - 6, 6
-            call add_block(-0.5_wp*skew(rhs(at_j + 1:at_j + 3)), at_j, at_j + 3, n, matrix)
+            block = -0.5_wp*skew(rhs(at_j + 1:at_j + 3))
+            call add_block(block, at_j, at_j + 3, n, matrix)
          end do
       end if
    end subroutine assemble_into
@@ -236,7 +240,7 @@ contains
       integer :: k, at
 
       kkt%rhs = 0.0_wp
-      if (abs(rate%relief) > 0.0_wp) kkt%rhs(:kkt%nq) = -rate%relief*kkt%imbalance
+      if (abs(rate%relief) > 0.0_wp) call add_multiple(kkt%nq, -rate%relief, kkt%imbalance, kkt%rhs)
       do k = 1, rate%loads
          associate (load => suspension%loads(rate%load(k)))
             at = 6*(load%body - 1)
@@ -339,9 +343,9 @@ contains
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
 
-      kkt%rhs = kkt%rhs*kkt%scale
+      call multiply(kkt%n, kkt%scale, kkt%rhs)
       call substitute(kkt%n, kkt%matrix, kkt%pivots, kkt%rhs)
-      kkt%rhs = kkt%rhs*kkt%scale
+      call multiply(kkt%n, kkt%scale, kkt%rhs)
    end subroutine solve
 
    !> Reciprocal condition number of the scaled matrix at a state (LAPACK dsycon). Factorises.
