@@ -16,7 +16,6 @@ module ek_group
    public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
    public :: word, prose, number, whole, switch, is_inside, range_words
 
-   ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &

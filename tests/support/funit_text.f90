@@ -18,7 +18,7 @@ contains
 
     character(len=40) :: buffer
 
-    write (buffer, '(g0)') x
+    write (buffer, '(g26.17e3)') x       ! not g0, whose digits are the compiler's choice
     text = trim(adjustl(buffer))
   end function text_of_real
 
