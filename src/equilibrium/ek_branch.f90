@@ -19,6 +19,7 @@ module ek_branch
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_tangent, only: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
    use ek_chord, only: chord_t, new_chord, straighten, look_along_chord, at_a, at_b
+   use ek_factors, only: factors_t, new_factors, mark, forget, exchange
    use ek_orientation, only: orientation_t, new_orientation, compare_orientation
    implicit none(type, external)
    private
@@ -57,7 +58,7 @@ module ek_branch
       logical :: is_past = .false.          !! they need not, as laws bend between
       logical :: is_bent = .false.          !! laws bend between
       logical :: is_regular(2) = .false.    !! N at a, at b, with all slopes that these laws have between
-      logical :: is_fresh = .false., is_new_at_a = .false.   !! the tangents at b, at a are from factors there
+      logical :: is_new_at_a = .false.      !! the tangents at a are from new factors there
    end type step_t
 
    !> Data of the newest state of the path, and work space.
@@ -72,6 +73,9 @@ module ek_branch
       type(orientation_t) :: orientation
       type(tangent_t) :: work
       type(chord_t) :: chord
+      type(factors_t) :: factors            !! of N at the newest state
+      integer :: serial = -1                !! number of the last factorisation at or near b
+      real(wp) :: missed = 0.0_wp           !! its distance from b [m]
       real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
       real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
       type(state_t) :: before, shifted
@@ -96,6 +100,7 @@ contains
       self%orientation = new_orientation(suspension)
       self%work = new_tangent(suspension)
       self%chord = new_chord(suspension)
+      self%factors = new_factors(suspension%unknowns() + suspension%constraints())
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), self%twist(suspension%unknowns()), source=0.0_wp)
@@ -112,6 +117,7 @@ contains
       self%negative = negative
       self%has_tangent = .false.
       self%log_determinant = huge(1.0_wp)
+      call forget(self%factors)
    end subroutine leave
 
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
@@ -140,6 +146,8 @@ contains
       step%width = width
       step%negative_b = kkt%negative
       self%factorisations = 0
+      self%serial = kkt%factorisations
+      self%missed = missed
       self%is_over = .false.
       self%is_singular = .false.
       call unpack_state(packed_a, self%before)
@@ -174,7 +182,7 @@ contains
       end if
       kkt%negative = step%negative_b
       self%was_bent = step%is_past
-      self%knows_end = step%is_fresh .or. missed <= fresh*largest_motion(self%motion, kkt%length)
+      self%knows_end = self%missed <= fresh*largest_motion(self%motion, kkt%length)
    end subroutine compare
 
    !> The same with what a first look lacks: the tangent at a, the chords of laws that bend, new factors at b.
@@ -188,28 +196,34 @@ contains
       call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
       if (step%is_bent) call look_along_chord(self%chord, self%work, at_b, state_b, step%demand_b, step%rate, kkt, self%chord_b, &
          step%is_regular(at_b))
-      if (self%negative < 0) call look_at_beginning(self, step, suspension, kkt)
+      if (self%negative >= 0 .and. self%factors%is_kept) then
+         call exchange(self%factors, kkt)
+         call look_at_beginning(self, step, suspension, kkt)
+         call exchange(self%factors, kkt)
+         call decide(self, step, kkt%length)
+         if (step%is_explained .or. step%is_past) return
+      end if
+      if (self%negative < 0) call look_anew_at_beginning(self, step, suspension, kkt)
       if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
          step%is_past = is_bend(self, step%width, kkt%length)
       if (step%is_past) return
-      if ((step%is_bent .or. .not. self%has_tangent) .and. .not. step%is_new_at_a) &
-         call look_at_beginning(self, step, suspension, kkt)
-      if (step%is_new_at_a) call decide(self, step, kkt%length)
+      if (.not. step%is_new_at_a) call look_anew_at_beginning(self, step, suspension, kkt)
+      call decide(self, step, kkt%length)
       if (step%is_explained .or. step%is_past) return
-      if (.not. step%is_new_at_a) call look_at_beginning(self, step, suspension, kkt)
       call assemble(suspension, state_b, step%demand_b, whole_tangent, kkt)
       call factorise(kkt)
       step%negative_b = kkt%negative
       self%factorisations = self%factorisations + 1
-      step%is_fresh = .true.
+      self%serial = kkt%factorisations
+      self%missed = 0.0_wp
       call find_tangent(self%work, suspension, state_b, step%demand_b, step%rate, kkt, self%tangent_b)
       if (step%is_bent) call look_along_chord(self%chord, self%work, at_b, state_b, step%demand_b, step%rate, kkt, self%chord_b, &
          step%is_regular(at_b))
       call decide(self, step, kkt%length)
    end subroutine look_closer
 
-   !> The tangent at a, and that with the chords of bent laws, from new factors at a.
-   subroutine look_at_beginning(self, step, suspension, kkt)
+   !> The tangents at a from new factors there.
+   subroutine look_anew_at_beginning(self, step, suspension, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
       type(suspension_t), intent(in) :: suspension
@@ -219,9 +233,19 @@ contains
       call factorise(kkt)
       self%factorisations = self%factorisations + 1
       self%negative = kkt%negative
+      step%is_new_at_a = .true.
+      call look_at_beginning(self, step, suspension, kkt)
+   end subroutine look_anew_at_beginning
+
+   !> The tangent at a, and that with the chords of bent laws, from the current factors.
+   subroutine look_at_beginning(self, step, suspension, kkt)
+      type(branch_t), intent(inout) :: self
+      type(step_t), intent(inout) :: step
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(inout) :: kkt
+
       call find_tangent(self%work, suspension, self%before, step%demand_a, step%rate, kkt, self%tangent_a)
       self%has_tangent = .true.
-      step%is_new_at_a = .true.
       if (step%is_bent) call look_along_chord(self%chord, self%work, at_a, self%before, step%demand_a, step%rate, kkt, &
          self%chord_a, step%is_regular(at_a))
    end subroutine look_at_beginning
@@ -240,12 +264,15 @@ contains
    end subroutine decide
 
    !> Accepts the step: b becomes the newest state.
-   pure subroutine accept(self, negative, log_determinant, was_compared)
+   pure subroutine accept(self, negative, log_determinant, kkt, was_compared)
       type(branch_t), intent(inout) :: self
       integer, intent(in) :: negative            !! negative eigenvalues of N at b
       real(wp), intent(in) :: log_determinant    !! ln |det N| at b
+      type(kkt_t), intent(in) :: kkt             !! the factors at or near b, unless it was compared
       logical, intent(in) :: was_compared
 
+      if (.not. was_compared) self%serial = kkt%factorisations
+      call mark(self%factors, self%serial)
       self%was_uneven = abs(log_determinant - self%log_determinant) > even
       self%log_determinant = log_determinant
       self%negative = negative

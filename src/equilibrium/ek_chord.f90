@@ -23,8 +23,8 @@ module ek_chord
    use ek_dyads, only: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes
    implicit none(type, external)
    private
-   public :: chord_t, new_chord, straighten, look_along_chord, chord_laws, slopes_between_ends
-   public :: at_a, at_b
+   public :: chord_t, new_chord, straighten, look_along_chord
+   public :: at_a, at_b, least, mean, most
 
    integer, parameter :: at_a = 1, at_b = 2
    integer, parameter :: least = 1, mean = 2, most = 3
@@ -40,7 +40,6 @@ module ek_chord
 
    !> The changed model; one column per law.
    type :: chord_t
-      private
       type(suspension_t) :: suspension
       type(place_t), allocatable :: place(:)
       real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force there [m, N; rad, N m]
@@ -217,19 +216,5 @@ contains
          end associate
       end do
    end subroutine tilt
-
-   !> The number of laws.
-   pure integer function chord_laws(self)
-      type(chord_t), intent(in) :: self
-      chord_laws = size(self%place)
-   end function chord_laws
-
-   !> Least, mean and largest slope of a law in the step [N/m, N m/rad].
-   pure function slopes_between_ends(self, law) result(slopes)
-      type(chord_t), intent(in) :: self
-      integer, intent(in) :: law
-      real(wp) :: slopes(3)
-      slopes = self%slope(:, law)
-   end function slopes_between_ends
 
 end module ek_chord

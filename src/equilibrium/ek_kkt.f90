@@ -46,6 +46,7 @@ module ek_kkt
       real(wp) :: length = 1.0_wp            !! characteristic length [m]
       real(wp) :: stiffness = 1.0_wp         !! characteristic stiffness [N/m]
       real(wp) :: norm = 0.0_wp              !! 1-norm of the last matrix passed to `condition`
+      integer :: factorisations = 0          !! so far
       integer :: negative = 0                !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
       real(wp) :: log_determinant = 0.0_wp   !! ln |det| of the last matrix, scaled
@@ -265,6 +266,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       integer :: info
 
+      kkt%factorisations = kkt%factorisations + 1
       call scale_lower(kkt%n, kkt%scale, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)

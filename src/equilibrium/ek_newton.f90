@@ -24,6 +24,7 @@ module ek_newton
       logical :: is_singular = .false.    !! a matrix could not be factorised
       integer :: factorisations = 0
       real(wp) :: first = 0.0_wp          !! length of the first correction: error of the guess [m]
+      real(wp) :: missed = 0.0_wp         !! distance from the result at which the last factors were computed [m]
       real(wp) :: last = 0.0_wp           !! length of the last correction [m]
       integer :: negative = 0             !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp    !! cheap condition estimate of the last matrix
@@ -59,6 +60,7 @@ contains
          if (outcome%is_singular) return
          call take_step(state, kkt, huge(largest), outcome%last)
          if (iteration == 1) outcome%first = outcome%last
+         outcome%missed = outcome%last      ! what follows is shorter
          if (.not. outcome%last <= largest) return      ! also if it is not a number
          if (outcome%last <= tolerance) exit
          if (0.5_wp*outcome%last > previous) return   ! not 2*previous: huge at first

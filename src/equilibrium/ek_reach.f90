@@ -8,6 +8,7 @@ module ek_reach
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge, depth
+   use ek_factors, only: keep
    use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
       is_near_zero, long, tiny_step, same_branch, crossing, doubtful
    implicit none(type, external)
@@ -125,6 +126,7 @@ contains
             call predict(predictor, place, points)
             call unpack_state(predictor%guess, state)
          end if
+         call keep(branch%factors, kkt)
          call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
          iterations = iterations + outcome%factorisations
          verdict = doubtful
@@ -142,7 +144,7 @@ contains
                before = 0.0_wp
                if (predictor%count > 1) before = here - predictor%abscissa(older)
                call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
-                  predictor%packed(:, older), before, state, outcome%first, outcome%log_determinant, kkt, verdict)
+                  predictor%packed(:, older), before, state, outcome%missed, outcome%log_determinant, kkt, verdict)
                iterations = iterations + branch%factorisations
                kkt%pivot_ratio = outcome%pivot_ratio
                if (verdict == crossing) then
@@ -158,7 +160,7 @@ contains
             end if
          end if
          if (verdict == same_branch) then
-            call accept(branch, outcome%negative, outcome%log_determinant, was_compared)
+            call accept(branch, outcome%negative, outcome%log_determinant, kkt, was_compared)
             call store(predictor, place, state, outcome%factorisations == 1)
             ! no polynomial goes round a corner
             if (was_compared .and. branch%was_bent) predictor%trusted = min(predictor%trusted, 2)
@@ -198,6 +200,7 @@ contains
          call demand_of(place, demand)
          call predict(predictor, place, 2)
          call unpack_state(predictor%guess, state)
+         call keep(branch%factors, kkt)
          call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
          iterations = iterations + outcome%factorisations
          if (.not. outcome%is_converged) return
@@ -205,11 +208,11 @@ contains
          before = 0.0_wp
          if (predictor%count > 1) before = here - predictor%abscissa(older)
          call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
-            predictor%packed(:, older), before, state, outcome%first, outcome%log_determinant, kkt, verdict)
+            predictor%packed(:, older), before, state, outcome%missed, outcome%log_determinant, kkt, verdict)
          iterations = iterations + branch%factorisations
          if (verdict == doubtful) return
          if (verdict == crossing) call note_crossing(branch, goal)
-         call accept(branch, outcome%negative, outcome%log_determinant, .true.)
+         call accept(branch, outcome%negative, outcome%log_determinant, kkt, .true.)
          ! the next step begins behind the bifurcation: at it the joints may be on either side
          older = predictor%newest
          share = (goal - here)/(place - here)

@@ -1,0 +1,77 @@
+!> The factors of N at the newest state of a path, kept while Newton's method factorises N elsewhere.
+!>
+!> They change places with those in kkt_t; nothing is copied or allocated after new_factors.
+module ek_factors
+   use ek_kinds, only: wp
+   use ek_kkt, only: kkt_t
+   implicit none(type, external)
+   private
+   public :: factors_t, new_factors, mark, forget, keep, exchange
+
+   !> Factors, and whose they are.
+   type :: factors_t
+      logical :: is_kept = .false.          !! these are the factors of the state
+      integer, private :: serial = -1       !! number of their factorisation; −1: the state has none
+      integer, private :: negative = 0      !! negative eigenvalues
+      real(wp), allocatable, private :: matrix(:, :)
+      integer, allocatable, private :: pivots(:)
+   end type factors_t
+
+contains
+
+   !> Allocates the work space.
+   pure function new_factors(n) result(self)
+      integer, intent(in) :: n              !! rows of N
+      type(factors_t) :: self
+
+      allocate (self%matrix(n, n), source=0.0_wp)
+      allocate (self%pivots(n), source=0)
+   end function new_factors
+
+   !> The state has changed: its factors have this number, and are still in kkt_t.
+   pure subroutine mark(self, serial)
+      type(factors_t), intent(inout) :: self
+      integer, intent(in) :: serial         !! kkt%factorisations after them
+
+      self%serial = serial
+      self%is_kept = .false.
+   end subroutine mark
+
+   !> The state has changed, and its factors are not known.
+   pure subroutine forget(self)
+      type(factors_t), intent(inout) :: self
+
+      self%serial = -1
+      self%is_kept = .false.
+   end subroutine forget
+
+   !> Keeps the factors of the state, if they are those in kkt_t.
+   pure subroutine keep(self, kkt)
+      type(factors_t), intent(inout) :: self
+      type(kkt_t), intent(inout) :: kkt
+
+      if (self%is_kept .or. self%serial /= kkt%factorisations) return
+      call exchange(self, kkt)
+      self%is_kept = .true.
+   end subroutine keep
+
+   !> Exchanges these factors and those in kkt_t.
+   pure subroutine exchange(self, kkt)
+      type(factors_t), intent(inout) :: self
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), allocatable :: matrix(:, :)
+      integer, allocatable :: pivots(:)
+      integer :: negative
+
+      call move_alloc(self%matrix, matrix)
+      call move_alloc(kkt%matrix, self%matrix)
+      call move_alloc(matrix, kkt%matrix)
+      call move_alloc(self%pivots, pivots)
+      call move_alloc(kkt%pivots, self%pivots)
+      call move_alloc(pivots, kkt%pivots)
+      negative = self%negative
+      self%negative = kkt%negative
+      kkt%negative = negative
+   end subroutine exchange
+
+end module ek_factors
