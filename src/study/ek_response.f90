@@ -92,7 +92,7 @@ contains
       if (.not. ieee_is_finite(centre)) return          ! the state did not converge, or the column is undefined there
       is_near = .false.
       do k = 1, size(x)
-         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window
+         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
       end do
       if (count(is_near) < 2) then
          message = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
@@ -123,8 +123,16 @@ contains
       is_left(minloc(distance, dim=1, mask=is_left)) = .false.
       second = minval(distance, mask=is_left)
       words = 'use at least '//str(ceiling(second/window))//' times as many increments in the case, or a window of '// &
-         str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more in the response'
+         str(rounded_up(second), 3)//' or more in the response'
    end function remedy
+
+   !> A number above 0 rounded up to three digits.
+   pure real(wp) function rounded_up(value) result(rounded)
+      real(wp), intent(in) :: value
+      real(wp) :: unit
+      unit = 10.0_wp**(floor(log10(value)) - 2)
+      rounded = ceiling(value/unit*(1.0_wp - 1.0e-9_wp))*unit
+   end function rounded_up
 
    !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, that on the side of the
    !> column, or else of the left wheel.
