@@ -42,6 +42,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base, suspension
       type(case_t), allocatable :: cases(:), chosen(:)
+      type(case_t) :: case
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
@@ -61,12 +62,10 @@ contains
       call diagnose(base, design_state(base), kkt, diagnosis)
       call tell_model(base, diagnosis, checksum, words)
       do k = 1, size(chosen)
-         suspension = base
-         call mount(suspension, chosen(k), error)
-         if (allocated(error)) return
+         call mount(base, chosen(k), suspension, case)
          kkt = new_kkt(suspension)
          call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-         call tell_case(chosen(k), diagnosis, words)
+         call tell_case(case, diagnosis, words)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
          call add_distinct(found, diagnosis%words())

@@ -2,10 +2,10 @@
 !>
 !> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness.
 module ek_examination
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: message_list_t
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
+   use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -89,14 +89,11 @@ contains
       type(suspension_t) :: suspension
       type(case_t) :: mounted
       type(diagnosis_t) :: diagnosis
-      type(error_t), allocatable :: error
       type(kkt_t) :: kkt
 
       words = ''
-      suspension = base
-      mounted = case
-      call mount(suspension, mounted, error)
-      if (allocated(error)) return
+      if (.not. is_mountable(case)) return
+      call mount(base, case, suspension, mounted)
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. diagnosis%is_solvable()) words = diagnosis%words()

@@ -7,9 +7,7 @@ module ek_factor_sweep
    use ek_deck, only: deck_t, set_value
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_kkt, only: kkt_t
-   use ek_path, only: path_t, sweep
-   use ek_sweep_table, only: sweep_table
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_table, only: table_t, new_table, column_index, name_length
    use ek_study, only: study_t
    use ek_response, only: reading_t, prepare_reading, read_response
@@ -113,8 +111,8 @@ contains
       type(deck_t) :: changed
       type(suspension_t) :: suspension
       type(case_t) :: case
-      type(kkt_t) :: kkt
-      type(path_t) :: path
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
       character(*), parameter :: given = '--set '
       integer :: f, k
 
@@ -129,7 +127,7 @@ contains
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
          return
       end do
-      call make_subject(changed, study%case, suspension, case, kkt, trouble, is_known)
+      call make_subject(changed, study%case, suspension, case, trouble, is_known)
       if (allocated(trouble)) then
          do f = 1, size(values)
             call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &
@@ -137,13 +135,18 @@ contains
          end do
          return
       end if
-      unit = case%unit_name
-      call sweep(suspension, case, path, kkt)
-      call sweep_table(suspension, case, path, kkt, table)
-      do k = 1, 2
-         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &
-            str(path%value(path%failure(k)%state)))
-      end do
+      options%has_remarks = .false.
+      call solve_case(suspension, case, options, result)
+      if (.not. result%is_run()) call failure_of(result, trouble)
+      if (allocated(trouble)) return
+      unit = result%case%unit_name
+      table = result%table
+      associate (path => result%path)
+         do k = 1, 2
+            if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &
+               str(path%value(path%failure(k)%state)))
+         end do
+      end associate
    end subroutine run_design
 
    !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
