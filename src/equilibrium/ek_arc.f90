@@ -175,6 +175,7 @@ contains
    end subroutine advance
 
    !> The equilibrium at a length beyond a, in self%state and self%place.
+   !> Equation (K.17) of docs/theory/kkt.md.
    subroutine probe(self, suspension, schedule, width, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -267,6 +268,7 @@ contains
 
    !> Solves the bordered system for self%residual and the length `along`, with the matrix of the last assembly at
    !> self%state: self%rhs(:, 1) becomes [Δz Δλ Δs].
+   !> Equation (K.18) of docs/theory/kkt.md.
    subroutine solve_bordered(self, suspension, schedule, along, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -324,6 +326,7 @@ contains
    end subroutine move_all
 
    !> a·b of two steps [twists; reactions; place].
+   !> Equation (K.17) of docs/theory/kkt.md.
    pure real(wp) function inner(self, kkt, a, b)
       type(arc_t), intent(in) :: self
       type(kkt_t), intent(in) :: kkt

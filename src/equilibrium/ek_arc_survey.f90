@@ -155,6 +155,7 @@ contains
    end subroutine tell_limits
 
    !> The limit point on the current segment: the root of ds/dl.
+   !> Equation (K.19) of docs/theory/kkt.md.
    subroutine find_limit(arc, suspension, schedule, kkt, width, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension

@@ -211,6 +211,7 @@ contains
    !>
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
    !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
+   !> Equation (K.13) of docs/theory/kkt.md.
    subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
@@ -295,6 +296,7 @@ contains
    end subroutine note_crossing
 
    !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
+   !> Equation (K.14) of docs/theory/kkt.md.
    pure real(wp) function trapezoidal_rest(self, nq, width, length) result(rest)
       type(branch_t), intent(in) :: self
       integer, intent(in) :: nq
@@ -317,6 +319,7 @@ contains
    end function trapezoidal_rest
 
    !> The same for the parabola through the state before a, a and b: the difference of its slope at b from the tangent there.
+   !> Equation (K.15) of docs/theory/kkt.md.
    pure real(wp) function three_point_rest(self, nq, width, length) result(rest)
       type(branch_t), intent(in) :: self
       integer, intent(in) :: nq

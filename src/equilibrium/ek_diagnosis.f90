@@ -11,6 +11,7 @@
 !>
 !> T includes the geometric stiffness of preloads. A motion without material stiffness (K) is held by preload only and
 !> is reported separately.
+!> Equation (K.7) of docs/theory/kkt.md.
 module ek_diagnosis
    use ek_kinds, only: wp
    use ek_error, only: message_list_t

@@ -9,6 +9,7 @@
 !> body is then independent of its reference point.
 !> Unknowns: 6 per body [Δr Δπ], then the rows of Φ. Only the lower triangle is stored. The matrix S is
 !> scaled symmetrically, D S D, before factorisation; D is computed in ek_scale.
+!> Equations (K.2), (K.3) of docs/theory/kkt.md.
 module ek_kkt
    use ek_kinds, only: wp
    use ek_measure, only: view_t, look, add_measure_hessian, distance, rotation
@@ -69,6 +70,7 @@ contains
    end function new_kkt
 
    !> Force and moment of a load about the body's reference point, global axes; and its arm.
+   !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine wrench(load, pose, force, moment, arm)
       type(load_t), intent(in) :: load
       type(pose_t), intent(in) :: pose
@@ -89,6 +91,7 @@ contains
    !> Matrix (by `mode`) and right-hand side at a state. λ enters T and the residual.
    !>
    !> The residual is complete for material_only too; the recursion replaces it.
+   !> Equation (K.1) of docs/theory/kkt.md.
    pure subroutine assemble(suspension, state, demand, mode, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -102,6 +105,9 @@ contains
    end subroutine assemble
 
    !> The same with explicit shapes, which the compiler turns into tight code.
+   !> Equations (K.3), (K.4) of docs/theory/kkt.md.
+   !> Equation (M.19) of docs/theory/measures.md.
+   !> Equation (R.14) of docs/theory/rotations.md.
    pure subroutine assemble_into(suspension, poses, reaction, demand, mode, nq, n, gradients, values, matrix, rhs)
       type(suspension_t), intent(in) :: suspension
       type(pose_t), intent(in) :: poses(0:*)     !! the chassis, then the bodies
@@ -227,6 +233,7 @@ contains
 
    !> Right-hand side for a unit of the path coordinate: the derivative of the inputs, at a state. The solution with the
    !> factors of T is the tangent of the path, [Δq; Δλ] per unit of the path coordinate.
+   !> Equation (K.13) of docs/theory/kkt.md.
    pure subroutine assemble_rate(suspension, state, rate, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -274,6 +281,7 @@ contains
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
    !>
    !> A zero pivot sets is_singular; the caller obtains its cause from the diagnosis.
+   !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
       integer :: info
@@ -300,6 +308,7 @@ contains
    !>
    !> By Sylvester's law the matrix has as many negative eigenvalues as its factor D. A stable equilibrium has
    !> exactly one per constraint row.
+   !> Equation (K.6) of docs/theory/kkt.md.
    pure subroutine count_inertia(n, matrix, pivots, negative, ratio)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrix(n, n)
@@ -336,6 +345,7 @@ contains
    end subroutine count_inertia
 
    !> Solves with the last factors; on return kkt%rhs is [Δq; Δλ].
+   !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
 

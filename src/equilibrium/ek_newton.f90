@@ -31,6 +31,7 @@ module ek_newton
 contains
 
    !> Newton's method to `tolerance`: the last correction of any body [m, rad × characteristic length].
+   !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
       type(suspension_t), intent(in) :: suspension
       type(demand_t), intent(in) :: demand
@@ -90,6 +91,7 @@ contains
    end subroutine take_step
 
    !> The largest translation or rotation × length of any body.
+   !> Equation (K.11) of docs/theory/kkt.md.
    pure real(wp) function step_length(step, length)
       real(wp), contiguous, intent(in) :: step(:)
       real(wp), intent(in) :: length

@@ -48,6 +48,7 @@ contains
    end function new_orientation
 
    !> Whether det(Φq(a) Φq(b)ᵀ) < 0.
+   !> Equation (K.16) of docs/theory/kkt.md.
    logical function is_turned_over(self, suspension, state_a, state_b, demand_a, demand_b, kkt)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

@@ -54,6 +54,7 @@ contains
 
    !> Predicts the state at a value of the path coordinate, in self%guess, from at most `most` earlier ones (with
    !> one state: no change). At least one must be stored.
+   !> Equation (K.12) of docs/theory/kkt.md.
    pure subroutine predict(self, abscissa, most)
       type(predictor_t), intent(inout) :: self
       real(wp), intent(in) :: abscissa
@@ -125,6 +126,7 @@ contains
    end function usable
 
    !> Lagrange weights of the newest n states at a value of the path coordinate, and their storage slots.
+   !> Equation (K.12) of docs/theory/kkt.md.
    pure subroutine find_weights(self, abscissa, n, slot, weight)
       type(predictor_t), intent(in) :: self
       real(wp), intent(in) :: abscissa

@@ -20,6 +20,7 @@ contains
    !>
    !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes if the preloads
    !> balance the constant loads.
+   !> Equation (K.8) of docs/theory/kkt.md.
    subroutine start_recursion(suspension, state, kkt, carry)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(inout) :: state
@@ -42,6 +43,7 @@ contains
    !>
    !> (C is not in the paper: 1/stiffness of a driver with a stiffness, zero otherwise)
    !> It never evaluates the elastic forces or Φ(q) in the new configuration; this is a property of the paper's formula.
+   !> Equations (K.8), (K.9) of docs/theory/kkt.md.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, carry)
       type(suspension_t), intent(in) :: suspension
       type(demand_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
@@ -67,6 +69,8 @@ contains
    !> One full Newton step towards the next inputs, once per increment: same matrix size, one solution.
    !>
    !>     [T Φqᵀ; Φq 0][Δq; Δλ] = [f_ext(Fₙ₊₁, qⁿ) − f_el(qⁿ) − Φqᵀλⁿ; cₙ₊₁ − Φ(qⁿ)]
+   !>
+   !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine corrected_increment(suspension, after, state, kkt)
       type(suspension_t), intent(in) :: suspension
       type(demand_t), intent(in) :: after

@@ -96,6 +96,7 @@ contains
    end subroutine characteristic
 
    !> D of a model: six numbers per body, then one per row of Φ.
+   !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine scale_factors(suspension, length, stiffness, scale)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: length, stiffness     !! from `characteristic`

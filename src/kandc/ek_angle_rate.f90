@@ -43,6 +43,7 @@ contains
    end function axes_of
 
    !> Change of toe [rad, positive inward].
+   !> Equation (C.10) of docs/theory/compliance.md.
    pure real(wp) function toe_rate(axes, turn) result(rate)
       type(axes_t), intent(in) :: axes
       real(wp), intent(in) :: turn(3)
@@ -50,6 +51,7 @@ contains
    end function toe_rate
 
    !> Change of camber [rad, positive: top outward].
+   !> Equation (C.11) of docs/theory/compliance.md.
    pure real(wp) function camber_rate(axes, turn) result(rate)
       type(axes_t), intent(in) :: axes
       real(wp), intent(in) :: turn(3)
@@ -57,6 +59,7 @@ contains
    end function camber_rate
 
    !> Change of the caster of the geometric steer axis [rad, positive: top rearward].
+   !> Equation (C.11) of docs/theory/compliance.md.
    pure real(wp) function caster_rate(axes, turn) result(rate)
       type(axes_t), intent(in) :: axes
       real(wp), intent(in) :: turn(3)

@@ -45,6 +45,7 @@ contains
    !>
    !> The ground is the horizontal plane through the contact patch. A horizontal steer axis (k_z = 0)
    !> does not intersect it: scrub radius and trail are then not a number.
+   !> Equation (C.9) of docs/theory/compliance.md.
    pure function attitude_of(wheel, origin, now) result(attitude)
       type(wheel_t), intent(in) :: wheel
       real(wp), intent(in) :: origin(3)     !! reference point of the carrier at design [m]
@@ -79,6 +80,7 @@ contains
    !> Angles of a line, and its distances from patch and wheel centre, each in the horizontal plane through the point.
    !>
    !> is_known is false for a horizontal line (the angles are set nevertheless).
+   !> Equation (S.7) of docs/theory/suspension.md.
    pure function steer_axis_of(side, point, direction, centre, contact) result(axis)
       integer, intent(in) :: side                           !! −1 left, +1 right
       real(wp), intent(in) :: point(3), direction(3)        !! of the line; any length, up or down

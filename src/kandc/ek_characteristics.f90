@@ -89,6 +89,7 @@ contains
    end function quotient
 
    !> Response of this wheel if both carry a load (with = 1), or the other the opposite one (with = −1).
+   !> Equation (C.8) of docs/theory/compliance.md.
    pure function phase(c, place, with) result(own)
       real(wp), intent(in) :: c(:, :)
       integer, intent(in) :: place       !! 1 or 2: index of the wheel in C
@@ -129,6 +130,7 @@ contains
    !> All quantities of one wheel. C is 6×6 (a single wheel, without the other) or 12×12, left wheel first. Ride and hop rate
    !> and the roll with tyres are defined only with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat
    !> only with data of the axle.
+   !> Equation (C.12) of docs/theory/compliance.md.
    pure function wheel_characteristics(c, stand, place, axle) result(is)
       real(wp), intent(in) :: c(:, :)
       type(stand_t), intent(in) :: stand
@@ -190,6 +192,8 @@ contains
    !> Quantities that need two wheels: roll, the stiffness of one of them, jacking.
    !>
    !>     axle roll φ = atan(Δz/t), Δz the difference in height of the contact points: dφ = cos²φ dΔz/t
+   !>
+   !> Equation (C.12) of docs/theory/compliance.md.
    pure subroutine in_roll(c, m, cp, stand, place, is)
       real(wp), intent(in) :: c(12, 12), m(12, 12), cp(12, 12)
       type(stand_t), intent(in) :: stand
@@ -224,6 +228,8 @@ contains
    !> Force-based roll centre (W. C. Mitchell, "Asymmetric roll centers", SAE 983085; Milliken, Race Car Vehicle Dynamics, ch. 17):
    !> the height at which the lateral forces do not roll the body. With the patches held at their heights, a unit force to the
    !> right at each of them causes the vertical forces V of the ground: 2 h + y_left V_left + y_right V_right = 0.
+   !> Equation (C.12) of docs/theory/compliance.md.
+   !> Equation (S.6) of docs/theory/suspension.md.
    pure function axle_characteristics(c, stand) result(is)
       real(wp), intent(in) :: c(:, :)               !! 12×12, left wheel first
       type(stand_t), intent(in) :: stand
@@ -259,6 +265,7 @@ contains
 
    !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces to the right
    !> at the patches: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels cannot move independently in height.
+   !> Equation (S.5) of docs/theory/suspension.md.
    pure function jacking_forces(cp, lateral) result(lift)
       real(wp), intent(in) :: cp(:, :)          !! 12×12
       real(wp), intent(in) :: lateral(2)        !! left, right [N]
@@ -279,6 +286,7 @@ contains
    end function roll_compliance
 
    !> Length √(dh² + dz²)/|dθ| and angle atan(−dh/dz) of the arm about whose end a wheel centre swings.
+   !> Equation (S.2) of docs/theory/suspension.md.
    pure subroutine swing_arm(dh, dz, turn, length, angle)
       real(wp), intent(in) :: dh, dz       !! horizontal and vertical displacement [m/N]
       real(wp), intent(in) :: turn         !! rotation [rad/N]
@@ -296,6 +304,8 @@ contains
    !> normal; `hand` is 1 if (h, z, normal) is right-handed as (y, z, x), −1 as (x, z, y).
    !>
    !>     dh = −hand ω (z − z0),  dz = hand ω (h − h0)
+   !>
+   !> Equation (S.1) of docs/theory/suspension.md.
    pure function arm_centre(point, way, turn, hand) result(centre)
       real(wp), intent(in) :: point(2), way(2), turn, hand
       real(wp) :: centre(2), size_of
@@ -312,6 +322,7 @@ contains
    !> transfer h/2L more (front) or less (rear). Driving with a force 1 forward: with opposite signs, at the
    !> centre or the patch. Zf, Zw: upward displacement of the wheel centres under the force and under the load transfer; their
    !> sum times the weight of the car is the travel per g.
+   !> Equations (S.11), (S.12), (S.13) of docs/theory/suspension.md.
    pure subroutine anti_features(in, patch_in, axle, is)
       real(wp), intent(in) :: in(6, 6), patch_in(6, 6)      !! loads at the centre and at the patch, displacements at the centre
       type(axle_t), intent(in) :: axle
@@ -335,6 +346,7 @@ contains
    !> Intersection of the normals to the paths of both patches in the front view: dz (z − z0) + dy (y − y0) = 0 through each,
    !> (dy, dz) the displacement of the patch in roll, plus the deflection of the tyre. Not a number if the two displacements are
    !> parallel to 1e-8.
+   !> Equations (S.3), (S.4) of docs/theory/suspension.md.
    pure function roll_centre(cp, patches, tyre) result(centre)
       real(wp), intent(in) :: cp(:, :), patches(3, 2)
       real(wp), intent(in) :: tyre(2)                !! m/N
@@ -357,6 +369,7 @@ contains
    !> d(length)/d(wheel travel) with equal travel of all wheels: the loads f that lift each by one follow
    !> from C_zz f = 1, and the change of length is the response of the spring to them. Wheels that can only move together
    !> (C_zz singular) carry equal loads.
+   !> Equation (C.13) of docs/theory/compliance.md.
    pure real(wp) function motion_ratio(c, length) result(ratio)
       real(wp), intent(in) :: c(:, :)        !! 6×6 or 12×12
       real(wp), intent(in) :: length(:)      !! of one spring per unit of each load of C [m/N, m/(N m)]

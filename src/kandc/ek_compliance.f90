@@ -21,6 +21,8 @@
 !>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own rotation less ½ g̃)
 !>
 !> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
+!> Equation (C.4) of docs/theory/compliance.md.
+!> Equation (R.8) of docs/theory/rotations.md.
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -81,6 +83,7 @@ contains
    end function new_compliance
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
+   !> Equations (C.1), (C.3) of docs/theory/compliance.md.
    subroutine wheel_compliance(suspension, state, demand, released_rows, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -127,6 +130,7 @@ contains
    end subroutine wheel_compliance
 
    !> Removes a row of Φ from an assembled matrix.
+   !> Equation (C.5) of docs/theory/compliance.md.
    pure subroutine release(row, kkt)
       integer, intent(in) :: row
       type(kkt_t), intent(inout) :: kkt
@@ -138,6 +142,7 @@ contains
    end subroutine release
 
    !> The ports as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_ports(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -195,6 +200,7 @@ contains
    end function has_skew_part
 
    !> Solves with T + N, scaled like T; the columns are scaled on input and output.
+   !> Equation (C.4) of docs/theory/compliance.md.
    subroutine solve_full(suspension, state, demand, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state

@@ -13,6 +13,7 @@ module ek_compliance_port
 contains
 
    !> M = C B: loads at the contact points, displacements at the wheel centres.
+   !> Equation (C.7) of docs/theory/compliance.md.
    pure function load_at_patch(c, arm) result(m)
       real(wp), intent(in) :: c(:, :)
       real(wp), intent(in) :: arm(:, :)      !! contact point less wheel centre, of each wheel in the order of C [m]
@@ -31,6 +32,7 @@ contains
    end function load_at_patch
 
    !> Bᵀ M: displacements of the contact points.
+   !> Equation (C.7) of docs/theory/compliance.md.
    pure function read_at_patch(m, arm) result(cp)
       real(wp), intent(in) :: m(:, :)
       real(wp), intent(in) :: arm(:, :)
@@ -50,6 +52,7 @@ contains
    !>
    !> The heights are held one after the other, the more compliant first; a height without compliance once the other is held
    !> (wheels that can only move together; below 1e-9 of its own compliance is rounding) is held already.
+   !> Equation (C.6) of docs/theory/compliance.md.
    pure function hold(c, m) result(held)
       real(wp), intent(in) :: c(:, :)        !! at the wheel centres
       real(wp), intent(in) :: m(:, :)        !! response at the wheel centres to any loads

@@ -27,6 +27,8 @@ contains
    !> Change of the steer angle with a rotation θ of the carrier, spin axis w (unit, outboard).
    !>
    !>     steer = side·atan2(−w_x, side·w_y),  δw = θ×w:   δsteer = θ_z − w_z (θ_x w_x + θ_y w_y)/(w_x² + w_y²)
+   !>
+   !> Equation (C.10) of docs/theory/compliance.md.
    pure real(wp) function steer_rate(spin, turn) result(rate)
       real(wp), intent(in) :: spin(3), turn(3)
       rate = turn(3) - spin(3)*(turn(1)*spin(1) + turn(2)*spin(2))/(spin(1)**2 + spin(2)**2)

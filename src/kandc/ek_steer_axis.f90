@@ -26,6 +26,7 @@ module ek_steer_axis
 contains
 
    !> Twist (v, ω) of a wheel's carrier at the wheel centre while it steers, all springs locked or all wheels held.
+   !> Equation (S.8) of docs/theory/suspension.md.
    pure function locked_twist(compliance, place, holds_heights) result(twist)
       type(compliance_t), intent(in) :: compliance   !! known
       integer, intent(in) :: place                   !! index of the wheel in it
@@ -58,6 +59,7 @@ contains
    !>
    !> A port that cannot move once others are locked (two springs on one arm) has no pivot left: below 1e-9
    !> of its own compliance is rounding, and its force remains 0.
+   !> Equation (S.8) of docs/theory/suspension.md.
    pure subroutine lock(response, locked, load, force)
       real(wp), intent(in) :: response(:, :)
       integer, intent(in) :: locked(:), load
@@ -95,6 +97,7 @@ contains
    end subroutine lock
 
    !> The instant steer axis of a wheel; is_known is false if the carrier does not rotate, or for a horizontal axis.
+   !> Equation (S.9) of docs/theory/suspension.md.
    pure type(steer_axis_t) function instant_axis(compliance, place, side, centre, contact) result(axis)
       type(compliance_t), intent(in) :: compliance     !! known
       integer, intent(in) :: place, side

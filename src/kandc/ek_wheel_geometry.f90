@@ -30,6 +30,7 @@ contains
    !>     centre = |d×k|     patch = |(patch − point)×k|     across = d·n     along = side (d×k)·n/|w×k|
    !>
    !> which solves d = along w + μ k + across n. `along` and `across` are not numbers if w and k are parallel.
+   !> Equation (S.10) of docs/theory/suspension.md.
    pure type(axis_distances_t) function axis_distances(side, point, direction, centre, patch, spin) result(is)
       integer, intent(in) :: side
       real(wp), intent(in) :: point(3), direction(3)       !! of the line [m, any length, not 0]

@@ -54,6 +54,7 @@ contains
    end function perpendicular
 
    !> p ⊗ q
+   !> Equation (R.3) of docs/theory/rotations.md.
    pure function quaternion_product(p, q) result(r)
       real(wp), intent(in) :: p(4), q(4)
       real(wp) :: r(4)
@@ -64,6 +65,7 @@ contains
    end function quaternion_product
 
    !> Quaternion of the rotation vector v [rad]; exact for any length.
+   !> Equation (R.2) of docs/theory/rotations.md.
    pure function quaternion_of_vector(v) result(q)
       real(wp), intent(in) :: v(3)
       real(wp) :: q(4), square, half
@@ -82,6 +84,7 @@ contains
 
    !> exp(ṽ) applied on the left of q, then normalised, so that rounding does not accumulate
    !> over any number of increments.
+   !> Equation (R.6) of docs/theory/rotations.md.
    pure function rotate_quaternion(v, q) result(turned)
       real(wp), intent(in) :: v(3)     !! rotation vector, global axes [rad]
       real(wp), intent(in) :: q(4)
@@ -93,6 +96,7 @@ contains
    end function rotate_quaternion
 
    !> A(q), body axes to global axes; q must be of unit length.
+   !> Equation (R.4) of docs/theory/rotations.md.
    pure function rotation_matrix(q) result(a)
       real(wp), intent(in) :: q(4)
       real(wp) :: a(3, 3), xx, yy, zz, xy, xz, yz, wx, wy, wz
@@ -106,6 +110,7 @@ contains
    end function rotation_matrix
 
    !> exp(ṽ)
+   !> Equation (R.1) of docs/theory/rotations.md.
    pure function matrix_of_vector(v) result(a)
       real(wp), intent(in) :: v(3)
       real(wp) :: a(3, 3)
@@ -113,6 +118,7 @@ contains
    end function matrix_of_vector
 
    !> Unit quaternion of a rotation matrix (Shepperd: divide by the largest component).
+   !> Equation (R.5) of docs/theory/rotations.md.
    pure function quaternion_of_matrix(a) result(q)
       real(wp), intent(in) :: a(3, 3)
       real(wp) :: q(4), trace, pick(4)

@@ -22,6 +22,7 @@ contains
    end function rotated
 
    !> S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I
+   !> Equation (M.2) of docs/theory/measures.md.
    pure function s_matrix(p, g) result(s)
       real(wp), intent(in) :: p(3), g(3)
       real(wp) :: s(3, 3), x, y, z
@@ -36,6 +37,7 @@ contains
    end function s_matrix
 
    !> Adds Jᵀ M J, J = [−I, ã, I, −b̃]: a symmetric stiffness M between two points.
+   !> Equation (M.7) of docs/theory/measures.md.
    pure subroutine add_link_stiffness(m, a, b, at_i, at_j, ld, matrix)
       real(wp), intent(in) :: m(3, 3)       !! symmetric, global axes [N/m]
       real(wp), intent(in) :: a(3), b(3)    !! arms, global axes [m]
@@ -81,6 +83,7 @@ contains
    !> Adds the Hessian of f·d, f fixed in body i (any length: the measure is linear in f).
    !>
    !> π_iπ_i: S(a+d,f);  π_jπ_j: S(b,f);  π_i r_j = f̃ = −π_i r_i;  π_iπ_j = (f·b)I − b fᵀ
+   !> Equation (M.5) of docs/theory/measures.md.
    pure subroutine add_gap_hessian(f, a, b, d, at_i, at_j, ld, matrix)
       real(wp), intent(in) :: f(3), a(3), b(3), d(3)   !! global axes
       integer, intent(in) :: at_i, at_j, ld
@@ -147,6 +150,7 @@ contains
    end function dyad
 
    !> (x·y) I − x yᵀ
+   !> Equation (M.3) of docs/theory/measures.md.
    pure function dyad_rest(x, y) result(m)
       real(wp), intent(in) :: x(3), y(3)
       real(wp) :: m(3, 3), c

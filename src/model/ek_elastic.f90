@@ -55,6 +55,7 @@ contains
 
    !> Transforms rates and preloads from marker axes to the axes of body i (A_i = I at design):
    !> K = E diag(k) Eᵀ. Call it after any change of axes, rates or preload.
+   !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine set_bushing_axes(bushing)
       type(bushing_t), intent(inout) :: bushing
 
@@ -78,6 +79,7 @@ contains
    end function in_body
 
    !> Gap, rotation, and the force and moment of the law.
+   !> Equation (M.15) of docs/theory/measures.md.
    pure subroutine look_bushing(bushing, pose_i, pose_j, view)
       type(bushing_t), intent(in) :: bushing
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -171,6 +173,7 @@ contains
    end function design_rates
 
    !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
+   !> Equation (M.16) of docs/theory/measures.md.
    pure function bushing_pull(view) result(pull)
       type(bushing_view_t), intent(in) :: view
       real(wp) :: pull(12), w(3)
@@ -183,6 +186,7 @@ contains
    end function bushing_pull
 
    !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
+   !> Equation (M.17) of docs/theory/measures.md.
    pure subroutine add_bushing_tangent(bushing, view, at_i, at_j, ld, matrix)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view
@@ -223,6 +227,7 @@ contains
 
    !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], for u = each of the three
    !> marker axes. Forces do not enter, and the rotation of the marker frame itself (u×d) is neglected.
+   !> Equation (M.18) of docs/theory/measures.md.
    pure subroutine add_bushing_material(bushing, view, at_i, at_j, ld, matrix)
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view

@@ -96,6 +96,7 @@ contains
    !>
    !> Arms are design points (global); `complete` subtracts the reference points of the bodies.
    !> Drivers and couplers are built from named measures by the builder.
+   !> Equation (M.19) of docs/theory/measures.md.
    subroutine joint_terms(kind, geometry, terms, terms_of_row, rows)
       character(*), intent(in) :: kind
       type(joint_geometry_t), intent(in) :: geometry

@@ -30,6 +30,7 @@ module ek_law
 contains
 
    !> Force (derivative of the energy) at a value of the measure, and its slope.
+   !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine look_up_law(law, value, force, slope)
       type(law_t), intent(in) :: law
       real(wp), intent(in) :: value

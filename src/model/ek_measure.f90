@@ -64,6 +64,7 @@ contains
    !>
    !> Degenerate cases: a distance of 0 has no direction (checked when the model is built); a rotation
    !> of exactly π has no unique axis.
+   !> Equations (M.1), (M.4), (M.5), (M.6), (M.7), (M.12) of docs/theory/measures.md.
    pure subroutine look(measure, pose_i, pose_j, view)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
@@ -138,6 +139,7 @@ contains
    !>
    !> at_i, at_j: number of unknowns before those of body i, j; negative: the body has none.
    !> Diagonal 3×3 blocks are added in full.
+   !> Equations (M.1), (M.4), (M.6), (M.7) of docs/theory/measures.md.
    pure subroutine add_measure_hessian(kind, view, weight, at_i, at_j, ld, matrix)
       integer, intent(in) :: kind
       type(view_t), intent(in) :: view          !! from `look`, at the same poses

@@ -196,6 +196,7 @@ contains
    end function axial
 
    !> Tension at a length, and its slope dT/dL; for a torsion spring, the moment at an angle.
+   !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine spring_tension(spring, length, tension, slope)
       type(spring_t), intent(in) :: spring
       real(wp), intent(in) :: length    !! m, rad
@@ -212,6 +213,7 @@ contains
    end subroutine spring_tension
 
    !> Adds Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and the arm terms of the distance's Hessian.
+   !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_spring_tangent(view, tension, slope, at_i, at_j, ld, matrix)
       type(view_t), intent(in) :: view       !! of the spring's measure
       real(wp), intent(in) :: tension, slope
@@ -232,6 +234,7 @@ contains
    end subroutine add_spring_tangent
 
    !> Adds slope g gᵀ + moment × Hessian of the rotation.
+   !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_torsion_tangent(view, moment, slope, at_i, at_j, ld, matrix)
       type(view_t), intent(in) :: view       !! of the spring's measure
       real(wp), intent(in) :: moment, slope  !! N m, N m/rad
@@ -258,6 +261,7 @@ contains
    end subroutine add_torsion_material
 
    !> Adds slope g gᵀ of any measure: the material part of its tangent (the other part is tension × Hessian).
+   !> Equation (M.13) of docs/theory/measures.md.
    pure subroutine add_measure_material(view, slope, at_i, at_j, ld, matrix)
       type(view_t), intent(in) :: view        !! of the spring's measure
       real(wp), intent(in) :: slope           !! N/m, N m/rad, N m

@@ -1,13 +1,11 @@
 # The paper's figures: toe, camber and lateral movement over the wheel stroke by all three methods,
 # next to the exact equilibrium, and the error over the number of increments.
 #
-#     gnuplot studies/paper/plot.gp
+#     gnuplot plot.gp
 #
-# in the top folder of the repository, after tools/demo.sh has made the results. For other results or pictures:
-# gnuplot -e "results='my/folder'; study='my/step_size.csv'; pictures='my/pictures'" studies/paper/plot.gp
-if (!exists('results'))  results = 'out/demo'                                # holds a folder for each method
-if (!exists('study'))    study = 'studies/step_size/out/step_size.csv'
-if (!exists('pictures')) pictures = 'out/demo'
+# in this folder, after ./run.sh has made the results in out. For another folder of results: RESULTS=my/folder gnuplot plot.gp
+results = system('printf %s "${RESULTS:-out}"')          # holds a folder for each method; the pictures go there as well
+study = results.'/step_size/step_size.csv'
 if (!exists('formats'))  formats = 'png svg'
 
 reset
@@ -37,7 +35,7 @@ step_of(size, power) = power*(size < 1.5*power ? 1 : size < 3.5*power ? 2 : size
 # ---- three quantities over the wheel stroke ---------------------------------------------------
 
 sweep(method) = sprintf("%s/%s/mcpherson_vertical_sweep.csv", results, method)
-difference(method, column) = sprintf("< awk -v column=%s -f studies/paper/difference.awk '%s' '%s'", \
+difference(method, column) = sprintf("< awk -v column=%s -f difference.awk '%s' '%s'", \
    column, sweep('equilibrium'), sweep(method))
 
 files = 'toe camber lateral'
@@ -59,7 +57,7 @@ do for [k = 1:3] {
       if (format eq 'png') { set terminal pngcairo size 1200, 1000 font 'sans-serif,15' }
       if (format eq 'svg') { set terminal svg size 1200, 1000 font 'sans-serif,15' background 'white' }
       if (format eq 'pdf') { set terminal pdfcairo size 24cm, 20cm font 'sans-serif,12' }
-      set output sprintf('%s/%s.%s', pictures, word(files, k), format)
+      set output sprintf('%s/%s.%s', results, word(files, k), format)
       set multiplot
 
       set label 1 heading[k] at screen 0.03, screen 0.967 \
@@ -102,7 +100,7 @@ do for [k = 1:3] {
 
 # ---- the error over the number of increments ---------------------------------------------------
 
-errors(method, column) = sprintf("< awk -v method=%s -v column=%s -f studies/paper/errors.awk '%s' | sort -t, -k1n", \
+errors(method, column) = sprintf("< awk -v method=%s -v column=%s -f errors.awk '%s' | sort -t, -k1n", \
    method, column, study)
 
 set xtics autofreq
@@ -115,7 +113,7 @@ do for [format in formats] {
    if (format eq 'png') { set terminal pngcairo size 1200, 1000 font 'sans-serif,15' }
    if (format eq 'svg') { set terminal svg size 1200, 1000 font 'sans-serif,15' background 'white' }
    if (format eq 'pdf') { set terminal pdfcairo size 24cm, 20cm font 'sans-serif,12' }
-   set output sprintf('%s/increments.%s', pictures, format)
+   set output sprintf('%s/increments.%s', results, format)
    set multiplot
 
    set label 1 'Error over the number of increments' at screen 0.03, screen 0.967 \
