@@ -19,7 +19,7 @@ module ek_case_result
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks
    use ek_curve_reach, only: curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
-   use ek_table, only: table_t
+   use ek_table, only: table_t, name_length
    use ek_test_result, only: frame_line
    implicit none(type, external)
    private
@@ -39,6 +39,7 @@ module ek_case_result
       logical :: has_remarks = .true.              !! otherwise failures can be seen in the path only
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: least_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
+      character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 
@@ -83,7 +84,7 @@ contains
       end if
       call mount(base, case, result%suspension, result%case)
       result%kkt = new_kkt(result%suspension)
-      call ask_memory(sweep_bytes(result%suspension, result%case), 'case '//quoted(case%name)//' with '// &
+      call ask_memory(sweep_bytes(result%suspension, result%case, options%columns), 'case '//quoted(case%name)//' with '// &
          plural(result%case%increments, 'increment', 'increments'), error)
       if (allocated(error)) then
          call give_up(out_of_memory, error%message)
@@ -91,7 +92,7 @@ contains
       end if
       call sweep(result%suspension, result%case, result%path, result%kkt, progress)
       if (options%has_remarks) call remark_on_path(options, result)
-      call sweep_table(result%suspension, result%case, result%path, result%kkt, result%table)
+      call sweep_table(result%suspension, result%case, result%path, result%kkt, result%table, options%columns)
       if (options%has_remarks) call closure_remarks(result%suspension, result%case, result%table, result%remarks)
       if (any(result%path%failure%state > 0) .or. len(result%remarks%failures()) > 0) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
