@@ -42,7 +42,7 @@ contains
 
       self%vehicle = vehicle
       self%compliance = new_compliance(suspension, vehicle%steer_row > 0)
-      allocate (self%names(128), self%of_matrix(0), self%last(0), self%is_passed_over(0))
+      allocate (self%names(128), self%is_of_matrix(128), self%last(0), self%is_passed_over(0))
       call list(suspension, design_state(suspension), demand_t(), self)
       self%is_naming = .false.
       allocate (self%values(self%used), source=0.0_wp)

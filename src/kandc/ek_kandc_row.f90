@@ -17,7 +17,7 @@ module ek_kandc_row
       real(wp), allocatable :: values(:)
       logical :: is_naming = .true.
       logical :: is_matrix_wanted = .true.             !! a column that is wanted needs the compliance matrix
-      integer, allocatable :: of_matrix(:)             !! columns whose values come from the compliance matrix
+      logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
       integer :: blocks = 0                            !! columns are listed block by block: each wheel, the axle, …
       integer, allocatable :: last(:)                  !! last column of each block
       logical, allocatable :: is_passed_over(:)        !! of each block: none of its columns is wanted
@@ -48,6 +48,7 @@ contains
       real(wp), intent(in) :: value
       logical, intent(in), optional :: is_of_matrix    !! the value comes from the compliance matrix; default .false.
       character(name_length), allocatable :: more(:)
+      logical, allocatable :: of_matrix(:)
 
       self%used = self%used + 1
       if (.not. self%is_naming) then
@@ -55,13 +56,15 @@ contains
          return
       end if
       if (self%used > size(self%names)) then
-         allocate (more(2*size(self%names)))
+         allocate (more(2*size(self%names)), of_matrix(2*size(self%names)))
          more(:self%used - 1) = self%names
          call move_alloc(more, self%names)
+         of_matrix(:self%used - 1) = self%is_of_matrix
+         call move_alloc(of_matrix, self%is_of_matrix)
       end if
       self%names(self%used) = name
-      if (.not. present(is_of_matrix)) return
-      if (is_of_matrix) self%of_matrix = [self%of_matrix, self%used]
+      self%is_of_matrix(self%used) = .false.
+      if (present(is_of_matrix)) self%is_of_matrix(self%used) = is_of_matrix
    end subroutine put
 
    !> Restricts the columns that later passes fill: blocks without a wanted column are passed over, and the matrix is solved
@@ -71,7 +74,7 @@ contains
       logical, intent(in) :: is_wanted(:)              !! of each column
       integer :: k, first
 
-      self%is_matrix_wanted = any(is_wanted(self%of_matrix))
+      self%is_matrix_wanted = any(is_wanted .and. self%is_of_matrix(:self%used))
       first = 1
       do k = 1, size(self%last)
          self%is_passed_over(k) = .not. any(is_wanted(first:self%last(k)))
