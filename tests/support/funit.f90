@@ -15,12 +15,15 @@ module funit
   public :: assertEqual, assertTrue, assertFalse, assertAll, assertFail
   public :: assertLessThan, assertLessThanOrEqual, assertGreaterThan
   public :: assertIsFinite, assertIsNaN
-  public :: test, run
+  public :: test, run, is
 
-  !> pFUnit's module has a type of this name and a procedure `run`: a test module that takes one of them for its own does
-  !> not compile there, and so not here.
+  !> pFUnit's module has types of these names and a procedure `run`: a test module that takes one of them for its own does
+  !> not compile there, and so not here (`is`: where gfortran takes an argument for the type).
   type :: test
   end type test
+
+  type :: is
+  end type is
 
   !> The three orders are of scalars; NaN fails each of them.
   interface assertLessThan
