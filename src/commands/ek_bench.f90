@@ -38,34 +38,17 @@ contains
    subroutine bench(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
-      type(suspension_t) :: base, suspension
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
-      type(examination_t) :: found
       type(path_t) :: path, exact
       real(wp), allocatable :: matrices(:, :, :)
       real(wp) :: unit, together, copying, best(3), start
-      character(:), allocatable :: checksum
       character(200) :: line
       integer :: k, m
 
-      call load_deck(arguments, base, cases, checksum, error)
+      call load_case(arguments, suspension, case, error)
       if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
-      call examine_cases(base, chosen(1:1), found)
-      if (found%none_solvable()) then
-         call fail(error, exit_model, unsolvable_words(arguments%file, found))
-         return
-      end if
-      call balance(base, chosen(1)%tolerance, error)
-      if (allocated(error)) return
-      if (.not. is_mountable(chosen(1))) then
-         call fail(error, exit_file, chosen(1)%table%fault)
-         return
-      end if
-      call mount(base, chosen(1), suspension, case)
       kkt = new_kkt(suspension)
       case%method = 'equilibrium'
       case%follows_arc = .false.       ! the methods are compared over the factor
@@ -111,6 +94,35 @@ contains
       if (arguments%quiet .or. allocated(error)) return
       call whole_way(arguments, error)
    end subroutine bench
+
+   !> The first chosen case of a deck on the rig, examined and balanced.
+   subroutine load_case(arguments, suspension, case, error)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), intent(out) :: case
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: base
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(examination_t) :: found
+      character(:), allocatable :: checksum
+
+      call load_deck(arguments, base, cases, checksum, error)
+      if (allocated(error)) return
+      call chosen_cases(arguments, cases, chosen, error)
+      if (allocated(error)) return
+      call examine_cases(base, chosen(1:1), found)
+      if (found%none_solvable()) then
+         call fail(error, exit_model, unsolvable_words(arguments%file, found))
+         return
+      end if
+      call balance(base, chosen(1)%tolerance, error)
+      if (allocated(error)) return
+      if (.not. is_mountable(chosen(1))) then
+         call fail(error, exit_file, chosen(1)%table%fault)
+         return
+      end if
+      call mount(base, chosen(1), suspension, case)
+   end subroutine load_case
 
    !> Prints one line to standard output; after a failure nothing.
    subroutine put(line, error)
@@ -210,24 +222,18 @@ contains
    subroutine whole_way(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
-      type(suspension_t) :: base, suspension
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
       type(path_t) :: path
       type(table_t) :: table
-      character(:), allocatable :: checksum, text
+      character(:), allocatable :: text
       character(200) :: line
       real(wp) :: marks(5)
 
       marks(1) = seconds()
-      call load_deck(arguments, base, cases, checksum, error)
+      call load_case(arguments, suspension, case, error)
       if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
-      call balance(base, chosen(1)%tolerance, error)
-      if (allocated(error)) return
-      call mount(base, chosen(1), suspension, case)
       kkt = new_kkt(suspension)
       marks(2) = seconds()
       call sweep(suspension, case, path, kkt)

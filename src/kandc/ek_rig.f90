@@ -151,8 +151,8 @@ contains
       do side = 1, 2
          if (wheels(side) == 0) cycle
          if (control == 'force') then
-            call add_wheel_load(suspension, this, wheels(side), 'rig_'//trim(side_name(side)), up, [0.0_wp, 0.0_wp, 0.0_wp], .true.)
-            call append_course(this%courses, 'rig_'//trim(side_name(side)), '', shares(side), follows_place)
+            call add_wheel_load(suspension, this, wheels(side), trim(side_name(side)), up, [0.0_wp, 0.0_wp, 0.0_wp], .true., &
+               shares(side), follows_place)
          else
             call append_course(this%courses, '', height_name(side), shares(side), follows_place)
          end if
@@ -207,8 +207,7 @@ contains
       if (test%name == 'traction' .and. is_at_patch) this%place_name = 'traction force at each patch'
       do side = 1, 2
          if (wheels(side) == 0) cycle
-         call add_wheel_load(suspension, this, wheels(side), 'rig_'//trim(side_name(side)), test%force, moment, is_at_patch)
-         call append_course(this%courses, 'rig_'//trim(side_name(side)), '', &
+         call add_wheel_load(suspension, this, wheels(side), trim(side_name(side)), test%force, moment, is_at_patch, &
             merge(-1.0_wp, 1.0_wp, this%is_anti .and. side == 2), follows_place)
       end do
    end subroutine load_wheels
@@ -237,8 +236,8 @@ contains
                if (suspension%is_iso .and. mod(column%component, 3) > 0) direction = -1.0_wp      ! x and y of the deck
                unit = 0.0_wp
                unit(mod(column%component - 1, 6) + 1) = direction
-               call add_wheel_load(suspension, this, column%wheel, 'rig_'//column%name, unit(1:3), unit(4:6), column%component <= 6)
-               call append_course(this%courses, 'rig_'//column%name, '', 1.0_wp, follows_table, column%values)
+               call add_wheel_load(suspension, this, column%wheel, column%name, unit(1:3), unit(4:6), column%component <= 6, &
+                  1.0_wp, follows_table, column%values)
             end if
          end associate
       end do
@@ -251,17 +250,20 @@ contains
       end if
    end subroutine take_rows
 
-   !> A load on a wheel that an actuation scales.
-   pure subroutine add_wheel_load(suspension, this, wheel, name, force, moment, is_at_patch)
+   !> A load 'rig_<name>' on a wheel, and the actuation that scales it.
+   pure subroutine add_wheel_load(suspension, this, wheel, name, force, moment, is_at_patch, share, law, values)
       type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(in) :: this
+      type(case_t), intent(inout) :: this
       integer, intent(in) :: wheel
       character(*), intent(in) :: name
       real(wp), intent(in) :: force(3), moment(3)
       logical, intent(in) :: is_at_patch       !! otherwise at the wheel centre
+      real(wp), intent(in) :: share
+      integer, intent(in) :: law
+      real(wp), intent(in), optional :: values(:)
       type(load_t) :: load
 
-      load%name = name
+      load%name = 'rig_'//name
       load%where = this%where
       load%body = suspension%wheels(wheel)%body
       load%arm = suspension%wheels(wheel)%centre
@@ -270,6 +272,7 @@ contains
       load%moment = moment
       load%is_case = .true.
       call add_load(suspension, load)
+      call append_course(this%courses, load%name, '', share, law, values)
    end subroutine add_wheel_load
 
    !> Unit and name of the swept value of a case without a test.
