@@ -207,9 +207,9 @@ contains
       integer :: k
 
       associate (suspension => result%suspension, case => result%case)
-         allocate (elements(size(suspension%bushings)))
+         allocate (elements(size(suspension%elements) - suspension%scalars))
          do k = 1, size(elements)
-            elements(k) = suspension%bushings(k)%name
+            elements(k) = suspension%elements(suspension%scalars + k)%name
          end do
          model = suspension%title
          if (len(model) == 0) model = suspension%name

@@ -13,6 +13,7 @@ module ek_factor_sweep
    use ek_table, only: table_t, new_table, column_index, name_length
    use ek_study, only: study_t
    use ek_response, only: reading_t, needed_columns, prepare_reading, read_response
+   use ek_examination, only: known_case_t
    use ek_subject, only: make_subject
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
@@ -37,6 +38,7 @@ contains
       type(table_t) :: table
       type(error_t), allocatable :: trouble
       type(reading_t), allocatable :: readings(:)
+      type(known_case_t) :: known
       real(wp), allocatable :: values(:), rows(:, :)
       character(:), allocatable :: label, unit
       character(name_length), allocatable :: wanted(:), heads(:)
@@ -64,7 +66,7 @@ contains
             do f = 1, n
                label = label//study%factors(f)%path//'='//shortest(values(f))//' '
             end do
-            call run_design(study, deck, values, design > 1, wanted, table, heads, unit, trouble, error)
+            call run_design(study, deck, values, known, wanted, table, heads, unit, trouble, error)
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, heads, unit, readings, error)
@@ -108,11 +110,11 @@ contains
    end subroutine sweep_factors
 
    !> Runs one design: its table, or the reason for its failure. `error`: a path that is invalid for every design.
-   subroutine run_design(study, deck, values, is_known, wanted, table, heads, unit, trouble, error)
+   subroutine run_design(study, deck, values, known, wanted, table, heads, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
-      logical, intent(in) :: is_known                    !! the inputs were checked with another design
+      type(known_case_t), intent(inout) :: known         !! from the designs before
       character(name_length), intent(in) :: wanted(:)    !! columns that are computed
       type(table_t), intent(out) :: table                !! those that the model defines
       character(name_length), allocatable, intent(inout) :: heads(:)   !! all columns of the results, set by the first design
@@ -137,7 +139,7 @@ contains
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
          return
       end do
-      call make_subject(changed, study%case, suspension, case, trouble, is_known)
+      call make_subject(changed, study%case, suspension, case, trouble, known)
       if (allocated(trouble)) then
          do f = 1, size(values)
             call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &
@@ -152,7 +154,7 @@ contains
       if (allocated(trouble)) return
       unit = result%case%unit_name
       table = result%table
-      if (.not. is_known) call sweep_columns(result%suspension, result%case, heads)
+      if (.not. allocated(heads)) call sweep_columns(result%suspension, result%case, heads)
       associate (path => result%path)
          do k = 1, 2
             if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &

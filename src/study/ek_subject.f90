@@ -9,7 +9,8 @@ module ek_subject
    use ek_case_inputs, only: check_inputs
    use ek_load_table, only: take_table
    use ek_balance, only: balance
-   use ek_examination, only: examine_case
+   use ek_diagnosis, only: diagnosis_t
+   use ek_examination, only: examine_case, known_case_t
    implicit none(type, external)
    private
    public :: make_subject
@@ -17,15 +18,17 @@ module ek_subject
 contains
 
    !> Builds the model of a deck for one case ('': the first case), examines it on the rig, and balances it.
-   subroutine make_subject(deck, case_name, suspension, case, error, is_known)
+   !>
+   !> A study of many designs passes the same `known` with each: what does not change between designs is then checked once.
+   subroutine make_subject(deck, case_name, suspension, case, error, known)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(in), optional :: is_known     !! its inputs were checked with another design of the deck; default .false.
+      type(known_case_t), intent(inout), optional :: known
       type(case_t), allocatable :: cases(:)
-      character(:), allocatable :: words
+      type(diagnosis_t) :: diagnosis
       logical :: is_checked
       integer :: k
 
@@ -44,7 +47,7 @@ contains
          return
       end if
       is_checked = .false.
-      if (present(is_known)) is_checked = is_known
+      if (present(known)) is_checked = known%is_known
       if (is_checked) then
          call take_table(suspension, cases(k), error)
       else
@@ -52,9 +55,9 @@ contains
       end if
       if (allocated(error)) return
       case = cases(k)
-      call examine_case(suspension, case, words)
-      if (len(words) > 0) then
-         call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//words)
+      call examine_case(suspension, case, diagnosis, known)
+      if (.not. diagnosis%is_solvable()) then
+         call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//diagnosis%words())
          return
       end if
       call balance(suspension, case%tolerance, error)
