@@ -191,7 +191,7 @@ contains
       end if
    end subroutine refuse_unused
 
-   !> Appends a text. (gfortran leaks the component of a constructor within an array constructor.)
+   !> Appends a text. (gfortran 12 leaks the component of a constructor within an array constructor.)
    subroutine add_setting(settings, text)
       type(setting_t), allocatable, intent(inout) :: settings(:)
       character(*), intent(in) :: text

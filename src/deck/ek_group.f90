@@ -16,7 +16,6 @@ module ek_group
    public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
    public :: word, prose, number, whole, switch, is_inside, range_words
 
-   ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
@@ -26,6 +25,7 @@ module ek_group
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass']
 
+   integer, parameter :: every_group = 0      !! in the table of keys
    integer, parameter :: result_groups(7) = [measure_group, joint_group, bushing_group, spring_group, damper_group, &
       stop_group, torsion_group]                                    ! their names make the names of columns
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
@@ -60,7 +60,6 @@ module ek_group
 
    type(key_t), parameter :: keys(*) = [ &
       key_t(model_group, 'name', word, 1, 1, .true.), &
-      key_t(model_group, 'note', prose, 1, 1, .false.), &
       key_t(model_group, 'title', prose, 1, 1, .false.), &
       key_t(model_group, 'length', word, 1, 1, .false.), &
       key_t(model_group, 'force', word, 1, 1, .false.), &
@@ -70,20 +69,16 @@ module ek_group
       key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)'), &
       key_t(model_group, 'plausible', switch, 1, 1, .false.), &
       key_t(point_group, 'name', word, 1, 1, .true.), &
-      key_t(point_group, 'note', prose, 1, 1, .false.), &
       key_t(point_group, 'at', number, 3, 3, .true.), &
       key_t(body_group, 'name', word, 1, 1, .true.), &
-      key_t(body_group, 'note', prose, 1, 1, .false.), &
       key_t(body_group, 'origin', word, 1, 1, .false.), &
       key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg'), &
       key_t(body_group, 'centre', word, 1, 1, .false.), &
       key_t(mass_group, 'name', word, 1, 1, .true.), &
-      key_t(mass_group, 'note', prose, 1, 1, .false.), &
       key_t(mass_group, 'body', word, 1, 1, .true.), &
       key_t(mass_group, 'kg', number, 1, 1, .true., positive), &
       key_t(mass_group, 'at', word, 1, 1, .true.), &
       key_t(measure_group, 'name', word, 1, 1, .true.), &
-      key_t(measure_group, 'note', prose, 1, 1, .false.), &
       key_t(measure_group, 'type', word, 1, 1, .true.), &
       key_t(measure_group, 'bodies', word, 2, 2, .true.), &
       key_t(measure_group, 'at', word, 1, 2, .false.), &
@@ -92,7 +87,6 @@ module ek_group
       key_t(measure_group, 'axis_2', word, 2, 2, .false.), &
       key_t(measure_group, 'axis_2_vector', number, 3, 3, .false.), &
       key_t(joint_group, 'name', word, 1, 1, .true.), &
-      key_t(joint_group, 'note', prose, 1, 1, .false.), &
       key_t(joint_group, 'type', word, 1, 1, .true.), &
       key_t(joint_group, 'bodies', word, 2, 2, .false.), &
       key_t(joint_group, 'at', word, 1, 2, .false.), &
@@ -106,7 +100,6 @@ module ek_group
       key_t(joint_group, 'stiffness', number, 1, 1, .false., positive), &
       key_t(joint_group, 'balance', switch, 1, 1, .false.), &
       key_t(bushing_group, 'name', word, 1, 1, .true.), &
-      key_t(bushing_group, 'note', prose, 1, 1, .false.), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true.), &
       key_t(bushing_group, 'at', word, 1, 2, .true.), &
       key_t(bushing_group, 'z_axis', word, 2, 2, .false.), &
@@ -119,7 +112,6 @@ module ek_group
       key_t(bushing_group, 'preload_force', number, 3, 3, .false.), &
       key_t(bushing_group, 'preload_moment', number, 3, 3, .false.), &
       key_t(spring_group, 'name', word, 1, 1, .true.), &
-      key_t(spring_group, 'note', prose, 1, 1, .false.), &
       key_t(spring_group, 'bodies', word, 2, 2, .false.), &
       key_t(spring_group, 'at', word, 2, 2, .false.), &
       key_t(spring_group, 'measure', word, 1, 1, .false.), &
@@ -129,18 +121,15 @@ module ek_group
       key_t(spring_group, 'balance', switch, 1, 1, .false.), &
       key_t(spring_group, 'free_length', number, 1, 1, .false., positive), &
       key_t(curve_group, 'name', word, 1, 1, .true.), &
-      key_t(curve_group, 'note', prose, 1, 1, .false.), &
       key_t(curve_group, 'x', number, 2, most_values, .true.), &
       key_t(curve_group, 'y', number, 2, most_values, .true.), &
       key_t(curve_group, 'kind', word, 1, 1, .false.), &
       key_t(damper_group, 'name', word, 1, 1, .true.), &
-      key_t(damper_group, 'note', prose, 1, 1, .false.), &
       key_t(damper_group, 'bodies', word, 2, 2, .true.), &
       key_t(damper_group, 'at', word, 2, 2, .true.), &
       key_t(damper_group, 'gas_force', number, 1, 1, .false., not_negative), &
       key_t(damper_group, 'gas_rate', number, 1, 1, .false., not_negative), &
       key_t(stop_group, 'name', word, 1, 1, .true.), &
-      key_t(stop_group, 'note', prose, 1, 1, .false.), &
       key_t(stop_group, 'type', word, 1, 1, .true.), &
       key_t(stop_group, 'bodies', word, 2, 2, .true.), &
       key_t(stop_group, 'at', word, 2, 2, .true.), &
@@ -149,7 +138,6 @@ module ek_group
       key_t(stop_group, 'curve', word, 1, 1, .false.), &
       key_t(stop_group, 'rounding', number, 1, 1, .false., positive), &
       key_t(torsion_group, 'name', word, 1, 1, .true.), &
-      key_t(torsion_group, 'note', prose, 1, 1, .false.), &
       key_t(torsion_group, 'bodies', word, 2, 2, .true.), &
       key_t(torsion_group, 'axis', word, 2, 2, .false.), &
       key_t(torsion_group, 'axis_vector', number, 3, 3, .false.), &
@@ -157,7 +145,6 @@ module ek_group
       key_t(torsion_group, 'curve', word, 1, 1, .false.), &
       key_t(torsion_group, 'preload', number, 1, 1, .false.), &
       key_t(wheel_group, 'name', word, 1, 1, .true.), &
-      key_t(wheel_group, 'note', prose, 1, 1, .false.), &
       key_t(wheel_group, 'body', word, 1, 1, .true.), &
       key_t(wheel_group, 'side', word, 1, 1, .true.), &
       key_t(wheel_group, 'centre', word, 1, 1, .true.), &
@@ -171,7 +158,6 @@ module ek_group
       key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg'), &
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false.), &
       key_t(axle_group, 'name', word, 1, 1, .false.), &
-      key_t(axle_group, 'note', prose, 1, 1, .false.), &
       key_t(axle_group, 'position', word, 1, 1, .true.), &
       key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive), &
       key_t(axle_group, 'cg_height', number, 1, 1, .true., positive), &
@@ -182,12 +168,10 @@ module ek_group
       key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive), &
       key_t(axle_group, 'front_width', number, 1, 1, .false., positive), &
       key_t(steering_group, 'name', word, 1, 1, .false.), &
-      key_t(steering_group, 'note', prose, 1, 1, .false.), &
       key_t(steering_group, 'driver', word, 1, 1, .true.), &
       key_t(steering_group, 'ratio', number, 1, 1, .true., not_zero), &
       key_t(steering_group, 'travel', number, 1, 1, .true., positive), &
       key_t(load_group, 'name', word, 1, 1, .true.), &
-      key_t(load_group, 'note', prose, 1, 1, .false.), &
       key_t(load_group, 'body', word, 1, 1, .true.), &
       key_t(load_group, 'at', word, 1, 1, .true.), &
       key_t(load_group, 'force', number, 3, 3, .false.), &
@@ -195,7 +179,6 @@ module ek_group
       key_t(load_group, 'follows', switch, 1, 1, .false.), &
       key_t(load_group, 'factor', word, 1, 1, .false.), &
       key_t(case_group, 'name', word, 1, 1, .true.), &
-      key_t(case_group, 'note', prose, 1, 1, .false.), &
       key_t(case_group, 'load', word, 1, most_loads, .false.), &
       key_t(case_group, 'drive', word, 1, 1, .false.), &
       key_t(case_group, 'wheel', word, 1, 1, .false.), &
@@ -213,7 +196,6 @@ module ek_group
       key_t(case_group, 'follow', word, 1, 1, .false.), &
       key_t(case_group, 'tolerance', number, 1, 1, .false., positive), &
       key_t(study_group, 'name', word, 1, 1, .true.), &
-      key_t(study_group, 'note', prose, 1, 1, .false.), &
       key_t(study_group, 'title', prose, 1, 1, .false.), &
       key_t(study_group, 'kind', word, 1, 1, .true.), &
       key_t(study_group, 'deck', prose, 1, 1, .true.), &
@@ -224,7 +206,6 @@ module ek_group
       key_t(study_group, 'increments', whole, 1, most_values, .false.), &
       key_t(study_group, 'columns', word, 1, 20, .false.), &
       key_t(factor_group, 'name', word, 1, 1, .true.), &
-      key_t(factor_group, 'note', prose, 1, 1, .false.), &
       key_t(factor_group, 'path', prose, 1, 1, .true.), &
       key_t(factor_group, 'values', number, 1, most_values, .false.), &
       key_t(factor_group, 'from', number, 1, 1, .false.), &
@@ -232,16 +213,14 @@ module ek_group
       key_t(factor_group, 'count', whole, 1, 1, .false.), &
       key_t(factor_group, 'spacing', word, 1, 1, .false.), &
       key_t(response_group, 'name', word, 1, 1, .true.), &
-      key_t(response_group, 'note', prose, 1, 1, .false.), &
       key_t(response_group, 'column', word, 1, 1, .true.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
       key_t(response_group, 'over', word, 1, 1, .false.), &
       key_t(response_group, 'window', number, 1, 1, .false., positive), &
       key_t(include_group, 'file', prose, 1, 1, .true.), &
-      key_t(include_group, 'note', prose, 1, 1, .false.), &
       key_t(mirror_group, 'shared', word, 1, most_values, .false.), &
-      key_t(mirror_group, 'note', prose, 1, 1, .false.)]
+      key_t(every_group, 'note', prose, 1, 1, .false.)]
 
    character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
 
@@ -320,7 +299,7 @@ contains
 
       is_known = .false.
       do k = 1, size(keys)
-         if (keys(k)%group /= group) cycle
+         if (keys(k)%group /= group .and. keys(k)%group /= every_group) cycle
          if (keys(k)%name /= name) cycle
          key = keys(k)
          is_known = .true.
@@ -363,13 +342,14 @@ contains
       character(14), allocatable :: names(:)
       integer :: k, used
 
-      allocate (names(count(keys%group == group)))
+      allocate (names(count(keys%group == group) + 1))
       used = 0
       do k = 1, size(keys)
          if (keys(k)%group /= group) cycle
+         names(used + merge(1, 2, used == 0)) = keys(k)%name      ! the second is `note`
          used = used + 1
-         names(used) = keys(k)%name
       end do
+      names(2) = 'note'
    end function key_names
 
    !> "bushing 'top_mount': "

@@ -4,10 +4,10 @@
 !> collected; the blueprint is complete only if there are none.
 module ek_reader
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: lower
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
-   use ek_twin, only: single, left_twin, right_twin
+   use ek_twin, only: single
    use ek_complaint, only: place_t
    use ek_record, only: record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
@@ -16,11 +16,12 @@ module ek_reader
       word_length, record_head, did_you_mean, is_legal_name, illegal_name, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
-   use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, has_key, choice, text_of, switch_of, &
-      number_of, slot, slots
-   use ek_reference, only: find_point, find_body, new_vector, vector_at
+   use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
+      number_of, slot
+   use ek_reference, only: vector_at
    use ek_parameter, only: parameters_t
    use ek_reserved_name, only: reserved_because
+   use ek_reader_bodies, only: read_point, read_body, read_mass
    use ek_reader_joints, only: read_measure, read_joint
    use ek_reader_springs, only: read_curve, read_spring, read_damper, read_stop, read_torsion
    use ek_reader_elements, only: read_bushing, read_load
@@ -28,10 +29,10 @@ module ek_reader
    use ek_reader_axle, only: read_axle, read_steering
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_point, add_body, add_gravity
+   use ek_builder, only: add_point, add_gravity
    use ek_completion, only: allocate_lists
-   use ek_blueprint, only: blueprint_t, new_blueprint, vector_t, body_plan_t, mass_plan_t, hardpoint, off_left, off_right, in_plane
-   use ek_realise, only: new_design, realise, add_mass, plane
+   use ek_blueprint, only: blueprint_t, new_blueprint
+   use ek_realise, only: new_design, realise
    use ek_case, only: case_t
    implicit none(type, external)
    private
@@ -296,7 +297,7 @@ contains
       character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
          angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
          balances(3) = [character(6) :: 'none', 'spring', 'all']
-      integer :: k, first, length, force, angle, frame, balance
+      integer :: k, first, length, force, angle, frame, balance, gravity
 
       draft%plan%prototype%name = ''
       draft%plan%prototype%title = ''
@@ -320,7 +321,8 @@ contains
          draft%plan%force_unit = draft%units%force
          draft%plan%angle_unit = draft%units%angle
          draft%plan%is_iso = frame == 2
-         call slot(draft, 'gravity', 1.0_wp, draft%plan%gravity)
+         call slot(draft, 'gravity', 1.0_wp, gravity)
+         draft%plan%gravity = gravity
          associate (model => draft%plan%prototype)
             model%gravity = number_of(draft, 'gravity', 0.0_wp)
             model%name = text_of(draft, 'name')
@@ -335,70 +337,6 @@ contains
       if (first == 0 .and. all(draft%cards%group > 0)) &
          call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
    end subroutine read_model
-
-   !> &point: a design position.
-   subroutine read_point(draft)
-      type(draft_t), intent(inout) :: draft
-      type(vector_t) :: vector
-      real(wp) :: at(3)
-      integer :: number
-
-      vector%kind = hardpoint
-      call slots(draft, 'at', 3, draft%units%length, vector%first, default=0.0_wp)
-      call new_vector(draft, vector, number)
-      draft%cards(draft%k)%index = number
-      at = vector_at(draft, number)
-      associate (stays => draft%plan%vectors(number)%stays)
-         select case (draft%records(draft%k)%twin)
-         case (left_twin)
-            stays = off_left
-         case (right_twin)
-            stays = off_right
-         case default
-            if (abs(at(2)) < plane .and. any(draft%records%twin /= single)) stays = in_plane
-         end select
-      end associate
-   end subroutine read_point
-
-   !> &body.
-   subroutine read_body(draft)
-      type(draft_t), intent(inout) :: draft
-      type(body_plan_t) :: plan
-      real(wp) :: mass
-      logical :: is_found, has_centre
-
-      call find_point(draft, 'origin', text_of(draft, 'origin'), plan%origin, is_found)
-      call find_point(draft, 'centre', text_of(draft, 'centre'), plan%centre, has_centre)
-      if (has_key(draft, 'mass') .neqv. has_key(draft, 'centre')) call complain(draft, &
-         trim(merge('mass  ', 'centre', has_key(draft, 'mass'))), 'give mass and centre (of gravity) together')
-      call slot(draft, 'mass', 1.0_wp, plan%mass)
-      mass = number_of(draft, 'mass', 0.0_wp)
-      draft%plan%bodies = [draft%plan%bodies, plan]
-      draft%cards(draft%k)%index = size(draft%plan%bodies)
-      if (plan%origin > 0) then
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), vector_at(draft, plan%origin), mass)
-      else
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), mass=mass)
-      end if
-   end subroutine read_body
-
-   !> &mass: a further mass of a body, in addition to that of &body.
-   subroutine read_mass(draft)
-      type(draft_t), intent(inout) :: draft
-      type(mass_plan_t) :: plan
-      logical :: has_body, has_place
-
-      call find_body(draft, 'body', text_of(draft, 'body'), plan%body, has_body)
-      call find_point(draft, 'at', text_of(draft, 'at'), plan%at, has_place)
-      if (has_body .and. plan%body == 0) &
-         call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
-      if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
-      call slot(draft, 'kg', 1.0_wp, plan%kg)
-      associate (body => draft%plan%prototype%bodies(plan%body))
-         call add_mass(number_of(draft, 'kg', 1.0_wp), vector_at(draft, plan%at), body%mass, body%centre)
-      end associate
-      draft%plan%masses = [draft%plan%masses, plan]
-   end subroutine read_mass
 
    !> Reports a body attached to nothing, unless the element attached to it was rejected.
    subroutine check_bodies(draft)

@@ -8,7 +8,7 @@ module ek_reader_elements
    use ek_suspension, only: load_t
    use ek_builder, only: add_bushing, add_load
    use ek_blueprint, only: vector_t, bushing_plan_t, load_plan_t, chosen, chosen_right
-   use ek_realise, only: marker_axes
+   use ek_design_vector, only: marker_axes
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, slots
    use ek_group, only: word_length
    use ek_reference, only: find_point, find_body, find_bodies, find_direction, find_ends, find_curve, new_vector, vector_at

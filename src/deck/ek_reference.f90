@@ -9,7 +9,7 @@ module ek_reference
    use ek_record, only: element, own_name
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
-   use ek_realise, only: find_vectors
+   use ek_design_vector, only: find_vectors
    use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, slots
    implicit none(type, external)
    private

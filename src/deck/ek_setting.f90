@@ -28,7 +28,8 @@ module ek_setting
    type :: path_t
       integer :: group = 0
       character(:), allocatable :: name, key
-      type(key_t) :: row                     !! of the key
+      type(key_t) :: row                     !! of the key, if the group has it
+      logical :: is_known = .false.
       integer :: first = 1
       logical :: has_subscript = .false.
       logical :: is_wild = .false.           !! the name contains *
@@ -139,7 +140,7 @@ contains
       character(:), allocatable :: message
 
       message = ''
-      if (path%row%group == 0) message = unknown_key(path%group, path%key)
+      if (.not. path%is_known) message = unknown_key(path%group, path%key)
    end function key_fault
 
    !> '*1.1' or '+2'; anything else is not relative.
@@ -255,7 +256,6 @@ contains
       type(path_t), intent(out) :: path
       character(:), allocatable, intent(out) :: message
       integer :: dot, last, mark, status
-      logical :: is_known
 
       message = ''
       path%name = ''
@@ -299,8 +299,7 @@ contains
          path%has_subscript = .true.
          path%key = 'at'
       end if
-      call find_key(path%group, path%key, path%row, is_known)
-      if (.not. is_known) path%row%group = 0
+      call find_key(path%group, path%key, path%row, path%is_known)
    end subroutine split_path
 
    !> The values replace elements of the record or are added to it.

@@ -283,10 +283,11 @@ contains
       real(wp), intent(in) :: least              !! rate of the softest element, scaled
       real(wp), intent(out) :: motions(:, :), eigenvalue(:), noise(:)
       logical, intent(out) :: is_found           !! false: numbers are not finite, or LAPACK's iteration did not converge
-      real(wp) :: reduced(size(basis, 2), size(basis, 2)), work(40*size(basis, 2))
+      real(wp), allocatable :: reduced(:, :), work(:)     ! not automatic: flang has these on the stack, too small for long chains
       integer :: n, k, info
 
       n = size(basis, 2)
+      allocate (work(40*n))
       reduced = matmul(transpose(basis), matmul(stiffness, basis))
       eigenvalue = 0.0_wp
       is_found = all(ieee_is_finite(reduced))

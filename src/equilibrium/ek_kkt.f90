@@ -17,6 +17,7 @@ module ek_kkt
    use ek_block, only: add_diagonal_block, add_block, s_matrix, rotated
    use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
    use ek_rotation, only: cross, skew
+   use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
    use ek_scale, only: characteristic, scale_factors
@@ -100,7 +101,7 @@ contains
 
       call assemble_into(suspension, state%poses, state%reaction, demand, mode, kkt%nq, kkt%n, kkt%gradients, &
          kkt%values, kkt%matrix, kkt%rhs)
-      if (demand%relief > 0.0_wp) kkt%rhs(:kkt%nq) = kkt%rhs(:kkt%nq) - demand%relief*kkt%imbalance
+      if (demand%relief > 0.0_wp) call add_multiple(kkt%nq, -demand%relief, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
    !> The same with explicit shapes, which the compiler turns into tight code.
@@ -117,7 +118,7 @@ contains
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
       type(view_t) :: view
       type(element_view_t) :: element_view
-      real(wp) :: pull(12), value, force(3), moment(3), arm(3)
+      real(wp) :: pull(12), value, force(3), moment(3), arm(3), block(3, 3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
@@ -143,9 +144,11 @@ contains
          if (mode == whole_tangent) then
             if (suspension%loads(k)%follows) then
                ! δf = π×f: T_rπ = f̃; its symmetric part is distributed half to rπ and half to πr
-               call add_block(0.5_wp*skew(force), at_j, at_j + 3, n, matrix)
+               block = 0.5_wp*skew(force)
+               call add_block(block, at_j, at_j + 3, n, matrix)
             else
-               call add_diagonal_block(-s_matrix(arm, force), at_j + 3, at_j, n, matrix)
+               block = -s_matrix(arm, force)
+               call add_diagonal_block(block, at_j + 3, at_j, n, matrix)
             end if
          end if
       end do
@@ -200,7 +203,8 @@ contains
       if (mode == whole_tangent) then
          ! screw increments: r moves by Δr + ½ Δπ×Δr + …, so the unbalanced force g contributes ½ g̃
          do at_j = 0, nq - 6, 6
-            call add_block(-0.5_wp*skew(rhs(at_j + 1:at_j + 3)), at_j, at_j + 3, n, matrix)
+            block = -0.5_wp*skew(rhs(at_j + 1:at_j + 3))
+            call add_block(block, at_j, at_j + 3, n, matrix)
          end do
       end if
    end subroutine assemble_into
@@ -217,7 +221,7 @@ contains
       integer :: k, at
 
       kkt%rhs = 0.0_wp
-      if (abs(rate%relief) > 0.0_wp) kkt%rhs(:kkt%nq) = -rate%relief*kkt%imbalance
+      if (abs(rate%relief) > 0.0_wp) call add_multiple(kkt%nq, -rate%relief, kkt%imbalance, kkt%rhs)
       do k = 1, rate%loads
          associate (load => suspension%loads(rate%load(k)))
             at = 6*(load%body - 1)
@@ -323,9 +327,9 @@ contains
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
 
-      kkt%rhs = kkt%rhs*kkt%scale
+      call multiply(kkt%n, kkt%scale, kkt%rhs)
       call substitute(kkt%n, kkt%matrix, kkt%pivots, kkt%rhs)
-      kkt%rhs = kkt%rhs*kkt%scale
+      call multiply(kkt%n, kkt%scale, kkt%rhs)
    end subroutine solve
 
    !> Reciprocal condition number of the scaled matrix at a state (LAPACK dsycon). Factorises.

@@ -5,6 +5,7 @@
 !> before. The length of the last step estimates the remaining error, so convergence is measured, not assumed.
 module ek_newton
    use ek_kinds, only: wp
+   use ek_vector, only: add_multiple
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, move_as_screw
    use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
@@ -86,7 +87,7 @@ contains
       call solve(kkt)
       length = step_length(kkt%rhs(:kkt%nq), kkt%length)
       if (.not. length < limit) return
-      state%reaction = state%reaction + kkt%rhs(kkt%nq + 1:)
+      call add_multiple(kkt%nc, 1.0_wp, kkt%rhs(kkt%nq + 1:), state%reaction)
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine take_step
 

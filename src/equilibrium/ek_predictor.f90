@@ -6,6 +6,7 @@
 !> that would have predicted best.
 module ek_predictor
    use ek_kinds, only: wp
+   use ek_vector, only: add_multiple
    implicit none(type, external)
    private
    public :: predictor_t, new_predictor, remember, predict, judge, forget
@@ -66,7 +67,7 @@ contains
       call find_weights(self, abscissa, n, slot, weight)
       self%guess = 0.0_wp
       do j = 1, n
-         self%guess = self%guess + weight(j)*self%packed(:, slot(j))
+         call add_multiple(size(self%guess), weight(j), self%packed(:, slot(j)), self%guess)
       end do
    end subroutine predict
 

@@ -1,6 +1,7 @@
 !> One load increment: the paper's linear recursive formula, and its corrected form.
 module ek_recursion
    use ek_kinds, only: wp
+   use ek_vector, only: add_multiple
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, demand_rate, move, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, material_only
@@ -33,7 +34,7 @@ contains
       call factorise(kkt)
       if (kkt%is_singular) return
       call solve(kkt)
-      state%reaction = kkt%rhs(kkt%nq + 1:)
+      state%reaction(:) = kkt%rhs(kkt%nq + 1:)
       call gather(suspension, kkt, state%reaction, carry%pull)
    end subroutine start_recursion
 
@@ -54,14 +55,14 @@ contains
 
       call assemble(suspension, state, before, material_only, kkt)
       call assemble_rate(suspension, state, demand_rate(before, after, 1.0_wp), kkt)
-      kkt%rhs(:kkt%nq) = kkt%rhs(:kkt%nq) + carry%pull
+      call add_multiple(kkt%nq, 1.0_wp, carry%pull, kkt%rhs)
       do k = 1, kkt%nc
          kkt%rhs(kkt%nq + k) = kkt%rhs(kkt%nq + k) - suspension%rows(k)%compliance*state%reaction(k)
       end do
       call factorise(kkt)
       if (kkt%is_singular) return
       call solve(kkt)
-      state%reaction = kkt%rhs(kkt%nq + 1:)
+      state%reaction(:) = kkt%rhs(kkt%nq + 1:)
       call gather(suspension, kkt, state%reaction, carry%pull)
       call move(state, kkt%rhs(:kkt%nq))
    end subroutine recursive_increment
@@ -81,7 +82,7 @@ contains
       call factorise(kkt)
       if (kkt%is_singular) return
       call solve(kkt)
-      state%reaction = state%reaction + kkt%rhs(kkt%nq + 1:)
+      call add_multiple(kkt%nc, 1.0_wp, kkt%rhs(kkt%nq + 1:), state%reaction)
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine corrected_increment
 

@@ -47,13 +47,15 @@ contains
    pure subroutine motion_between(a, b, motion)
       type(state_t), intent(in) :: a, b
       real(wp), contiguous, intent(out) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
-      real(wp) :: q(4), sine
+      real(wp) :: q(4), back(4), sine
       integer :: k, at
 
       at = 0
       do k = 2, size(a%poses)
          motion(at + 1:at + 3) = b%poses(k)%r - a%poses(k)%r
-         q = quaternion_product(b%poses(k)%q, [a%poses(k)%q(1), -a%poses(k)%q(2:4)])
+         back(1) = a%poses(k)%q(1)
+         back(2:4) = -a%poses(k)%q(2:4)
+         q = quaternion_product(b%poses(k)%q, back)
          if (q(1) < 0.0_wp) q = -q
          sine = norm2(q(2:4))
          motion(at + 4:at + 6) = 2.0_wp*q(2:4)
@@ -107,7 +109,7 @@ contains
          end associate
          at = at + 7
       end do
-      state%reaction = packed(at + 1:)
+      state%reaction(:) = packed(at + 1:)
    end subroutine unpack_state
 
    !> r ← r + Δr, A ← exp(Δπ̃) A (Kang 2005, eq. 4) for every body.

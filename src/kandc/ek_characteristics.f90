@@ -164,9 +164,9 @@ contains
       if (wheels == 2) call in_roll(c, m, cp, stand, place, is)
 
       do k = 1, wheels      ! a single wheel has no opposed loads
-         call loads(in_phase + k - 1, load_held, phase(m, place, 3.0_wp - 2.0_wp*k), phase(c, place, 3.0_wp - 2.0_wp*k))
+         call loads(in_phase + k - 1, load_held, phase(m, place, 3.0_wp - 2.0_wp*k), phase(c, place, 3.0_wp - 2.0_wp*k), is)
          call loads(in_phase + k - 1, height_held, phase(m_held, place, 3.0_wp - 2.0_wp*k), &
-            phase(c_held, place, 3.0_wp - 2.0_wp*k))
+            phase(c_held, place, 3.0_wp - 2.0_wp*k), is)
       end do
       call anti_features(in, phase(m, place, 1.0_wp), axle, is)
 
@@ -174,9 +174,10 @@ contains
 
       !> Response to forces at the patch and at the centre, and to moments. m, c: loads at the patch and at the centre,
       !> displacements at the centre.
-      pure subroutine loads(in, held, m, c)
+      pure subroutine loads(in, held, m, c, is)
          integer, intent(in) :: in, held        !! phase, condition
          real(wp), intent(in) :: m(6, 6), c(6, 6)
+         type(wheel_characteristics_t), intent(inout) :: is   ! a pure procedure may not define a variable of its host
 
          is%lateral(in, held) = respond(stand, place, m(:, 2))
          is%lateral_trail(in, held) = respond(stand, place, m(:, 2) + trail*m(:, 6))

@@ -223,7 +223,7 @@ contains
          integer :: k
 
          do k = 1, size(list)
-            number%group = trim(list(k)%group)      ! one by one: gfortran 12 loses a trimmed text in a structure constructor
+            number%group = trim(list(k)%group)      ! one by one: gfortran 12 leaks a trimmed text in a structure constructor
             number%quantity = trim(list(k)%quantity)
             number%unit = trim(list(k)%unit)
             number%sign = trim(list(k)%sign)

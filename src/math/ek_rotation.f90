@@ -29,9 +29,9 @@ contains
    pure function skew(p) result(matrix)
       real(wp), intent(in) :: p(3)
       real(wp) :: matrix(3, 3)
-      matrix(:, 1) = [0.0_wp, p(3), -p(2)]
-      matrix(:, 2) = [-p(3), 0.0_wp, p(1)]
-      matrix(:, 3) = [p(2), -p(1), 0.0_wp]
+      matrix(1, 1) = 0.0_wp; matrix(1, 2) = -p(3); matrix(1, 3) = p(2)
+      matrix(2, 1) = p(3); matrix(2, 2) = 0.0_wp; matrix(2, 3) = -p(1)
+      matrix(3, 1) = -p(2); matrix(3, 2) = p(1); matrix(3, 3) = 0.0_wp
    end function skew
 
    !> v/|v|; v must not be zero (checked by the reader).

@@ -4,7 +4,7 @@
 !> has no unknowns. Diagonal blocks are added as full 3×3 blocks for simplicity; the part above the diagonal is never read.
 module ek_block
    use ek_kinds, only: wp
-   use ek_rotation, only: cross
+   use ek_rotation, only: cross, skew
    implicit none(type, external)
    private
    public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian
@@ -55,7 +55,8 @@ contains
          end do
          call add_diagonal_block(m, at_j, at_j, ld, matrix)
          call add_diagonal_block(x, at_j + 3, at_j, ld, matrix)
-         call add_block(-mb, at_j, at_j + 3, ld, matrix)
+         x = -mb
+         call add_block(x, at_j, at_j + 3, ld, matrix)
       end if
       if (at_i >= 0) then
          do k = 1, 3
@@ -66,16 +67,18 @@ contains
          end do
          call add_diagonal_block(m, at_i, at_i, ld, matrix)
          call add_diagonal_block(x, at_i + 3, at_i, ld, matrix)
-         call add_block(-ma, at_i, at_i + 3, ld, matrix)
+         x = -ma
+         call add_block(x, at_i, at_i + 3, ld, matrix)
       end if
       if (at_i >= 0 .and. at_j >= 0) then
          do k = 1, 3
             x(:, k) = cross(a, mb(:, k))
          end do
-         call add_block(-m, at_i, at_j, ld, matrix)
-         call add_block(mb, at_i, at_j + 3, ld, matrix)
          call add_block(x, at_i + 3, at_j + 3, ld, matrix)
-         x = transpose(ma)      ! passed as an expression, gfortran would allocate it on the heap
+         x = -m
+         call add_block(x, at_i, at_j, ld, matrix)
+         call add_block(mb, at_i, at_j + 3, ld, matrix)
+         x = transpose(ma)
          call add_block(x, at_i + 3, at_j, ld, matrix)
       end if
    end subroutine add_link_stiffness
@@ -88,17 +91,17 @@ contains
       real(wp), intent(in) :: f(3), a(3), b(3), d(3)   !! global axes
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: skew_f(3, 3)
+      real(wp) :: arm(3), block(3, 3)
 
       call add_diagonal_block(s_matrix(b, f), at_j + 3, at_j, ld, matrix)
       if (at_i < 0) return
-      call add_diagonal_block(s_matrix(a + d, f), at_i + 3, at_i, ld, matrix)
-      skew_f(:, 1) = [0.0_wp, f(3), -f(2)]
-      skew_f(:, 2) = [-f(3), 0.0_wp, f(1)]
-      skew_f(:, 3) = [f(2), -f(1), 0.0_wp]
-      call add_block(-skew_f, at_i + 3, at_i, ld, matrix)
+      arm = a + d
+      call add_diagonal_block(s_matrix(arm, f), at_i + 3, at_i, ld, matrix)
+      block = -skew(f)
+      call add_block(block, at_i + 3, at_i, ld, matrix)
       if (at_j < 0) return
-      call add_block(skew_f, at_i + 3, at_j, ld, matrix)
+      block = skew(f)
+      call add_block(block, at_i + 3, at_j, ld, matrix)
       call add_block(dyad_rest(b, f), at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_gap_hessian
 

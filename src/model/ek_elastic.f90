@@ -82,20 +82,25 @@ contains
       type(bushing_t), intent(in) :: bushing
       type(pose_t), intent(in) :: pose_i, pose_j
       type(bushing_view_t), intent(inout) :: view
+      real(wp) :: a(3), b(3), d(3), force(3)
 
+      a = rotated(pose_i%a, bushing%arm_i)
+      b = rotated(pose_j%a, bushing%arm_j)
+      d = (pose_j%r - pose_i%r) + (b - a)
       view%frame = pose_i%a
-      view%a = rotated(pose_i%a, bushing%arm_i)
-      view%b = rotated(pose_j%a, bushing%arm_j)
-      view%d = (pose_j%r - pose_i%r) + (view%b - view%a)
-      view%gap(1) = dot_product(pose_i%a(:, 1), view%d) - bushing%gap0(1)
-      view%gap(2) = dot_product(pose_i%a(:, 2), view%d) - bushing%gap0(2)
-      view%gap(3) = dot_product(pose_i%a(:, 3), view%d) - bushing%gap0(3)
+      view%a = a
+      view%b = b
+      view%d = d
+      view%gap(1) = dot_product(pose_i%a(:, 1), d) - bushing%gap0(1)
+      view%gap(2) = dot_product(pose_i%a(:, 2), d) - bushing%gap0(2)
+      view%gap(3) = dot_product(pose_i%a(:, 3), d) - bushing%gap0(3)
       call relative_turn(pose_i, pose_j, view%turn)
       if (bushing%has_curves) then
          call look_curves(bushing, view)
          return
       end if
-      view%force = rotated(pose_i%a, rotated(bushing%stiffness_t, view%gap) - bushing%force0)
+      force = rotated(bushing%stiffness_t, view%gap) - bushing%force0
+      view%force = rotated(pose_i%a, force)
       view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
    end subroutine look_bushing
 
@@ -174,11 +179,12 @@ contains
    !> Equation (M.16) of docs/theory/measures.md.
    pure function bushing_pull(view) result(pull)
       type(bushing_view_t), intent(in) :: view
-      real(wp) :: pull(12), w(3)
+      real(wp) :: pull(12), w(3), arm(3)
 
       w = rotated(view%frame, turn_gradient(view%turn, view%moment))
       pull(1:3) = -view%force
-      pull(4:6) = -cross(view%a + view%d, view%force) - w
+      arm = view%a + view%d
+      pull(4:6) = -cross(arm, view%force) - w
       pull(7:9) = view%force
       pull(10:12) = cross(view%b, view%force) + w
    end function bushing_pull
@@ -204,11 +210,11 @@ contains
       type(bushing_view_t), intent(in) :: view
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: g(3, 3), kg(3, 3), inner(3, 3)
+      real(wp) :: g(3, 3), kg(3, 3), inner(3, 3), arm(3)
       integer :: k, l
 
-      call add_link_stiffness(in_world(view%frame, stiffness_t, at_i), &
-         view%a + view%d, view%b, at_i, at_j, ld, matrix)
+      arm = view%a + view%d
+      call add_link_stiffness(in_world(view%frame, stiffness_t, at_i), arm, view%b, at_i, at_j, ld, matrix)
       call add_gap_hessian(view%force, view%a, view%b, view%d, at_i, at_j, ld, matrix)
       g = turn_jacobian(view%turn)
       do k = 1, 3
@@ -251,14 +257,16 @@ contains
       k = in_world(view%frame, stiffness_r, at_i)
       call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
       call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
-      if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
+      if (at_i < 0 .or. at_j < 0) return
+      k = -k
+      call add_block(k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_material
 
    !> A K Aᵀ; the chassis (at_i < 0) never rotates.
    pure function in_world(a, k, at_i) result(world)
       real(wp), intent(in) :: a(3, 3), k(3, 3)
       integer, intent(in) :: at_i
-      real(wp) :: world(3, 3), ak(3, 3)
+      real(wp) :: world(3, 3), ak(3, 3), row(3)
       integer :: j
 
       if (at_i < 0) then
@@ -269,7 +277,8 @@ contains
          ak(:, j) = rotated(a, k(:, j))
       end do
       do j = 1, 3
-         world(j, :) = rotated(a, ak(j, :))
+         row = ak(j, :)
+         world(j, :) = rotated(a, row)
       end do
    end function in_world
 

@@ -69,14 +69,16 @@ contains
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
       type(view_t), intent(inout) :: view     !! only the components that this kind needs are set
-      real(wp) :: g(3), w(3)
+      real(wp) :: a(3), b(3), d(3), g(3), u(3), v(3), w(3)
 
       select case (measure%kind)
       case (axis_axis)
-         view%u = rotated(pose_i%a, measure%u)
-         view%v = rotated(pose_j%a, measure%v)
-         view%value = dot_product(view%u, view%v)
-         w = cross(view%u, view%v)
+         u = rotated(pose_i%a, measure%u)
+         v = rotated(pose_j%a, measure%v)
+         w = cross(u, v)
+         view%u = u
+         view%v = v
+         view%value = dot_product(u, v)
          view%gradient(1:3) = 0.0_wp
          view%gradient(4:6) = w
          view%gradient(7:9) = 0.0_wp
@@ -85,34 +87,39 @@ contains
          call relative_turn(pose_i, pose_j, view%turn)
          view%value = dot_product(measure%u, view%turn%theta)
          g = turn_gradient(view%turn, measure%u)
+         v = rotated(pose_i%a, g)
          view%u = measure%u
-         view%v = rotated(pose_i%a, g)
+         view%v = v
          view%frame = pose_i%a
          view%gradient(1:3) = 0.0_wp
-         view%gradient(4:6) = -view%v
+         view%gradient(4:6) = -v
          view%gradient(7:9) = 0.0_wp
-         view%gradient(10:12) = view%v
+         view%gradient(10:12) = v
       case default
-         view%a = rotated(pose_i%a, measure%arm_i)
-         view%b = rotated(pose_j%a, measure%arm_j)
-         view%d = (pose_j%r - pose_i%r) + (view%b - view%a)
-         w = view%a
+         a = rotated(pose_i%a, measure%arm_i)
+         b = rotated(pose_j%a, measure%arm_j)
+         d = (pose_j%r - pose_i%r) + (b - a)
+         w = a
          select case (measure%kind)
          case (body_gap)
-            view%u = rotated(pose_i%a, measure%u)
-            view%value = dot_product(view%u, view%d)
-            w = view%a + view%d
+            u = rotated(pose_i%a, measure%u)
+            view%value = dot_product(u, d)
+            w = a + d
          case (global_gap)
-            view%u = measure%u
-            view%value = dot_product(view%u, view%d)
+            u = measure%u
+            view%value = dot_product(u, d)
          case default
-            view%value = sqrt(view%d(1)**2 + view%d(2)**2 + view%d(3)**2)
-            view%u = view%d/view%value
+            view%value = sqrt(d(1)**2 + d(2)**2 + d(3)**2)
+            u = d/view%value
          end select
-         view%gradient(1:3) = -view%u
-         view%gradient(4:6) = -cross(w, view%u)
-         view%gradient(7:9) = view%u
-         view%gradient(10:12) = cross(view%b, view%u)
+         view%a = a
+         view%b = b
+         view%d = d
+         view%u = u
+         view%gradient(1:3) = -u
+         view%gradient(4:6) = -cross(w, u)
+         view%gradient(7:9) = u
+         view%gradient(10:12) = cross(b, u)
       end select
    end subroutine look
 
@@ -166,14 +173,16 @@ contains
          call add_gap_hessian(u, view%a, view%b, view%d, at_i, at_j, ld, matrix)
       case (global_gap)
          u = weight*view%u
-         call add_diagonal_block(-s_matrix(view%a, u), at_i + 3, at_i, ld, matrix)
+         m = -s_matrix(view%a, u)
+         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
          call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
       case (distance)
          slope = weight/view%value
          m = slope*(identity3 - dyad(view%u, view%u))
          call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
          u = weight*view%u
-         call add_diagonal_block(-s_matrix(view%a, u), at_i + 3, at_i, ld, matrix)
+         m = -s_matrix(view%a, u)
+         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
          call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
       end select
    end subroutine add_measure_hessian

@@ -49,7 +49,8 @@ contains
       end do
       call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
       pull = tension*view%u
-      call add_diagonal_block(-s_matrix(view%a, pull), at_i + 3, at_i, ld, matrix)
+      m = -s_matrix(view%a, pull)
+      call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
       call add_diagonal_block(s_matrix(view%b, pull), at_j + 3, at_j, ld, matrix)
    end subroutine add_spring_tangent
 
@@ -92,7 +93,9 @@ contains
       k = dyad(pull, view%v)
       call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
       call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
-      if (at_i >= 0 .and. at_j >= 0) call add_block(-k, at_i + 3, at_j + 3, ld, matrix)
+      if (at_i < 0 .or. at_j < 0) return
+      k = -k
+      call add_block(k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_torsion_material
 
    !> Adds slope g gᵀ of any measure: the material part of its tangent (the other part is tension × Hessian).

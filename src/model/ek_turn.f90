@@ -33,18 +33,20 @@ contains
    pure subroutine relative_turn(pose_i, pose_j, turn)
       type(pose_t), intent(in) :: pose_i, pose_j
       type(turn_t), intent(out) :: turn
-      real(wp) :: i0, iv(3), j0, jv(3), half, s
+      real(wp) :: i0, iv(3), j0, jv(3), qv(3), p(3), half, s
 
       i0 = pose_i%q(1); iv = pose_i%q(2:4)
       j0 = pose_j%q(1); jv = pose_j%q(2:4)
       turn%q0 = i0*j0 + dot_product(iv, jv)
-      turn%qv = i0*jv - j0*iv - cross(iv, jv)
+      qv = i0*jv - j0*iv - cross(iv, jv)
       if (turn%q0 < 0.0_wp) then
          turn%q0 = -turn%q0
-         turn%qv = -turn%qv
+         qv = -qv
       end if
-      turn%p = 2.0_wp*turn%qv
-      s = dot_product(turn%qv, turn%qv)
+      p = 2.0_wp*qv
+      s = dot_product(qv, qv)
+      turn%qv = qv
+      turn%p = p
       if (s < 1.0e-3_wp) then
          ! asin(x)/x and its derivatives in t = 4 x²; s = x². Neglected terms are below 1e-17 of α
          turn%alpha = 1.0_wp + s*(1.0_wp/6 + s*(3.0_wp/40 + s*(5.0_wp/112 + s*(35.0_wp/1152 + s*63.0_wp/2816))))
@@ -60,7 +62,7 @@ contains
          turn%alpha1 = (1.0_wp/turn%q0 - turn%alpha)/(8.0_wp*s*s)
          turn%alpha2 = (0.125_wp/turn%q0**3 - 3.0_wp*turn%alpha1)/(8.0_wp*s*s)
       end if
-      turn%theta = turn%alpha*turn%p
+      turn%theta = turn%alpha*p
    end subroutine relative_turn
 
    !> g = Pᵀ w, the gradient of m·θ in δ, with P = q0 I − q̃v and w = (αI + 2α' p pᵀ) m.
@@ -102,7 +104,7 @@ contains
       real(wp), intent(in) :: a_i(3, 3)      !! rotation of body i
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: h(3, 3), w(3), mp, c1, c2, core(3, 3), left(3, 3), g(3), b(3, 3), half_wq
+      real(wp) :: h(3, 3), w(3), mp, c1, c2, core(3, 3), left(3, 3), g(3), b(3, 3), row(3), half_wq
       integer :: k
 
       mp = dot_product(m, turn%p)
@@ -116,7 +118,8 @@ contains
          left(:, k) = turn%q0*core(:, k) + cross(turn%qv, core(:, k))
       end do
       do k = 1, 3   ! h = left P, row by row: (Pᵀ leftᵀ)ᵀ
-         h(k, :) = turn%q0*left(k, :) + cross(turn%qv, left(k, :))
+         row = left(k, :)
+         h(k, :) = turn%q0*row + cross(turn%qv, row)
       end do
       w = turn%alpha*m + (c1*mp)*turn%p
       half_wq = 0.5_wp*dot_product(w, turn%qv)
@@ -132,12 +135,14 @@ contains
          left(:, k) = rotated(a_i, h(:, k))
       end do
       do k = 1, 3
-         b(k, :) = rotated(a_i, left(k, :))
+         row = left(k, :)
+         b(k, :) = rotated(a_i, row)
       end do
       call add_diagonal_block(b, at_i + 3, at_i, ld, matrix)
       if (at_j < 0) return
       call add_diagonal_block(b, at_j + 3, at_j, ld, matrix)
-      g = 0.5_wp*rotated(a_i, turn%q0*w + cross(turn%qv, w))
+      g = turn%q0*w + cross(turn%qv, w)
+      g = 0.5_wp*rotated(a_i, g)
       b = -b
       b(2, 1) = b(2, 1) + g(3); b(3, 1) = b(3, 1) - g(2)
       b(1, 2) = b(1, 2) - g(3); b(3, 2) = b(3, 2) + g(1)

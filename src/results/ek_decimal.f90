@@ -254,6 +254,7 @@ contains
       if (at <= last) then
          if (scan(text(at:at), 'eEdD') == 0 .or. at == last) return
          if (verify(text(at + 1:at + 1), '+-0123456789') > 0) return
+         if (scan(text(at + 1:last), '0123456789') == 0) return
          if (verify(text(at + 2:last), '0123456789') > 0 .or. last - at > 4) return
          read (text(at + 1:last), *, iostat=status) decade
          if (status /= 0) return

@@ -158,7 +158,7 @@ contains
       design = design_row(test%table)
       do k = 1, n
          if (.not. peak(k) > least) cycle
-         trace%title = trim(names(k))
+         trace%title = trim(names(k))      ! gfortran 12 leaks it in a structure constructor
          trace%colour = size(chart%traces) + 1
          trace%x = abscissa_of(test, side_of(test, names(k)))
          if (size(trace%x) == 0) return

@@ -18,8 +18,9 @@ contains
 
     character(len=40) :: buffer
 
-    write (buffer, '(g0)') x
+    write (buffer, '(g26.17e3)') x       ! not g0, whose digits are the compiler's choice
     text = trim(adjustl(buffer))
+    if (index(text, 'Inf') > 0) text = text(:index(text, 'Inf') + 2)      ! or 'Infinity', likewise
   end function text_of_real
 
   pure function text_of_integer(x) result(text)

@@ -1,0 +1,37 @@
+!> Vectors of any length, changed in place: no temporary and no reallocation, whatever the compiler.
+!>
+!> An assignment to a whole allocatable array checks its shape at run time, and flang asks for memory for the right-hand side
+!> where that may overlap the left-hand side.
+module ek_vector
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: add_multiple, multiply
+
+contains
+
+   !> y ← y + factor × x
+   pure subroutine add_multiple(n, factor, x, y)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: factor, x(n)
+      real(wp), intent(inout) :: y(n)
+      integer :: k
+
+      do k = 1, n
+         y(k) = y(k) + factor*x(k)
+      end do
+   end subroutine add_multiple
+
+   !> y ← x y, component by component
+   pure subroutine multiply(n, x, y)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: x(n)
+      real(wp), intent(inout) :: y(n)
+      integer :: k
+
+      do k = 1, n
+         y(k) = x(k)*y(k)
+      end do
+   end subroutine multiply
+
+end module ek_vector
