@@ -14,8 +14,9 @@ module ek_step_size
    use ek_schedule, only: new_schedule, demand_at
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
-   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_kkt, only: kkt_t, new_kkt, assemble, residual_only
    use ek_path, only: path_t, new_path, walk
+   use ek_rig, only: mount
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_table, only: table_t, new_table
    use ek_csv, only: csv_head, csv_row
@@ -40,8 +41,8 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
-      type(suspension_t) :: suspension
-      type(case_t) :: case
+      type(suspension_t) :: base, suspension
+      type(case_t) :: given, case
       type(kkt_t) :: kkt
       type(table_t) :: table
       type(attitude_t) :: exact, found
@@ -49,8 +50,10 @@ contains
       logical :: is_reached
       integer :: m, k
 
-      call make_subject(deck, study%case, suspension, case, kkt, error)
+      call make_subject(deck, study%case, base, given, error)
       if (allocated(error)) return
+      call mount(base, given, suspension, case)
+      kkt = new_kkt(suspension)
       if (size(suspension%wheels) == 0) then
          call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')
          return

@@ -1,14 +1,13 @@
-!> What a study varies: one case of a deck, prepared for a sweep.
+!> What a study varies: the model of a deck and one case of it, ready to be solved.
 module ek_subject
    use ek_error, only: error_t, fail, exit_deck, exit_model
    use ek_text, only: quoted
    use ek_deck, only: deck_t
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
-   use ek_rig, only: mount
    use ek_case, only: case_t
    use ek_case_inputs, only: check_inputs
-   use ek_kkt, only: kkt_t, new_kkt
+   use ek_load_table, only: take_table
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_examination, only: examine_case, known_case_t
@@ -18,15 +17,14 @@ module ek_subject
 
 contains
 
-   !> Builds the model of a deck for one case ('': the first case), mounts it on the rig, and examines it.
+   !> Builds the model of a deck for one case ('': the first case), examines it on the rig, and balances it.
    !>
    !> A study of many designs passes the same `known` with each: what does not change between designs is then checked once.
-   subroutine make_subject(deck, case_name, suspension, case, kkt, error, known)
+   subroutine make_subject(deck, case_name, suspension, case, error, known)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
-      type(kkt_t), intent(out) :: kkt
       type(error_t), allocatable, intent(out) :: error
       type(known_case_t), intent(inout), optional :: known
       type(case_t), allocatable :: cases(:)
@@ -50,7 +48,11 @@ contains
       end if
       is_checked = .false.
       if (present(known)) is_checked = known%is_known
-      if (.not. is_checked) call check_inputs(suspension, cases(k:k), error)
+      if (is_checked) then
+         call take_table(suspension, cases(k), error)
+      else
+         call check_inputs(suspension, cases(k:k), error)
+      end if
       if (allocated(error)) return
       case = cases(k)
       call examine_case(suspension, case, diagnosis, known)
@@ -59,10 +61,6 @@ contains
          return
       end if
       call balance(suspension, case%tolerance, error)
-      if (allocated(error)) return
-      call mount(suspension, case, error)
-      if (allocated(error)) return
-      kkt = new_kkt(suspension)
    end subroutine make_subject
 
 end module ek_subject
