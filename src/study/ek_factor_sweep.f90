@@ -6,15 +6,13 @@ module ek_factor_sweep
    use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, set_value
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, new_table, column_index, name_length
    use ek_study, only: study_t
    use ek_response, only: reading_t, needed_columns, prepare_reading, read_response
-   use ek_examination, only: known_case_t
-   use ek_subject, only: make_subject
+   use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
+   use ek_parameter, only: find_parameters
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    implicit none(type, external)
@@ -38,7 +36,8 @@ contains
       type(table_t) :: table
       type(error_t), allocatable :: trouble
       type(reading_t), allocatable :: readings(:)
-      type(known_case_t) :: known
+      type(subject_t) :: subject
+      type(factor_paths_t), allocatable :: paths(:)
       real(wp), allocatable :: values(:), rows(:, :)
       character(:), allocatable :: label, unit
       character(name_length), allocatable :: wanted(:), heads(:)
@@ -66,7 +65,7 @@ contains
             do f = 1, n
                label = label//study%factors(f)%path//'='//shortest(values(f))//' '
             end do
-            call run_design(study, deck, values, known, wanted, table, heads, unit, trouble, error)
+            call run_design(study, deck, values, subject, paths, wanted, table, heads, unit, trouble, error)
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, heads, unit, readings, error)
@@ -110,46 +109,30 @@ contains
    end subroutine sweep_factors
 
    !> Runs one design: its table, or the reason for its failure. `error`: a path that is invalid for every design.
-   subroutine run_design(study, deck, values, known, wanted, table, heads, unit, trouble, error)
+   subroutine run_design(study, deck, values, subject, paths, wanted, table, heads, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
-      type(known_case_t), intent(inout) :: known         !! from the designs before
+      type(subject_t), intent(inout) :: subject          !! from the designs before
+      type(factor_paths_t), allocatable, intent(inout) :: paths(:)   !! of the factors, set by the first design
       character(name_length), intent(in) :: wanted(:)    !! columns that are computed
       type(table_t), intent(out) :: table                !! those that the model defines
       character(name_length), allocatable, intent(inout) :: heads(:)   !! all columns of the results, set by the first design
       character(:), allocatable, intent(out) :: unit     !! of the column `factor`: 'mm', 'N', …
       type(error_t), allocatable, intent(out) :: trouble, error
-      type(deck_t) :: changed
-      type(suspension_t) :: suspension
-      type(case_t) :: case
       type(solve_options_t) :: options
       type(case_result_t) :: result
-      character(*), parameter :: given = '--set '
-      integer :: f, k
+      logical :: is_made
+      integer :: k
 
       unit = ''
-      changed = deck
-      do f = 1, size(values)
-         call set_value(changed, study%factors(f)%path, shortest(values(f)), error)
-         if (.not. allocated(error)) cycle
-         ! report as a mistake of the study, not of the command line; mistakes of the deck itself come first
-         error%code = exit_deck
-         if (index(error%message, given) == 1) error%message = study%factors(f)%where//': factor '// &
-            quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
-         return
-      end do
-      call make_subject(changed, study%case, suspension, case, trouble, known)
-      if (allocated(trouble)) then
-         do f = 1, size(values)
-            call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &
-               study%factors(f)%where//': factor '//quoted(study%factors(f)%name)//' = '//shortest(values(f)))
-         end do
-         return
-      end if
+      is_made = .false.
+      if (allocated(paths)) call change_subject(deck%file, paths, values, subject, is_made, trouble)
+      if (.not. is_made) call read_again(study, deck, values, subject, paths, trouble, error)
+      if (allocated(error) .or. allocated(trouble)) return
       options%has_remarks = .false.
       options%columns = wanted
-      call solve_case(suspension, case, options, result)
+      call solve_case(subject%suspension, subject%case, options, result)
       if (.not. result%is_run()) call failure_of(result, trouble)
       if (allocated(trouble)) return
       unit = result%case%unit_name
@@ -162,6 +145,43 @@ contains
          end do
       end associate
    end subroutine run_design
+
+   !> Reads a design from the deck with the factors as settings.
+   subroutine read_again(study, deck, values, subject, paths, trouble, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      real(wp), intent(in) :: values(:)
+      type(subject_t), intent(inout) :: subject
+      type(factor_paths_t), allocatable, intent(inout) :: paths(:)
+      type(error_t), allocatable, intent(out) :: trouble, error
+      type(deck_t) :: changed
+      character(*), parameter :: given = '--set '
+      integer :: f
+
+      if (allocated(paths)) deallocate (paths)
+      changed = deck
+      do f = 1, size(values)
+         call set_value(changed, study%factors(f)%path, shortest(values(f)), error)
+         if (.not. allocated(error)) cycle
+         ! report as a mistake of the study, not of the command line; mistakes of the deck itself come first
+         error%code = exit_deck
+         if (index(error%message, given) == 1) error%message = study%factors(f)%where//': factor '// &
+            quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
+         return
+      end do
+      call make_subject(changed, study%case, subject, trouble)
+      if (allocated(trouble)) then
+         do f = 1, size(values)
+            call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &
+               study%factors(f)%where//': factor '//quoted(study%factors(f)%name)//' = '//shortest(values(f)))
+         end do
+         return
+      end if
+      allocate (paths(size(values)))
+      do f = 1, size(values)
+         call find_parameters(subject%design%parameters, subject%design%records, study%factors(f)%path, paths(f)%found)
+      end do
+   end subroutine read_again
 
    !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
    function shortest(value) result(text)

@@ -22,7 +22,7 @@ module ek_step_size
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
-   use ek_subject, only: make_subject
+   use ek_subject, only: subject_t, make_subject
    implicit none(type, external)
    private
    public :: step_size_text
@@ -41,8 +41,9 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
-      type(suspension_t) :: base, suspension
-      type(case_t) :: given, case
+      type(subject_t) :: subject
+      type(suspension_t) :: suspension
+      type(case_t) :: case
       type(kkt_t) :: kkt
       type(table_t) :: table
       type(attitude_t) :: exact, found
@@ -50,9 +51,9 @@ contains
       logical :: is_reached
       integer :: m, k
 
-      call make_subject(deck, study%case, base, given, error)
+      call make_subject(deck, study%case, subject, error)
       if (allocated(error)) return
-      call mount(base, given, suspension, case)
+      call mount(subject%suspension, subject%case, suspension, case)
       kkt = new_kkt(suspension)
       if (size(suspension%wheels) == 0) then
          call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')
