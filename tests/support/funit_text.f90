@@ -18,7 +18,10 @@ contains
 
     character(len=40) :: buffer
 
-    write (buffer, '(g26.17e3)') x       ! not g0, whose digits are the compiler's choice
+    ! not g0, whose digits are the compiler's choice, as is the length of Inf
+    write (buffer, '(g26.17e3)') x
+    if (x > huge(x)) buffer = 'Inf'
+    if (x < -huge(x)) buffer = '-Inf'
     text = trim(adjustl(buffer))
   end function text_of_real
 
