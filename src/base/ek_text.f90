@@ -5,7 +5,7 @@ module ek_text
    use ek_letters, only: visible
    implicit none(type, external)
    private
-   public :: str, lower, quoted, nearest_name, vector_text, plural, printable
+   public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable
 
    !> A number as text, in the shortest form a person would write.
    interface str
@@ -189,6 +189,25 @@ contains
          end if
       end do
    end function nearest_name
+
+   !> Whether a text has the form of a pattern, in which * stands for any characters, also none.
+   pure recursive logical function is_like(text, pattern) result(fits)
+      character(*), intent(in) :: text, pattern
+      integer :: star, k
+
+      star = index(pattern, '*')
+      if (star == 0) then
+         fits = text == pattern
+         return
+      end if
+      fits = .false.
+      if (len(text) < star - 1) return
+      if (text(:star - 1) /= pattern(:star - 1)) return
+      do k = star, len(text) + 1
+         fits = is_like(text(k:), pattern(star + 1:))
+         if (fits) return
+      end do
+   end function is_like
 
    !> Levenshtein distance.
    pure integer function edit_distance(a, b) result(distance)

@@ -78,7 +78,8 @@ contains
       copying = huge(unit)
       best = huge(unit)
       do k = 1, rounds
-         call time_lapack(kkt%n, matrices, together, copying)
+         call time_lapack(kkt%n, matrices, together, copying, error)
+         if (allocated(error)) return
          do m = 1, 3
             case%method = method_names(m)
             call new_path(suspension, case, path)
@@ -161,12 +162,14 @@ contains
 
    !> Time of dsysv on one of the matrices including a copy of it, and time of the copy alone: the minimum so far of each, so
    !> that a disturbed round affects neither.
-   subroutine time_lapack(n, matrices, together, copying)
+   subroutine time_lapack(n, matrices, together, copying, error)
       integer, intent(in) :: n
       real(wp), intent(in) :: matrices(:, :, :)
       real(wp), intent(inout) :: together, copying     !! s
+      type(error_t), allocatable, intent(out) :: error     !! exit_convergence: a matrix is singular
       real(wp) :: copy(n, n), rhs(n), work(64*n), start
       integer :: pivots(n), k, info
+      logical :: is_singular
 
       start = seconds()
       do k = 1, size(matrices, 3)
@@ -175,13 +178,16 @@ contains
          call keep(copy, rhs)
       end do
       copying = min(copying, (seconds() - start)/size(matrices, 3))
+      is_singular = .false.
       start = seconds()
       do k = 1, size(matrices, 3)
          copy = matrices(:, :, k)
          rhs = real(k, wp)
          call dsysv('L', n, 1, copy, n, pivots, rhs, n, work, size(work), info)
+         if (info /= 0) is_singular = .true.
       end do
       together = min(together, (seconds() - start)/size(matrices, 3))
+      if (is_singular) call fail(error, exit_convergence, 'the matrix of a state is singular and cannot be timed')
    end subroutine time_lapack
 
    !> Does nothing, but keeps the optimiser from removing the copy as dead code.

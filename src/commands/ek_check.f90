@@ -5,11 +5,10 @@ module ek_check
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_words, only: tell_result => tell
-   use ek_spring, only: axial_spring, measure_spring, stop_spring, torsion_spring
+   use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
-   use ek_rig, only: mount
    use ek_case, only: case_t, default_tolerance
-   use ek_examination, only: add_distinct
+   use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance, balance_words
@@ -40,7 +39,7 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(buffer_t), intent(inout) :: words
       type(error_t), allocatable, intent(out) :: error
-      type(suspension_t) :: base, suspension
+      type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
@@ -61,11 +60,8 @@ contains
       call diagnose(base, design_state(base), kkt, diagnosis)
       call tell_model(base, diagnosis, checksum, words)
       do k = 1, size(chosen)
-         suspension = base
-         call mount(suspension, chosen(k), error)
+         call examine_case(base, chosen(k), diagnosis, error=error)
          if (allocated(error)) return
-         kkt = new_kkt(suspension)
-         call diagnose(suspension, design_state(suspension), kkt, diagnosis)
          call tell_case(chosen(k), diagnosis, words)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
@@ -120,21 +116,21 @@ contains
       character(*), intent(in) :: checksum
       type(buffer_t), intent(inout) :: words
       character(:), allocatable :: held, unused
-      integer :: k
+      integer :: k, kind
 
       call tell(words, 'model', suspension%name//' (checksum '//checksum//')')
       call tell(words, 'bodies', str(size(suspension%bodies)))
       call tell(words, 'unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
       call tell(words, 'constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
          ', rank '//str(diagnosis%rank))
-      held = plural(size(suspension%bushings), 'bushing', 'bushings')//' and '// &
-         plural(count(suspension%springs%kind == axial_spring), 'spring', 'springs')
-      k = count(suspension%springs%kind == torsion_spring)
-      if (k > 0) held = held//', '//plural(k, 'torsion spring', 'torsion springs')
-      k = count(suspension%springs%kind == measure_spring)
-      if (k > 0) held = held//', '//plural(k, 'spring on a measure', 'springs on measures')
-      k = count(suspension%springs%kind == stop_spring)
-      if (k > 0) held = held//', '//plural(k, 'stop', 'stops')
+      held = ''
+      do kind = 1, size(element_kinds)         ! bushings and springs are listed even if there are none
+         k = count(suspension%elements%kind == kind)
+         if (element_kinds(kind)%one == '' .or. (kind > 2 .and. k == 0)) cycle
+         if (kind == 2) held = held//' and '
+         if (kind > 2) held = held//', '
+         held = held//plural(k, trim(element_kinds(kind)%one), trim(element_kinds(kind)%many))
+      end do
       k = count(suspension%rows%compliance > 0.0_wp)
       if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
       call tell(words, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)

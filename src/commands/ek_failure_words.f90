@@ -5,7 +5,8 @@ module ek_failure_words
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_measure, only: measure_value
-   use ek_spring, only: stop_spring, spring_tension
+   use ek_element, only: stop_spring, element_label
+   use ek_spring, only: spring_tension
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
@@ -178,12 +179,12 @@ contains
       integer :: k
 
       text = ''
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
+      do k = 1, size(suspension%elements)
+         associate (spring => suspension%elements(k))
             if (spring%kind /= stop_spring) cycle
             call spring_tension(spring, measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
                state%poses(spring%measure%body_j + 1)), tension, slope)
-            if (abs(tension) > felt) text = text//'; stop '//quoted(spring%name)//' is in contact ('// &
+            if (abs(tension) > felt) text = text//'; '//element_label(spring)//' is in contact ('// &
                str(abs(tension), 4)//' N)'
          end associate
       end do

@@ -267,9 +267,9 @@ contains
       character(:), allocatable :: model, message, label
       integer :: k
 
-      allocate (elements(size(suspension%bushings)))
+      allocate (elements(size(suspension%elements) - suspension%scalars))
       do k = 1, size(elements)
-         elements(k) = suspension%bushings(k)%name
+         elements(k) = suspension%elements(suspension%scalars + k)%name
       end do
       model = suspension%title
       if (len(model) == 0) model = suspension%name

@@ -5,7 +5,7 @@ module ek_run_words
    use ek_error, only: message_list_t
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
-   use ek_spring, only: axial_spring, measure_spring, torsion_spring
+   use ek_element, only: element_kinds, element_label, axial_spring, torsion_spring
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
@@ -103,10 +103,10 @@ contains
       integer :: k
 
       has_spring = .false.
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
-            has_spring = has_spring .or. any(spring%kind == [axial_spring, measure_spring]) .or. &
-               (spring%kind == torsion_spring .and. min(spring%measure%body_i, spring%measure%body_j) == 0)
+      do k = 1, size(suspension%elements)
+         associate (kind => suspension%elements(k)%kind, m => suspension%elements(k)%measure)
+            has_spring = has_spring .or. element_kinds(kind)%carries .or. &
+               (kind == torsion_spring .and. min(m%body_i, m%body_j) == 0)
          end associate
       end do
    end function has_spring
@@ -151,10 +151,10 @@ contains
       integer :: k
 
       if (suspension%balance == 'none') return
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%kind /= axial_spring) cycle
-         call say(arguments%quiet, 'balance: preload of spring '//quoted(suspension%springs(k)%name)//' = '// &
-            str(suspension%springs(k)%preload, 9)//' N (compression)')
+      do k = 1, size(suspension%elements)
+         if (suspension%elements(k)%kind /= axial_spring) cycle
+         call say(arguments%quiet, 'balance: preload of '//element_label(suspension%elements(k))//' = '// &
+            str(suspension%elements(k)%preload, 9)//' N (compression)')
       end do
    end subroutine say_preloads
 

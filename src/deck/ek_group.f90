@@ -2,20 +2,20 @@
 !>
 !> To add a key: add its row here and its variable to the namelist in the reader of the group.
 module ek_group
+   use ek_kinds, only: wp
    use ek_text, only: lower, quoted, nearest_name
    use ek_letters, only: visible
    implicit none(type, external)
    private
-   public :: group_names, group_number, is_deck_group, names_of_groups, is_single
+   public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single
    public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
    public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
    public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group, mass_group
    public :: most_values, most_loads, is_legal_name, illegal_name
    public :: word_length, note_length, most_measures, largest_exponent, smallest_exponent
-   public :: word, prose, number, whole, switch
+   public :: word, prose, number, whole, switch, is_inside, range_words
 
-   ! groups, numbered as in group_names
    integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
@@ -25,6 +25,9 @@ module ek_group
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
       'stop', 'torsion', 'axle', 'steering', 'mass']
 
+   integer, parameter :: every_group = 0      !! in the table of keys
+   integer, parameter :: result_groups(7) = [measure_group, joint_group, bushing_group, spring_group, damper_group, &
+      stop_group, torsion_group]                                    ! their names make the names of columns
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
 
    ! types of value
@@ -42,40 +45,40 @@ module ek_group
    integer, parameter :: largest_exponent = 30 !! numbers above 1e30 are mistakes and could overflow later
    integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
 
+   ! legal ranges of a number
+   integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3, share = 4
+
    type :: key_t
       integer :: group
       character(14) :: name
       integer :: type
       integer :: least, most     !! number of values
       logical :: is_required
+      integer :: range = any_number
+      character(20) :: unit = ''   !! of the range, in messages
    end type key_t
 
    type(key_t), parameter :: keys(*) = [ &
       key_t(model_group, 'name', word, 1, 1, .true.), &
-      key_t(model_group, 'note', prose, 1, 1, .false.), &
       key_t(model_group, 'title', prose, 1, 1, .false.), &
       key_t(model_group, 'length', word, 1, 1, .false.), &
       key_t(model_group, 'force', word, 1, 1, .false.), &
       key_t(model_group, 'angle', word, 1, 1, .false.), &
       key_t(model_group, 'axes', word, 1, 1, .false.), &
       key_t(model_group, 'balance', word, 1, 1, .false.), &
-      key_t(model_group, 'gravity', number, 1, 1, .false.), &
+      key_t(model_group, 'gravity', number, 1, 1, .false., not_negative, ' (m/s², downward)'), &
       key_t(model_group, 'plausible', switch, 1, 1, .false.), &
       key_t(point_group, 'name', word, 1, 1, .true.), &
-      key_t(point_group, 'note', prose, 1, 1, .false.), &
       key_t(point_group, 'at', number, 3, 3, .true.), &
       key_t(body_group, 'name', word, 1, 1, .true.), &
-      key_t(body_group, 'note', prose, 1, 1, .false.), &
       key_t(body_group, 'origin', word, 1, 1, .false.), &
-      key_t(body_group, 'mass', number, 1, 1, .false.), &
+      key_t(body_group, 'mass', number, 1, 1, .false., positive, ' kg'), &
       key_t(body_group, 'centre', word, 1, 1, .false.), &
       key_t(mass_group, 'name', word, 1, 1, .true.), &
-      key_t(mass_group, 'note', prose, 1, 1, .false.), &
       key_t(mass_group, 'body', word, 1, 1, .true.), &
-      key_t(mass_group, 'kg', number, 1, 1, .true.), &
+      key_t(mass_group, 'kg', number, 1, 1, .true., positive), &
       key_t(mass_group, 'at', word, 1, 1, .true.), &
       key_t(measure_group, 'name', word, 1, 1, .true.), &
-      key_t(measure_group, 'note', prose, 1, 1, .false.), &
       key_t(measure_group, 'type', word, 1, 1, .true.), &
       key_t(measure_group, 'bodies', word, 2, 2, .true.), &
       key_t(measure_group, 'at', word, 1, 2, .false.), &
@@ -84,7 +87,6 @@ module ek_group
       key_t(measure_group, 'axis_2', word, 2, 2, .false.), &
       key_t(measure_group, 'axis_2_vector', number, 3, 3, .false.), &
       key_t(joint_group, 'name', word, 1, 1, .true.), &
-      key_t(joint_group, 'note', prose, 1, 1, .false.), &
       key_t(joint_group, 'type', word, 1, 1, .true.), &
       key_t(joint_group, 'bodies', word, 2, 2, .false.), &
       key_t(joint_group, 'at', word, 1, 2, .false.), &
@@ -94,62 +96,55 @@ module ek_group
       key_t(joint_group, 'axis_2_vector', number, 3, 3, .false.), &
       key_t(joint_group, 'measure', word, 1, 1, .false.), &
       key_t(joint_group, 'measures', word, 1, most_measures, .false.), &
-      key_t(joint_group, 'ratios', number, 1, most_measures, .false.), &
-      key_t(joint_group, 'stiffness', number, 1, 1, .false.), &
+      key_t(joint_group, 'ratios', number, 1, most_measures, .false., not_zero), &
+      key_t(joint_group, 'stiffness', number, 1, 1, .false., positive), &
       key_t(joint_group, 'balance', switch, 1, 1, .false.), &
       key_t(bushing_group, 'name', word, 1, 1, .true.), &
-      key_t(bushing_group, 'note', prose, 1, 1, .false.), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true.), &
       key_t(bushing_group, 'at', word, 1, 2, .true.), &
       key_t(bushing_group, 'z_axis', word, 2, 2, .false.), &
       key_t(bushing_group, 'z_vector', number, 3, 3, .false.), &
       key_t(bushing_group, 'x_axis', word, 2, 2, .false.), &
       key_t(bushing_group, 'x_vector', number, 3, 3, .false.), &
-      key_t(bushing_group, 'kt', number, 3, 3, .false.), &
-      key_t(bushing_group, 'kr', number, 3, 3, .false.), &
+      key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative), &
+      key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative), &
       key_t(bushing_group, 'curve', word, 1, 6, .false.), &
       key_t(bushing_group, 'preload_force', number, 3, 3, .false.), &
       key_t(bushing_group, 'preload_moment', number, 3, 3, .false.), &
       key_t(spring_group, 'name', word, 1, 1, .true.), &
-      key_t(spring_group, 'note', prose, 1, 1, .false.), &
       key_t(spring_group, 'bodies', word, 2, 2, .false.), &
       key_t(spring_group, 'at', word, 2, 2, .false.), &
       key_t(spring_group, 'measure', word, 1, 1, .false.), &
-      key_t(spring_group, 'rate', number, 1, 1, .false.), &
+      key_t(spring_group, 'rate', number, 1, 1, .false., not_negative), &
       key_t(spring_group, 'curve', word, 1, 1, .false.), &
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
       key_t(spring_group, 'balance', switch, 1, 1, .false.), &
-      key_t(spring_group, 'free_length', number, 1, 1, .false.), &
+      key_t(spring_group, 'free_length', number, 1, 1, .false., positive), &
       key_t(curve_group, 'name', word, 1, 1, .true.), &
-      key_t(curve_group, 'note', prose, 1, 1, .false.), &
       key_t(curve_group, 'x', number, 2, most_values, .true.), &
       key_t(curve_group, 'y', number, 2, most_values, .true.), &
       key_t(curve_group, 'kind', word, 1, 1, .false.), &
       key_t(damper_group, 'name', word, 1, 1, .true.), &
-      key_t(damper_group, 'note', prose, 1, 1, .false.), &
       key_t(damper_group, 'bodies', word, 2, 2, .true.), &
       key_t(damper_group, 'at', word, 2, 2, .true.), &
-      key_t(damper_group, 'gas_force', number, 1, 1, .false.), &
-      key_t(damper_group, 'gas_rate', number, 1, 1, .false.), &
+      key_t(damper_group, 'gas_force', number, 1, 1, .false., not_negative), &
+      key_t(damper_group, 'gas_rate', number, 1, 1, .false., not_negative), &
       key_t(stop_group, 'name', word, 1, 1, .true.), &
-      key_t(stop_group, 'note', prose, 1, 1, .false.), &
       key_t(stop_group, 'type', word, 1, 1, .true.), &
       key_t(stop_group, 'bodies', word, 2, 2, .true.), &
       key_t(stop_group, 'at', word, 2, 2, .true.), &
-      key_t(stop_group, 'clearance', number, 1, 1, .true.), &
-      key_t(stop_group, 'rate', number, 1, 1, .false.), &
+      key_t(stop_group, 'clearance', number, 1, 1, .true., not_negative), &
+      key_t(stop_group, 'rate', number, 1, 1, .false., not_negative), &
       key_t(stop_group, 'curve', word, 1, 1, .false.), &
-      key_t(stop_group, 'rounding', number, 1, 1, .false.), &
+      key_t(stop_group, 'rounding', number, 1, 1, .false., positive), &
       key_t(torsion_group, 'name', word, 1, 1, .true.), &
-      key_t(torsion_group, 'note', prose, 1, 1, .false.), &
       key_t(torsion_group, 'bodies', word, 2, 2, .true.), &
       key_t(torsion_group, 'axis', word, 2, 2, .false.), &
       key_t(torsion_group, 'axis_vector', number, 3, 3, .false.), &
-      key_t(torsion_group, 'rate', number, 1, 1, .false.), &
+      key_t(torsion_group, 'rate', number, 1, 1, .false., not_negative), &
       key_t(torsion_group, 'curve', word, 1, 1, .false.), &
       key_t(torsion_group, 'preload', number, 1, 1, .false.), &
       key_t(wheel_group, 'name', word, 1, 1, .true.), &
-      key_t(wheel_group, 'note', prose, 1, 1, .false.), &
       key_t(wheel_group, 'body', word, 1, 1, .true.), &
       key_t(wheel_group, 'side', word, 1, 1, .true.), &
       key_t(wheel_group, 'centre', word, 1, 1, .true.), &
@@ -157,29 +152,26 @@ module ek_group
       key_t(wheel_group, 'spin_vector', number, 3, 3, .false.), &
       key_t(wheel_group, 'toe', number, 1, 1, .false.), &
       key_t(wheel_group, 'camber', number, 1, 1, .false.), &
-      key_t(wheel_group, 'radius', number, 1, 1, .false.), &
-      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false.), &
-      key_t(wheel_group, 'tyre_width', number, 1, 1, .false.), &
-      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false.), &
+      key_t(wheel_group, 'radius', number, 1, 1, .false., positive), &
+      key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive), &
+      key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive), &
+      key_t(wheel_group, 'sprung_mass', number, 1, 1, .false., positive, ' kg'), &
       key_t(wheel_group, 'steer_axis', word, 2, 2, .false.), &
       key_t(axle_group, 'name', word, 1, 1, .false.), &
-      key_t(axle_group, 'note', prose, 1, 1, .false.), &
       key_t(axle_group, 'position', word, 1, 1, .true.), &
-      key_t(axle_group, 'wheelbase', number, 1, 1, .true.), &
-      key_t(axle_group, 'cg_height', number, 1, 1, .true.), &
-      key_t(axle_group, 'mass', number, 1, 1, .false.), &
-      key_t(axle_group, 'brake_share', number, 1, 1, .true.), &
-      key_t(axle_group, 'drive_share', number, 1, 1, .false.), &
+      key_t(axle_group, 'wheelbase', number, 1, 1, .true., positive), &
+      key_t(axle_group, 'cg_height', number, 1, 1, .true., positive), &
+      key_t(axle_group, 'mass', number, 1, 1, .false., positive), &
+      key_t(axle_group, 'brake_share', number, 1, 1, .true., share), &
+      key_t(axle_group, 'drive_share', number, 1, 1, .false., share), &
       key_t(axle_group, 'drive_reaction', word, 1, 1, .false.), &
-      key_t(axle_group, 'front_overhang', number, 1, 1, .false.), &
-      key_t(axle_group, 'front_width', number, 1, 1, .false.), &
+      key_t(axle_group, 'front_overhang', number, 1, 1, .false., positive), &
+      key_t(axle_group, 'front_width', number, 1, 1, .false., positive), &
       key_t(steering_group, 'name', word, 1, 1, .false.), &
-      key_t(steering_group, 'note', prose, 1, 1, .false.), &
       key_t(steering_group, 'driver', word, 1, 1, .true.), &
-      key_t(steering_group, 'ratio', number, 1, 1, .true.), &
-      key_t(steering_group, 'travel', number, 1, 1, .true.), &
+      key_t(steering_group, 'ratio', number, 1, 1, .true., not_zero), &
+      key_t(steering_group, 'travel', number, 1, 1, .true., positive), &
       key_t(load_group, 'name', word, 1, 1, .true.), &
-      key_t(load_group, 'note', prose, 1, 1, .false.), &
       key_t(load_group, 'body', word, 1, 1, .true.), &
       key_t(load_group, 'at', word, 1, 1, .true.), &
       key_t(load_group, 'force', number, 3, 3, .false.), &
@@ -187,7 +179,6 @@ module ek_group
       key_t(load_group, 'follows', switch, 1, 1, .false.), &
       key_t(load_group, 'factor', word, 1, 1, .false.), &
       key_t(case_group, 'name', word, 1, 1, .true.), &
-      key_t(case_group, 'note', prose, 1, 1, .false.), &
       key_t(case_group, 'load', word, 1, most_loads, .false.), &
       key_t(case_group, 'drive', word, 1, 1, .false.), &
       key_t(case_group, 'wheel', word, 1, 1, .false.), &
@@ -203,9 +194,8 @@ module ek_group
       key_t(case_group, 'increments', whole, 1, 1, .false.), &
       key_t(case_group, 'method', word, 1, 1, .false.), &
       key_t(case_group, 'follow', word, 1, 1, .false.), &
-      key_t(case_group, 'tolerance', number, 1, 1, .false.), &
+      key_t(case_group, 'tolerance', number, 1, 1, .false., positive), &
       key_t(study_group, 'name', word, 1, 1, .true.), &
-      key_t(study_group, 'note', prose, 1, 1, .false.), &
       key_t(study_group, 'title', prose, 1, 1, .false.), &
       key_t(study_group, 'kind', word, 1, 1, .true.), &
       key_t(study_group, 'deck', prose, 1, 1, .true.), &
@@ -216,7 +206,6 @@ module ek_group
       key_t(study_group, 'increments', whole, 1, most_values, .false.), &
       key_t(study_group, 'columns', word, 1, 20, .false.), &
       key_t(factor_group, 'name', word, 1, 1, .true.), &
-      key_t(factor_group, 'note', prose, 1, 1, .false.), &
       key_t(factor_group, 'path', prose, 1, 1, .true.), &
       key_t(factor_group, 'values', number, 1, most_values, .false.), &
       key_t(factor_group, 'from', number, 1, 1, .false.), &
@@ -224,16 +213,14 @@ module ek_group
       key_t(factor_group, 'count', whole, 1, 1, .false.), &
       key_t(factor_group, 'spacing', word, 1, 1, .false.), &
       key_t(response_group, 'name', word, 1, 1, .true.), &
-      key_t(response_group, 'note', prose, 1, 1, .false.), &
       key_t(response_group, 'column', word, 1, 1, .true.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
       key_t(response_group, 'over', word, 1, 1, .false.), &
-      key_t(response_group, 'window', number, 1, 1, .false.), &
+      key_t(response_group, 'window', number, 1, 1, .false., positive), &
       key_t(include_group, 'file', prose, 1, 1, .true.), &
-      key_t(include_group, 'note', prose, 1, 1, .false.), &
       key_t(mirror_group, 'shared', word, 1, most_values, .false.), &
-      key_t(mirror_group, 'note', prose, 1, 1, .false.)]
+      key_t(every_group, 'note', prose, 1, 1, .false.)]
 
    character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
 
@@ -277,6 +264,12 @@ contains
       is_deck_group = group > 0 .and. .not. any(study_groups == group)
    end function is_deck_group
 
+   !> Whether records of a group have columns in the results: their names must differ. &mirror duplicates them.
+   pure logical function has_results(group)
+      integer, intent(in) :: group
+      has_results = any(result_groups == group)
+   end function has_results
+
    !> The group names of a deck or of a study, for suggestions.
    pure function names_of_groups(of_deck) result(names)
       logical, intent(in) :: of_deck
@@ -306,7 +299,7 @@ contains
 
       is_known = .false.
       do k = 1, size(keys)
-         if (keys(k)%group /= group) cycle
+         if (keys(k)%group /= group .and. keys(k)%group /= every_group) cycle
          if (keys(k)%name /= name) cycle
          key = keys(k)
          is_known = .true.
@@ -314,19 +307,49 @@ contains
       end do
    end subroutine find_key
 
+   !> Whether a number is inside a legal range.
+   pure logical function is_inside(range, value)
+      integer, intent(in) :: range
+      real(wp), intent(in) :: value
+
+      is_inside = .true.
+      select case (range)
+      case (positive)
+         is_inside = value > 0.0_wp
+      case (not_negative)
+         is_inside = value >= 0.0_wp
+      case (not_zero)
+         is_inside = abs(value) > 0.0_wp
+      case (share)
+         is_inside = value >= 0.0_wp .and. value <= 1.0_wp
+      end select
+   end function is_inside
+
+   !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
+   pure function range_words(key, shown) result(words)
+      type(key_t), intent(in) :: key
+      character(*), intent(in) :: shown       !! the value as text
+      character(:), allocatable :: words
+      character(*), parameter :: ranges(4) = [character(12) :: 'above 0', '0 or more', 'not be zero', '0 to 1']
+
+      words = 'must be '//trim(ranges(key%range))//trim(key%unit)//', found '//shown
+      if (key%range == not_zero) words = 'must not be zero'
+   end function range_words
+
    !> All keys of a group, for suggestions and the manual.
    pure function key_names(group) result(names)
       integer, intent(in) :: group
       character(14), allocatable :: names(:)
       integer :: k, used
 
-      allocate (names(count(keys%group == group)))
+      allocate (names(count(keys%group == group) + 1))
       used = 0
       do k = 1, size(keys)
          if (keys(k)%group /= group) cycle
+         names(used + merge(1, 2, used == 0)) = keys(k)%name      ! the second is `note`
          used = used + 1
-         names(used) = keys(k)%name
       end do
+      names(2) = 'note'
    end function key_names
 
    !> "bushing 'top_mount': "

@@ -15,7 +15,7 @@ module ek_mirror
    use ek_record, only: record_t, entry_t, add_record, add_value, element, entry_index, place_of, line_words
    use ek_group, only: word_length, did_you_mean
    use ek_mirror_role, only: role_of, is_element, can_be_doubled, is_name, named_group, loads
-   use ek_mirror_twin, only: reflect, complete_marker, number_of
+   use ek_mirror_twin, only: reflect, number_of
    implicit none(type, external)
    private
    public :: has_mirror, mirror_records
@@ -64,7 +64,6 @@ contains
             do twin = left_twin, right_twin
                copy = records(k)
                copy%twin = twin
-               call complete_marker(records(:used), records(k), copy)
                call rename(half, twin, copy)
                if (twin == right_twin) call reflect(copy)
                call add_record(whole, whole_used, copy)

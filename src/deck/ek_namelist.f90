@@ -1,14 +1,14 @@
-!> Checks one record against the table of groups and writes it as a valid namelist text.
+!> Checks one record against the table of groups: keys, types, counts, subscripts, ranges.
 !>
-!> The compiler's namelist read converts the values, but silently accepts too few values, a key given twice,
-!> `nan` and `1e999`, and an invalid record can disturb the next read. Therefore every value is
-!> checked here first (type, count, subscript, size), and only valid entries are written out again.
+!> The values are read by ek_draft from the entries that pass. The compiler's namelist read is not used: it silently accepts
+!> too few values, a key given twice, `nan` and `1e999`.
 module ek_namelist
+   use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted, plural
    use ek_letters, only: bad_byte
    use ek_complaint, only: place_t, complaints_t
-   use ek_record, only: record_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: group_names, key_t, keys, find_key, unknown_key, word, prose, number, whole, switch, &
+   use ek_record, only: record_t, entry_t, value_t, entry_index, is_given, place_of
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_words, word, prose, number, whole, switch, &
       word_length, note_length, largest_exponent, smallest_exponent
    implicit none(type, external)
    private
@@ -16,48 +16,39 @@ module ek_namelist
 
 contains
 
-   !> Checks one record and writes its valid entries as one namelist record.
-   subroutine check_record(record, group, head, complaints, text, is_good)
-      type(record_t), intent(in) :: record
+   !> Checks one record and marks the entries that are rejected.
+   subroutine check_record(record, group, head, complaints, is_good)
+      type(record_t), intent(inout) :: record
       integer, intent(in) :: group
       character(*), intent(in) :: head                        !! "bushing 'top_mount': " for messages
       type(complaints_t), intent(inout) :: complaints
-      character(:), allocatable, intent(out) :: text          !! '&bushing name=… /'
       logical, intent(out) :: is_good
-      character(4096) :: buffer
       type(key_t) :: key
       logical :: is_known
-      integer :: k, first, filled
+      integer :: k, first
 
       is_good = .true.
-      text = ''
-      filled = 0
-      call put('&'//trim(group_names(group)))
       do k = 1, record%used
-         associate (entry => record%entries(k))
-            call find_key(group, entry%key, key, is_known)
-            if (.not. is_known) then
-               call complain(k, unknown_key(group, entry%key))
-            else if (check_entry()) then
-               if (entry%key /= 'note') call put_entry()
-            end if
-         end associate
+         call find_key(group, record%entries(k)%key, key, is_known)
+         if (is_known) then
+            record%entries(k)%is_bad = .not. fits()
+         else
+            call complain(k, unknown_key(group, record%entries(k)%key))
+         end if
       end do
       do k = 1, size(keys)
          if (keys(k)%group /= group .or. .not. keys(k)%is_required) cycle
          if (.not. is_given(record, keys(k)%name)) call complain(0, quoted(keys(k)%name)//' is missing')
       end do
-      call put(' /')
-      text = text//buffer(:filled)
 
    contains
 
-      !> Whether type and count of entry k fit its key.
-      logical function check_entry()
+      !> Whether type, count and values of entry k fit its key.
+      logical function fits()
          character(:), allocatable :: fault
          integer :: given, j, l
 
-         check_entry = .false.
+         fits = .false.
          associate (entry => record%entries(k))
             given = 0
             first = huge(first)
@@ -96,9 +87,29 @@ contains
                call complain(k, trim(key%name)//element_text(entry%first + j - 1)//' must be '//fault)
                return
             end do
+            fits = .true.
+            if (key%type == number) call check_range(entry, fits)
          end associate
-         check_entry = .true.
-      end function check_entry
+      end function fits
+
+      !> A number outside its range is rejected, but the others of the entry are checked too.
+      subroutine check_range(entry, has_passed)
+         type(entry_t), intent(in) :: entry
+         logical, intent(inout) :: has_passed
+         character(:), allocatable :: name
+         real(wp) :: value
+         integer :: j
+
+         do j = 1, entry%used
+            read (entry%values(j)%text, *) value
+            name = trim(key%name)//element_text(entry%first + j - 1)
+            if (key%least /= key%most) name = trim(key%name)
+            if (is_inside(key%range, value)) cycle
+            call complain(k, name//' '//range_words(key, str(value)))
+            has_passed = .false.
+            if (key%least /= key%most) return
+         end do
+      end subroutine check_range
 
       pure function needs() result(words)
          character(:), allocatable :: words
@@ -149,41 +160,6 @@ contains
          call complaints%add(place, head//what)
          is_good = .false.
       end subroutine complain
-
-      subroutine put_entry()
-         integer :: j
-
-         associate (entry => record%entries(k))
-            call put(' '//entry%key)
-            ! written as a section: one element followed by several values is an extension rejected by -std=f2018
-            if (entry%first > 1 .or. entry%used < key%least) &
-               call put('('//str(entry%first)//':'//str(entry%first + entry%used - 1)//')')
-            call put('=')
-            do j = 1, entry%used
-               if (j > 1) call put(',')
-               if (entry%values(j)%is_string) then
-                  call put(requoted(entry%values(j)%text))
-               else
-                  call put(entry%values(j)%text)
-               end if
-            end do
-         end associate
-      end subroutine put_entry
-
-      subroutine put(piece)
-         character(*), intent(in) :: piece
-
-         if (filled + len(piece) > len(buffer)) then
-            text = text//buffer(:filled)
-            filled = 0
-         end if
-         if (len(piece) > len(buffer)) then
-            text = text//piece
-         else
-            buffer(filled + 1:filled + len(piece)) = piece
-            filled = filled + len(piece)
-         end if
-      end subroutine put
 
    end subroutine check_record
 
@@ -329,25 +305,5 @@ contains
       size_exponent = size_exponent + dot - lead
       if (lead < dot) size_exponent = size_exponent - 1
    end function size_exponent
-
-   !> A string between single quotes, those inside doubled.
-   pure function requoted(content) result(text)
-      character(*), intent(in) :: content
-      character(:), allocatable :: text
-      integer :: k, first
-
-      if (index(content, "'") == 0) then
-         text = "'"//content//"'"
-         return
-      end if
-      text = "'"
-      first = 1
-      do k = 1, len(content)
-         if (content(k:k) /= "'") cycle
-         text = text//content(first:k)//"'"
-         first = k + 1
-      end do
-      text = text//content(first:)//"'"
-   end function requoted
 
 end module ek_namelist

@@ -1,37 +1,55 @@
-!> Builds the suspension and its load cases from a deck.
+!> From a deck to a design: the blueprint, its parameters, and the load cases.
 !>
-!> Here numbers are converted from the deck's units and axes: all results are SI, x rearward.
-!> All mistakes of the deck are collected; the suspension is complete only if there are none.
+!> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All mistakes of the deck are
+!> collected; the blueprint is complete only if there are none.
 module ek_reader
    use ek_kinds, only: wp
-   use ek_text, only: str, lower
+   use ek_text, only: lower
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
    use ek_twin, only: single
-   use ek_complaint, only: place_t, place_in
-   use ek_record, only: element, place_of, own_name
+   use ek_complaint, only: place_t
+   use ek_record, only: record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
-      word_length, note_length, record_head, did_you_mean, is_legal_name, illegal_name
+      curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
+      word_length, record_head, did_you_mean, is_legal_name, illegal_name, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
-   use ek_draft, only: draft_t, complain, where_of, line_of, find_point, to_internal, choice, has_key
-   use ek_reader_joints, only: read_measures, read_joints
+   use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
+      number_of, slot
+   use ek_reference, only: vector_at
+   use ek_parameter, only: parameters_t
    use ek_reserved_name, only: reserved_because
-   use ek_reader_curves, only: read_curves
-   use ek_reader_masses, only: read_masses
-   use ek_reader_springs, only: read_springs, read_dampers, read_stops, read_torsions
-   use ek_reader_elements, only: read_bushings, read_loads
-   use ek_reader_wheels, only: read_wheels
+   use ek_reader_bodies, only: read_point, read_body, read_mass
+   use ek_reader_joints, only: read_measure, read_joint
+   use ek_reader_springs, only: read_curve, read_spring, read_damper, read_stop, read_torsion
+   use ek_reader_elements, only: read_bushing, read_load
+   use ek_reader_wheels, only: read_wheel
    use ek_reader_axle, only: read_axle, read_steering
-   use ek_reader_cases, only: read_cases
+   use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_suspension, only: suspension_t
-   use ek_builder, only: add_point, add_body, add_gravity
-   use ek_completion, only: complete
+   use ek_builder, only: add_point, add_gravity
+   use ek_completion, only: allocate_lists
+   use ek_blueprint, only: blueprint_t, new_blueprint
+   use ek_realise, only: new_design, realise
    use ek_case, only: case_t
    implicit none(type, external)
    private
-   public :: build_model
+   public :: design_t, read_design, build_model
+
+   !> The order of reading: what others refer to comes first.
+   integer, parameter :: reading_order(16) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
+      joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, wheel_group, axle_group, &
+      steering_group, load_group]
+
+   !> A deck as a design space: realise(plan, x) is a suspension.
+   type :: design_t
+      type(blueprint_t) :: plan
+      type(parameters_t) :: parameters           !! with their values in the deck, x
+      type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
+      type(case_t), allocatable :: cases(:)      !! may be of size 0; includes cases with a mistake
+   end type design_t
 
 contains
 
@@ -42,86 +60,162 @@ contains
       type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0; includes cases with a mistake
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
-      type(deck_t) :: finished
-      logical :: is_complete
+      type(design_t) :: design
+      logical :: is_complete, is_good
 
-      if (deck%is_finished()) then
-         call build_finished(deck, suspension, cases, is_complete, error)
-      else
-         call finish_deck(deck, finished)
-         call build_finished(finished, suspension, cases, is_complete, error)
+      call read_design(deck, design, error, is_complete)
+      call move_alloc(design%cases, cases)
+      if (is_complete) then
+         call new_design(design%plan, suspension)
+         call realise(design%plan, design%parameters%x, suspension, is_good)
       end if
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
 
-   !> The same for a deck already mirrored.
-   subroutine build_finished(deck, suspension, cases, is_whole, error)
+   !> The design space of a deck, or all mistakes of the deck.
+   subroutine read_design(deck, design, error, is_whole)
       type(deck_t), intent(in) :: deck
-      type(suspension_t), intent(out) :: suspension
-      type(case_t), allocatable, intent(out) :: cases(:)     !! may be of size 0
+      type(design_t), intent(out) :: design
+      type(error_t), allocatable, intent(out) :: error
+      logical, intent(out), optional :: is_whole             !! the blueprint is complete: all mistakes are in cases
+      type(deck_t) :: finished
+      type(draft_t) :: draft
+      logical :: is_complete
+
+      if (deck%is_finished()) then
+         draft%complaints = deck%complaints
+         draft%records = deck%records(:deck%used)
+      else
+         call finish_deck(deck, finished)
+         draft%complaints = finished%complaints
+         draft%records = finished%records(:finished%used)
+      end if
+      draft%file = deck%file
+      allocate (design%cases(0))
+      call read_records(draft, design%cases, is_complete, error)
+      if (is_complete) call complete_prototype(draft)
+      design%plan = draft%plan
+      design%parameters = draft%parameters
+      call move_alloc(draft%records, design%records)
+      if (present(is_whole)) is_whole = is_complete
+   end subroutine read_design
+
+   !> All records, group by group.
+   subroutine read_records(draft, cases, is_whole, error)
+      type(draft_t), intent(inout) :: draft
+      type(case_t), allocatable, intent(inout) :: cases(:)
       logical, intent(out) :: is_whole
       type(error_t), allocatable, intent(out) :: error
-      type(draft_t) :: draft
-      integer :: k, before, in_cases
+      type(case_t) :: case
+      integer :: j, k, before, in_cases
 
       is_whole = .false.
-      draft%complaints = deck%complaints
-      if (deck%used == 0 .and. draft%complaints%count() == 1) then     ! not a text file: only this is reported
-         allocate (cases(0))
+      if (size(draft%records) == 0 .and. draft%complaints%count() == 1) then     ! not a text file: only this is reported
          call fail(error, exit_deck, draft%complaints%text())
          return
       end if
-      if (is_study(deck)) then
-         allocate (cases(0))
-         call fail(error, exit_deck, where_of(deck, 1)//': this is a study (&'//deck%records(1)%group// &
-            '), not a deck; run it with: elastokin study '//deck%file)
+      allocate (draft%cards(size(draft%records)), draft%parameters%list(64), draft%parameters%x(64), draft%vectors(3, 0:31))
+      draft%vectors = 0.0_wp
+      draft%vectors(:, 1) = [0.0_wp, 0.0_wp, 1.0_wp]
+      call new_blueprint(draft%plan)
+      if (is_study(draft%records)) then
+         draft%k = 1
+         call fail(error, exit_deck, where_of(draft)//': this is a study (&'//draft%records(1)%group// &
+            '), not a deck; run it with: elastokin study '//draft%file)
          return
       end if
-      allocate (draft%cards(deck%used))
       in_cases = 0
-      do k = 1, deck%used
+      do k = 1, size(draft%records)
+         draft%k = k
          before = draft%complaints%count()
-         call check_names(deck, k, draft)
+         call check_names(draft)
          if (draft%cards(k)%group == case_group) in_cases = in_cases + draft%complaints%count() - before
       end do
-      call read_model(deck, draft, suspension)
-      call read_points(deck, draft)
-      call read_curves(deck, draft)
-      call read_bodies(deck, draft, suspension)
-      call read_masses(deck, draft, suspension)
-      call read_measures(deck, draft, suspension)
-      call read_joints(deck, draft, suspension)
-      call read_bushings(deck, draft, suspension)
-      call read_springs(deck, draft, suspension)
-      call read_dampers(deck, draft, suspension)
-      call read_stops(deck, draft, suspension)
-      call read_torsions(deck, draft, suspension)
-      call read_wheels(deck, draft, suspension)
-      call read_axle(deck, draft, suspension)
-      call read_steering(deck, draft, suspension)
-      call read_loads(deck, draft, suspension)
-      call check_bodies(deck, draft)
+      call read_model(draft)
+      do j = 2, size(reading_order)
+         do k = 1, size(draft%records)
+            if (draft%cards(k)%group /= reading_order(j)) cycle
+            draft%k = k
+            call read_record(draft)
+         end do
+      end do
+      if (.not. any(draft%cards%group == body_group) .and. all(draft%cards%group > 0)) &
+         call complain_of_all(draft, 'there is no &body, so nothing can move')
+      call check_bodies(draft)
       is_whole = draft%complaints%count() == in_cases
-      call read_cases(deck, draft, cases)
+      do k = 1, size(draft%records)
+         if (draft%cards(k)%group /= case_group) cycle
+         draft%k = k
+         call read_case(draft, case)
+         cases = [cases, case]
+      end do
+      call refuse_one_file_for_two(draft, cases)
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
-      if (.not. is_whole) return
-      do k = 1, deck%used
+   end subroutine read_records
+
+   !> The record being read.
+   subroutine read_record(draft)
+      type(draft_t), intent(inout) :: draft
+
+      select case (draft%cards(draft%k)%group)
+      case (point_group)
+         call read_point(draft)
+      case (curve_group)
+         call read_curve(draft)
+      case (body_group)
+         call read_body(draft)
+      case (mass_group)
+         call read_mass(draft)
+      case (measure_group)
+         call read_measure(draft)
+      case (joint_group)
+         call read_joint(draft)
+      case (bushing_group)
+         call read_bushing(draft)
+      case (spring_group)
+         call read_spring(draft)
+      case (damper_group)
+         call read_damper(draft)
+      case (stop_group)
+         call read_stop(draft)
+      case (torsion_group)
+         call read_torsion(draft)
+      case (wheel_group)
+         call read_wheel(draft)
+      case (axle_group)
+         call read_axle(draft)
+      case (steering_group)
+         call read_steering(draft)
+      case (load_group)
+         call read_load(draft)
+      end select
+   end subroutine read_record
+
+   !> The lists of the prototype that follow from the whole deck: points and weights.
+   subroutine complete_prototype(draft)
+      type(draft_t), intent(inout) :: draft
+      integer :: k
+
+      do k = 1, size(draft%records)
+         draft%k = k
          associate (card => draft%cards(k))
-            if (card%group == point_group) call add_point(suspension, trim(card%name), where_of(deck, k), card%at, card%is_used)
+            if (card%group /= point_group) cycle
+            call add_point(draft%plan%prototype, trim(card%name), where_of(draft), vector_at(draft, card%index), card%is_used)
+            draft%plan%points = [draft%plan%points, card%index]
          end associate
       end do
-      call add_gravity(suspension, draft%gravity)
-      call complete(suspension)
-   end subroutine build_finished
+      call add_gravity(draft%plan%prototype, draft%plan%prototype%gravity)
+      call allocate_lists(draft%plan%prototype)
+   end subroutine complete_prototype
 
    !> Whether a file contains groups of a study and none of a deck.
-   pure logical function is_study(deck)
-      type(deck_t), intent(in) :: deck
+   pure logical function is_study(records)
+      type(record_t), intent(in) :: records(:)
       integer :: k, group
 
       is_study = .false.
-      do k = 1, deck%used
-         group = group_number(deck%records(k)%group)
+      do k = 1, size(records)
+         group = group_number(records(k)%group)
          if (is_deck_group(group)) then
             is_study = .false.
             return
@@ -130,62 +224,57 @@ contains
       end do
    end function is_study
 
-   !> Checks group, keys, counts and types of record k, and that its name is legal and unique.
-   subroutine check_names(deck, k, draft)
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
+   !> Checks group, keys, counts and types of the record, and that its name is legal and unique.
+   subroutine check_names(draft)
       type(draft_t), intent(inout) :: draft
       character(:), allocatable :: name
       type(place_t) :: place
+      integer :: group
 
-      associate (card => draft%cards(k), record => deck%records(k))
-         card%group = group_number(record%group)
-         if (.not. is_deck_group(card%group)) card%group = 0     ! a group of a study
+      associate (card => draft%cards(draft%k), record => draft%records(draft%k))
+         group = group_number(record%group)
+         if (.not. is_deck_group(group)) group = 0     ! a group of a study
+         card%group = group
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
-         if (card%group == 0) then
+         if (group == 0) then
             call place_of(record, 0, place)
             if (record%group /= '') call draft%complaints%add(place, 'there is no group &'//record%group// &
                did_you_mean(record%group, names_of_groups(of_deck=.true.)))
             return
          end if
-         call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, &
-            card%text, card%is_good)
+         call check_record(record, group, record_head(group, trim(card%name)), draft%complaints, card%is_good)
          if (card%name == '') return
          name = own_name(record)
          if (name == '') name = trim(card%name)
-
-         if (.not. is_legal_name(name)) then
-            call complain(draft, deck, k, 'name', illegal_name(name))
-         else
-            name = reserved_because(name, has_results(card%group))
-            if (name /= '') call complain(draft, deck, k, 'name', name)
-         end if
-         if (card%group /= model_group) call check_new(deck, k, draft)
       end associate
+      if (.not. is_legal_name(name)) then
+         call complain(draft, 'name', illegal_name(name))
+      else
+         name = reserved_because(name, has_results(group))
+         if (name /= '') call complain(draft, 'name', name)
+      end if
+      if (group /= model_group) call check_new(draft)
    end subroutine check_names
 
-   !> Checks that no record before k has the same name.
-   subroutine check_new(deck, k, draft)
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
+   !> Checks that no earlier record has the same name.
+   subroutine check_new(draft)
       type(draft_t), intent(inout) :: draft
-      integer :: j
+      integer :: j, k
 
-      associate (card => draft%cards(k))
-         do j = 1, k - 1
-            if (lower(draft%cards(j)%name) /= lower(card%name)) cycle
-            if (draft%cards(j)%group == card%group) then
-               call complain(draft, deck, k, 'name', 'the name is given twice, first in '//line_of(deck, j, k)//doubling(j))
-               exit
-            else if (has_results(card%group) .and. has_results(draft%cards(j)%group)) then
-               call complain(draft, deck, k, 'name', 'the name is already used by the '// &
-                  trim(group_names(draft%cards(j)%group))//' in '//line_of(deck, j, k)//doubling(j)// &
-                  ' (names of joints, measures and elastic elements make column names)')
-               exit
-            end if
-         end do
-      end associate
+      k = draft%k
+      do j = 1, k - 1
+         if (lower(draft%cards(j)%name) /= lower(draft%cards(k)%name)) cycle
+         if (draft%cards(j)%group == draft%cards(k)%group) then
+            call complain(draft, 'name', 'the name is given twice, first in '//line_of(draft, j)//doubling(j))
+            exit
+         else if (has_results(draft%cards(k)%group) .and. has_results(draft%cards(j)%group)) then
+            call complain(draft, 'name', 'the name is already used by the '// &
+               trim(group_names(draft%cards(j)%group))//' in '//line_of(draft, j)//doubling(j)// &
+               ' (names of joints, measures and elastic elements make column names)')
+            exit
+         end if
+      end do
 
    contains
 
@@ -195,158 +284,69 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if ((deck%records(j)%twin == single) .eqv. (deck%records(k)%twin == single)) return
+         if ((draft%records(j)%twin == single) .eqv. (draft%records(k)%twin == single)) return
          words = ' (&mirror creates '//trim(draft%cards(k)%name)//' from '// &
-            own_name(deck%records(merge(j, k, deck%records(k)%twin == single)))//')'
+            own_name(draft%records(merge(j, k, draft%records(k)%twin == single)))//')'
       end function doubling
 
    end subroutine check_new
 
-   !> Whether elements of a group have columns in the results.
-   pure logical function has_results(group)
-      integer, intent(in) :: group
-      has_results = any(group == [joint_group, measure_group, bushing_group, spring_group, damper_group, stop_group, &
-         torsion_group])
-   end function has_results
-
    !> &model: names, units, axes.
-   subroutine read_model(deck, draft, suspension)
-      type(deck_t), intent(in) :: deck
+   subroutine read_model(draft)
       type(draft_t), intent(inout) :: draft
-      type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, length, force, angle, axes, balance
-      character(note_length) :: title
-      real(wp) :: gravity
-      logical :: plausible
-      namelist /model/ name, title, length, force, angle, axes, balance, gravity, plausible
       character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
          angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
          balances(3) = [character(6) :: 'none', 'spring', 'all']
-      integer :: k, first, c, status
+      integer :: k, first, length, force, angle, frame, balance, gravity
 
+      draft%plan%prototype%name = ''
+      draft%plan%prototype%title = ''
+      draft%plan%prototype%balance = 'none'
       first = 0
-      suspension%name = ''
-      suspension%title = ''
-      suspension%balance = 'none'
-      do k = 1, deck%used
+      do k = 1, size(draft%records)
          if (draft%cards(k)%group /= model_group) cycle
+         draft%k = k
          if (first > 0) then
-            call complain(draft, deck, k, '', 'a second &model; the first is in '//line_of(deck, first, k))
+            call complain(draft, '', 'a second &model; the first is in '//line_of(draft, first))
             cycle
          end if
          first = k
-         name = ''
-         title = ''
-         length = 'mm'
-         force = 'N'
-         angle = 'deg'
-         axes = 'x-rear'
-         balance = 'none'
-         gravity = 0.0_wp
-         plausible = .true.
-         read (draft%cards(k)%text, nml=model, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-         call choice(draft, deck, k, 'length', trim(length), lengths, c)
-         call choice(draft, deck, k, 'force', trim(force), forces, c)
-         call choice(draft, deck, k, 'angle', trim(angle), angles, c)
-         draft%units = new_units(lower(trim(length)), lower(trim(force)), lower(trim(angle)))
-         call choice(draft, deck, k, 'axes', trim(axes), frames, c)
-         draft%is_iso = c == 2
-         call choice(draft, deck, k, 'balance', trim(balance), balances, c)
-         if (gravity < 0.0_wp) &
-            call complain(draft, deck, k, 'gravity', 'gravity must be 0 or more (m/s², downward), found '//str(gravity))
-         draft%gravity = gravity
-         suspension%name = trim(name)
-         suspension%title = trim(title)
-         suspension%balance = lower(trim(balance))
-         suspension%is_iso = draft%is_iso
-         suspension%units = draft%units
-         suspension%is_plausible_wanted = plausible
-         suspension%where = where_of(deck, k)
+         call choice(draft, 'length', lengths, length, default=1)
+         call choice(draft, 'force', forces, force, default=1)
+         call choice(draft, 'angle', angles, angle, default=1)
+         call choice(draft, 'axes', frames, frame, default=1)
+         call choice(draft, 'balance', balances, balance, default=1)
+         draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
+         draft%plan%length_unit = draft%units%length
+         draft%plan%force_unit = draft%units%force
+         draft%plan%angle_unit = draft%units%angle
+         draft%plan%is_iso = frame == 2
+         call slot(draft, 'gravity', 1.0_wp, gravity)
+         draft%plan%gravity = gravity
+         associate (model => draft%plan%prototype)
+            model%gravity = number_of(draft, 'gravity', 0.0_wp)
+            model%name = text_of(draft, 'name')
+            model%title = text_of(draft, 'title')
+            model%balance = trim(balances(max(balance, 1)))
+            model%is_iso = frame == 2
+            model%units = draft%units
+            model%is_plausible_wanted = switch_of(draft, 'plausible', .true.)
+            model%where = where_of(draft)
+         end associate
       end do
       if (first == 0 .and. all(draft%cards%group > 0)) &
-         call complain_of_all(deck, draft, 'there is no &model (it gives name, units and axes)')
+         call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
    end subroutine read_model
 
-   !> &point: design positions, kept on the cards.
-   subroutine read_points(deck, draft)
-      type(deck_t), intent(in) :: deck
-      type(draft_t), intent(inout) :: draft
-      character(word_length) :: name
-      real(wp) :: at(3)
-      namelist /point/ name, at
-      integer :: k, status
-
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= point_group) cycle
-         name = ''
-         at = 0.0_wp
-         read (draft%cards(k)%text, nml=point, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-         draft%cards(k)%at = to_internal(draft, at)*draft%units%length
-      end do
-   end subroutine read_points
-
-   !> &body.
-   subroutine read_bodies(deck, draft, suspension)
-      type(deck_t), intent(in) :: deck
-      type(draft_t), intent(inout) :: draft
-      type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, origin, centre
-      real(wp) :: mass
-      namelist /body/ name, origin, mass, centre
-      real(wp) :: at(3), centre_at(3)
-      logical :: is_found, has_centre
-      integer :: k, bodies, status
-
-      bodies = 0
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= body_group) cycle
-         name = ''
-         origin = ''
-         centre = ''
-         mass = 1.0_wp
-         read (draft%cards(k)%text, nml=body, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-         bodies = bodies + 1
-         draft%cards(k)%index = bodies
-         call find_point(draft, deck, k, 'origin', trim(origin), at, is_found)
-         call find_point(draft, deck, k, 'centre', trim(centre), centre_at, has_centre)
-         if (.not. mass > 0.0_wp) call complain(draft, deck, k, 'mass', 'mass must be above 0 kg, found '//str(mass))
-         if (has_key(deck, k, 'mass') .neqv. has_key(deck, k, 'centre')) call complain(draft, deck, k, &
-            trim(merge('mass  ', 'centre', has_key(deck, k, 'mass'))), 'give mass and centre (of gravity) together')
-         if (.not. has_key(deck, k, 'mass')) mass = 0.0_wp
-         if (is_found) then
-            call add_body(suspension, trim(name), where_of(deck, k), at, mass, centre_at)
-         else
-            call add_body(suspension, trim(name), where_of(deck, k), mass=mass, centre=centre_at)
-         end if
-      end do
-      if (bodies == 0 .and. all(draft%cards%group > 0)) &
-         call complain_of_all(deck, draft, 'there is no &body, so nothing can move')
-   end subroutine read_bodies
-
-   !> Reports a mistake of the deck as a whole.
-   subroutine complain_of_all(deck, draft, what)
-      type(deck_t), intent(in) :: deck
-      type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: what
-      type(place_t) :: place
-
-      call place_in(deck%file, 0, 0, place)
-      call draft%complaints%add(place, what)
-   end subroutine complain_of_all
-
    !> Reports a body attached to nothing, unless the element attached to it was rejected.
-   subroutine check_bodies(deck, draft)
-      type(deck_t), intent(in) :: deck
+   subroutine check_bodies(draft)
       type(draft_t), intent(inout) :: draft
       integer :: k
 
       if (any(draft%cards%group == 0)) return
-      do k = 1, deck%used
+      do k = 1, size(draft%records)
          if (draft%cards(k)%group /= body_group .or. draft%cards(k)%is_used .or. draft%cards(k)%name == '') cycle
-         call complain(draft, deck, k, '', 'no joint, bushing or spring is attached to it')
+         call complain_at(draft, k, '', 'no joint, bushing or spring is attached to it')
       end do
    end subroutine check_bodies
 

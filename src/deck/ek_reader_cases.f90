@@ -7,14 +7,15 @@ module ek_reader_cases
    use ek_twin, only: right_twin
    use ek_record, only: value_t, own_name
    use ek_namelist, only: value_fault
-   use ek_group, only: wheel_group, case_group, load_group, number
-   use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, where_of, line_of, has_key, choice, look_up
-   use ek_case_words, only: words_t, read_words, find_driver, find_wheel
+   use ek_blueprint, only: case_plan_t
+   use ek_group, only: wheel_group, case_group, load_group, number, most_loads, word_length
+   use ek_draft, only: draft_t, complain, complain_at, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
+      whole_of, slot
+   use ek_reference, only: look_up, find_driver, find_wheel
    use ek_reader_tests, only: read_test
    implicit none(type, external)
    private
-   public :: read_cases
+   public :: read_case, refuse_one_file_for_two
 
    ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
    ! the first guess of every state would be accepted
@@ -22,95 +23,85 @@ module ek_reader_cases
 
 contains
 
-   !> All cases in the order of the deck, including those with a mistake, which is reported in the reading.
-   subroutine read_cases(deck, draft, cases)
-      type(deck_t), intent(in) :: deck
+   !> One case; also one with a mistake, which is reported.
+   subroutine read_case(draft, this)
       type(draft_t), intent(inout) :: draft
-      type(case_t), allocatable, intent(out) :: cases(:)
-      type(words_t) :: words
-      real(wp) :: factor
-      integer, allocatable :: records(:)     ! records of the cases
-      integer :: k, c, used
+      type(case_t), intent(out) :: this
+      type(case_plan_t) :: plan
+      real(wp) :: unit, from, to, tolerance
+      integer :: c
 
-      allocate (cases(count(draft%cards%group == case_group)))
-      allocate (records(size(cases)))
-      used = 0
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= case_group) cycle
-         used = used + 1
-         records(used) = k
-         call read_words(deck, k, draft, words)
+      unit = 1.0_wp
+      this%test = ''
+      this%vertical = ''
+      this%file = ''
+      this%drive = ''
+      from = number_of(draft, 'from', 0.0_wp)
+      to = number_of(draft, 'to', 0.0_wp)
+      if (has_key(draft, 'test')) then
+         call read_test(draft, from, to, this, unit)
+      else
+         call read_drive(draft, this, unit)
+      end if
+      if (this%test /= 'table' .and. lower(text_of(draft, 'test')) /= 'table') then
+         call require('from')
+         call require('to')
+         if (draft%cards(draft%k)%is_good .and. .not. abs(to - from) > 0.0_wp) &
+            call complain(draft, 'to', 'from and to must differ, found '//str(from)//' twice')
+      end if
+      this%increments = whole_of(draft, 'increments', this%increments)
+      if (this%increments < 1 .or. this%increments > most_increments) call complain(draft, 'increments', &
+         'increments must be 1 to '//str(most_increments)//', found '//str(this%increments))
+      call choice(draft, 'method', method_names, c)
+      tolerance = number_of(draft, 'tolerance', this%tolerance/draft%units%length)*draft%units%length
+      if (has_key(draft, 'tolerance')) this%tolerance = tolerance
+      if (tolerance < least_tolerance .or. tolerance > most_tolerance) call complain(draft, 'tolerance', 'tolerance must be '// &
+         str(least_tolerance/millimetre)//' to '//str(most_tolerance/millimetre)//' mm, found '// &
+         str(tolerance/millimetre)//' mm')
+      call choice(draft, 'quantities', [character(5) :: 'basic', 'all'], c, default=merge(2, 1, has_key(draft, 'test')))
+      this%has_all = c == 2
+      this%method = lower(text_of(draft, 'method', 'equilibrium'))
+      call read_target()
+      call read_follow()
 
-         factor = 1.0_wp
-         cases(used)%wheel = 1
-         cases(used)%test = ''
-         cases(used)%vertical = ''
-         cases(used)%file = ''
-         cases(used)%drive = ''
-         if (has_key(deck, k, 'test')) then
-            call read_test(deck, k, draft, words, cases(used), factor)
-         else
-            call read_drive(deck, k, draft, words, cases(used), factor)
-         end if
-         if (words%test /= 'table') then
-            call require('from')
-            call require('to')
-            if (draft%cards(k)%is_good .and. .not. abs(words%to - words%from) > 0.0_wp) &
-               call complain(draft, deck, k, 'to', 'from and to must differ, found '//str(words%from)//' twice')
-         end if
-         if (words%increments < 1 .or. words%increments > most_increments) &
-            call complain(draft, deck, k, 'increments', 'increments must be 1 to '//str(most_increments)//', found '// &
-               str(words%increments))
-         call choice(draft, deck, k, 'method', trim(words%method), method_names, c)
-         if (.not. words%tolerance > 0.0_wp) then
-            call complain(draft, deck, k, 'tolerance', 'tolerance must be above 0, found '//str(words%tolerance))
-         else if (words%tolerance*draft%units%length < least_tolerance .or. &
-            words%tolerance*draft%units%length > most_tolerance) then
-            call complain(draft, deck, k, 'tolerance', 'tolerance must be '//str(least_tolerance/millimetre)//' to '// &
-               str(most_tolerance/millimetre)//' mm, found '//str(words%tolerance*draft%units%length/millimetre)//' mm')
-         end if
-         call choice(draft, deck, k, 'quantities', trim(words%quantities), [character(5) :: 'basic', 'all'], c)
-         cases(used)%has_all = c == 2
-         call read_target()
-         call read_follow()
-
-         cases(used)%name = trim(words%name)
-         cases(used)%where = where_of(deck, k)
-         cases(used)%is_good = draft%cards(k)%is_good
-         cases(used)%from = words%from*factor
-         cases(used)%to = words%to*factor
-         cases(used)%increments = words%increments
-         cases(used)%method = lower(trim(words%method))
-         if (has_key(deck, k, 'tolerance')) cases(used)%tolerance = words%tolerance*draft%units%length
-      end do
-      call refuse_one_file_for_two(deck, draft, cases, records)
+      this%name = text_of(draft, 'name')
+      this%where = where_of(draft)
+      this%is_good = draft%cards(draft%k)%is_good
+      call slot(draft, 'from', unit, plan%from, default=0.0_wp)
+      call slot(draft, 'to', unit, plan%to, default=0.0_wp)
+      call slot(draft, 'offset', draft%units%length, plan%offset, default=0.0_wp)
+      this%from = from*unit
+      this%to = to*unit
+      draft%plan%cases = [draft%plan%cases, plan]
+      draft%cards(draft%k)%index = size(draft%plan%cases)
 
    contains
 
       subroutine require(key)
          character(*), intent(in) :: key
-         if (.not. has_key(deck, k, key)) call complain(draft, deck, k, '', quoted(key)//' is missing')
+         if (.not. has_key(draft, key)) call complain(draft, '', quoted(key)//' is missing')
       end subroutine require
 
       !> target = 'column=value', the value in the unit of the column.
       subroutine read_target()
          type(value_t) :: value
-         character(:), allocatable :: hint
+         character(:), allocatable :: hint, words
          integer :: equals
 
-         cases(used)%target = trim(words%target)
-         if (words%target == '') return
-         equals = index(words%target, '=')
-         value%text = trim(adjustl(words%target(equals + 1:)))
+         words = text_of(draft, 'target')
+         this%target = words
+         if (words == '') return
+         equals = index(words, '=')
+         value%text = trim(adjustl(words(equals + 1:)))
          value%is_empty = value%text == ''
-         if (equals == 0 .or. words%target(:max(equals - 1, 0)) == '' .or. value_fault(value, number) /= '') then
+         if (equals == 0 .or. words(:max(equals - 1, 0)) == '' .or. value_fault(value, number) /= '') then
             hint = ''
             if (index(value%text, ',') > 0) hint = ' (write the number with a decimal point)'
-            call complain(draft, deck, k, 'target', &
-               "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words%target)//hint)
-         else if (words%method /= '' .and. lower(words%method) /= 'equilibrium') then
-            call complain(draft, deck, k, 'target', "target: only method = 'equilibrium' can search for one, found "// &
-               quoted(words%method))
+            call complain(draft, 'target', &
+               "target: expected 'column=value', as in 'coil_length_mm=250', found "//quoted(words)//hint)
+         else if (this%method /= 'equilibrium') then
+            call complain(draft, 'target', "target: only method = 'equilibrium' can search for one, found "// &
+               quoted(text_of(draft, 'method')))
          end if
       end subroutine read_target
 
@@ -118,92 +109,97 @@ contains
       subroutine read_follow()
          integer :: c
 
-         call choice(draft, deck, k, 'follow', trim(words%follow), follow_names, c)
-         cases(used)%follows_arc = c == 2
+         call choice(draft, 'follow', follow_names, c)
+         this%follows_arc = c == 2
          if (c /= 2) return
-         if (words%test == 'table') then
-            call complain(draft, deck, k, 'follow', &
-               "follow = 'arc' is not allowed in test 'table': each row of the table is one state")
-         else if (words%target /= '') then
-            call complain(draft, deck, k, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
+         if (this%test == 'table') then
+            call complain(draft, 'follow', "follow = 'arc' is not allowed in test 'table': each row of the table is one state")
+         else if (this%target /= '') then
+            call complain(draft, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
                'passes the same factor more than once')
          end if
-         if (lower(words%method) /= 'equilibrium') call complain(draft, deck, k, 'follow', &
-            "follow = 'arc' needs method = 'equilibrium', found "//quoted(words%method))
+         if (this%method /= 'equilibrium') call complain(draft, 'follow', &
+            "follow = 'arc' needs method = 'equilibrium', found "//quoted(text_of(draft, 'method')))
       end subroutine read_follow
 
-   end subroutine read_cases
+   end subroutine read_case
 
    !> The target of a case has its own file, <case>_target: no other case may have this name.
-   subroutine refuse_one_file_for_two(deck, draft, cases, records)
-      type(deck_t), intent(in) :: deck
+   subroutine refuse_one_file_for_two(draft, cases)
       type(draft_t), intent(inout) :: draft
       type(case_t), intent(in) :: cases(:)
-      integer, intent(in) :: records(:)      !! records of the cases
-      integer :: a, b
+      integer :: a, b, k
 
       do a = 1, size(cases)
          if (cases(a)%target == '') cycle
          do b = 1, size(cases)
             if (lower(cases(b)%name) /= lower(cases(a)%name)//'_target') cycle
-            call complain(draft, deck, records(b), 'name', &
-               'the results of this case would have the same file as the target of case '// &
-               quoted(cases(a)%name)//' in '//line_of(deck, records(a), records(b)))
+            draft%k = record_of(b)
+            k = record_of(a)
+            call complain(draft, 'name', 'the results of this case would have the same file as the target of case '// &
+               quoted(cases(a)%name)//' in '//line_of(draft, k))
          end do
       end do
+
+   contains
+
+      !> The record of a case.
+      pure integer function record_of(case)
+         integer, intent(in) :: case
+         do record_of = 1, size(draft%cards)
+            if (draft%cards(record_of)%group == case_group .and. draft%cards(record_of)%index == case) return
+         end do
+      end function record_of
+
    end subroutine refuse_one_file_for_two
 
    !> A case that scales loads or drives a joint directly.
-   subroutine read_drive(deck, k, draft, words, this, factor)
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
+   subroutine read_drive(draft, this, unit)
       type(draft_t), intent(inout) :: draft
-      type(words_t), intent(inout) :: words
       type(case_t), intent(inout) :: this
-      real(wp), intent(inout) :: factor      !! unit of from and to → SI
+      real(wp), intent(inout) :: unit      !! of from and to → SI
       character(8), parameter :: test_keys(4) = [character(8) :: 'vertical', 'phase', 'offset', 'file']
+      character(word_length) :: load(most_loads)
       integer :: j, loads, refused
 
-      if (has_key(deck, k, 'load') .and. has_key(deck, k, 'drive')) then
-         call complain(draft, deck, k, 'drive', 'give either load or drive, not both')
-      else if (.not. (has_key(deck, k, 'load') .or. has_key(deck, k, 'drive'))) then
-         call complain(draft, deck, k, '', "give 'load', 'drive' or 'test'")
+      if (has_key(draft, 'load') .and. has_key(draft, 'drive')) then
+         call complain(draft, 'drive', 'give either load or drive, not both')
+      else if (.not. (has_key(draft, 'load') .or. has_key(draft, 'drive'))) then
+         call complain(draft, '', "give 'load', 'drive' or 'test'")
       end if
       do j = 1, size(test_keys)
-         if (has_key(deck, k, trim(test_keys(j)))) call complain(draft, deck, k, trim(test_keys(j)), &
+         if (has_key(draft, trim(test_keys(j)))) call complain(draft, trim(test_keys(j)), &
             trim(test_keys(j))//": only a case with a 'test' takes this key")
       end do
-      loads = count(words%load /= '')
+      load = texts_of(draft, 'load', most_loads)
+      loads = count(load /= '')
       refused = 0
       do j = 1, loads
-         if (any(words%load(:j - 1) == words%load(j))) then
-            call complain(draft, deck, k, 'load', 'load '//quoted(words%load(j))//' is named twice')
+         if (any(load(:j - 1) == load(j))) then
+            call complain(draft, 'load', 'load '//quoted(load(j))//' is named twice')
             exit
          end if
-         call find_load(trim(words%load(j)))
+         call find_load(trim(load(j)))
       end do
-      this%load = trim(words%load(1))
+      this%load = trim(load(1))
       if (loads > 1) then
          allocate (this%courses(loads))
          do j = 1, loads
-            this%courses(j)%load = trim(words%load(j))
+            this%courses(j)%load = trim(load(j))
             this%courses(j)%drive = ''
-            if (j > 1) this%load = this%load//', '//trim(words%load(j))
+            if (j > 1) this%load = this%load//', '//trim(load(j))
          end do
       end if
-      if (words%drive /= '') then
-         if (lower(words%drive) == 'wheel_travel') then
-            words%drive = 'wheel_travel'
-            factor = draft%units%length
-            if (.not. any(draft%cards%group == wheel_group)) &
-               call complain(draft, deck, k, 'drive', "drive is 'wheel_travel', but there is no &wheel")
-         else
-            call find_driver(deck, k, draft, trim(words%drive), [character(12) :: 'wheel_travel'], factor)
-         end if
+      this%drive = text_of(draft, 'drive')
+      if (lower(this%drive) == 'wheel_travel') then
+         this%drive = 'wheel_travel'
+         unit = draft%units%length
+         if (.not. any(draft%cards%group == wheel_group)) &
+            call complain(draft, 'drive', "drive is 'wheel_travel', but there is no &wheel")
+      else if (this%drive /= '') then
+         call find_driver(draft, this%drive, [character(12) :: 'wheel_travel'], unit)
       end if
-      this%drive = trim(words%drive)
-      if (words%wheel /= '') call find_wheel(deck, k, draft, words, words%drive == 'wheel_travel', &
-         "with drive = 'wheel_travel'", this)
+      call find_wheel(draft, this%drive == 'wheel_travel', "with drive = 'wheel_travel'", this%wheel)
 
    contains
 
@@ -211,12 +207,12 @@ contains
          character(*), intent(in) :: name
          integer :: found
 
-         call look_up(draft, deck, k, 'load', load_group, name, found)
+         call look_up(draft, 'load', load_group, name, found)
          if (found == 0) return
          if (draft%cards(found)%is_used) return
          ! a load duplicated by &mirror is reported once
-         if (.not. (deck%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, deck, k, 'load', &
-            'load '//quoted(own_name(deck%records(found)))//' in '//line_of(deck, found, k)// &
+         if (.not. (draft%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, 'load', &
+            'load '//quoted(own_name(draft%records(found)))//' in '//line_of(draft, found)// &
             " is constant; a case scales loads with factor = 'case'")
          refused = found
       end subroutine find_load

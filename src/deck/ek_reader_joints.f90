@@ -2,292 +2,227 @@
 module ek_reader_joints
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
+   use ek_rotation, only: angle_between
    use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
-   use ek_joint, only: joint_geometry_t, joint_kinds, needs_axis, needs_second_axis
-   use ek_suspension, only: suspension_t, readout_t
+   use ek_joint, only: joint_geometry_t, joint_kinds, needs_axis, needs_second_axis, axes_fit
+   use ek_element, only: is_of_angle
+   use ek_suspension, only: readout_t
    use ek_builder, only: add_readout, add_joint, add_driver, add_coupler
-   use ek_group, only: measure_group, joint_group, word_length, most_measures
-   use ek_deck, only: deck_t
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, look_up, find_point, find_bodies, &
-      find_direction, angle_between
+   use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
+   use ek_group, only: measure_group, word_length, most_measures
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, numbers_of, value_count, &
+      slot, slots
+   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, new_vector, vector_at
    implicit none(type, external)
    private
-   public :: read_measures, read_joints
+   public :: read_measure, read_joint
 
    character(*), parameter :: measure_types(5) = [character(10) :: 'axes', 'gap', 'global_gap', 'distance', 'rotation']
    integer, parameter :: measure_kinds(5) = [axis_axis, body_gap, global_gap, distance, rotation]
-   real(wp), parameter :: angle_tolerance = 0.01_wp   !! deg, for axes that must be perpendicular or parallel
 
 contains
 
    !> &measure: a named scalar between two bodies.
-   subroutine read_measures(deck, draft, suspension)
-      type(deck_t), intent(in) :: deck
+   subroutine read_measure(draft)
       type(draft_t), intent(inout) :: draft
-      type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, type, bodies(2), at(2), axis(2), axis_2(2)
-      real(wp) :: axis_vector(3), axis_2_vector(3)
-      namelist /measure/ name, type, bodies, at, axis, axis_vector, axis_2, axis_2_vector
       type(readout_t) :: readout
-      real(wp) :: u(3), v(3), ends(3, 2)
+      type(readout_plan_t) :: plan
+      character(:), allocatable :: type
       logical :: has_bodies, has_points, has_u, has_v, is_set
-      integer :: k, kind, number(2), used, status
+      integer :: kind, number(2)
 
-      used = 0
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= measure_group) cycle
-         name = ''
-         type = ''
-         bodies = ''
-         at = ''
-         axis = ''
-         axis_2 = ''
-         axis_vector = 0.0_wp
-         axis_2_vector = 0.0_wp
-         read (draft%cards(k)%text, nml=measure, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
+      type = text_of(draft, 'type')
+      call choice(draft, 'type', measure_types, kind)
+      call find_bodies(draft, number, has_bodies)
+      call find_ends(draft, .true., plan%ends, has_points)
+      call find_direction(draft, 'axis', 'axis_vector', plan%u, has_u, is_set)
+      call find_direction(draft, 'axis_2', 'axis_2_vector', plan%v, has_v, is_set)
+      if (kind == 0) return
+      kind = measure_kinds(kind)
 
-         call choice(draft, deck, k, 'type', trim(type), measure_types, kind)
-         call find_bodies(draft, deck, k, bodies, number, has_bodies)
-         call find_points(draft, deck, k, at, ends, has_points)
-         call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, u, has_u, is_set)
-         call find_direction(draft, deck, k, 'axis_2', axis_2, 'axis_2_vector', axis_2_vector, v, has_v, is_set)
-         if (kind == 0) cycle
-         kind = measure_kinds(kind)
+      select case (kind)
+      case (distance, body_gap, global_gap)
+         if (.not. has_key(draft, 'at')) call complain(draft, '', "'at' is missing")
+         draft%cards(draft%k)%factor = draft%units%length
+      case default
+         call refuse(draft, 'at', 'a measure of type '//quoted(type)//' takes no points')
+         draft%cards(draft%k)%factor = merge(draft%units%angle, 1.0_wp, kind == rotation)
+      end select
+      if (kind == distance) then
+         call check_apart(draft, plan%ends, has_points, 'a distance')
+         call refuse(draft, 'axis', 'a distance takes no axis')
+         call refuse(draft, 'axis_vector', 'a distance takes no axis')
+      else if (.not. has_u) then
+         call complain(draft, '', "give 'axis' or 'axis_vector'")
+      end if
+      if (kind /= axis_axis) then
+         call refuse(draft, 'axis_2', 'only a measure of type '//quoted('axes')//' takes a second axis')
+         call refuse(draft, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' takes a second axis')
+      else if (.not. has_v) then
+         call complain(draft, '', "give 'axis_2' or 'axis_2_vector'")
+      end if
 
-         select case (kind)
-         case (distance, body_gap, global_gap)
-            if (.not. has_key(deck, k, 'at')) call complain(draft, deck, k, '', "'at' is missing")
-         case default
-            call refuse(draft, deck, k, 'at', 'a measure of type '//quoted(type)//' takes no points')
-         end select
-         if (kind == distance) call check_apart(draft, deck, k, at, ends, has_points, 'a distance')
-         if (kind == distance) then
-            call refuse(draft, deck, k, 'axis', 'a distance takes no axis')
-            call refuse(draft, deck, k, 'axis_vector', 'a distance takes no axis')
-         else if (.not. has_u) then
-            call complain(draft, deck, k, '', "give 'axis' or 'axis_vector'")
-         end if
-         if (kind /= axis_axis) then
-            call refuse(draft, deck, k, 'axis_2', 'only a measure of type '//quoted('axes')//' takes a second axis')
-            call refuse(draft, deck, k, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' takes a second axis')
-         else if (.not. has_v) then
-            call complain(draft, deck, k, '', "give 'axis_2' or 'axis_2_vector'")
-         end if
-
-         select case (kind)
-         case (rotation)
-            draft%cards(k)%factor = draft%units%angle
-         case (axis_axis)
-            draft%cards(k)%factor = 1.0_wp
-         case default
-            draft%cards(k)%factor = draft%units%length
-         end select
-         used = used + 1
-         draft%cards(k)%index = used
-         readout%name = trim(name)
-         readout%where = where_of(deck, k)
-         readout%measure%kind = kind
-         readout%measure%body_i = number(1)
-         readout%measure%body_j = number(2)
-         readout%measure%u = u
-         readout%measure%v = v
-         readout%measure%arm_i = ends(:, 1)
-         readout%measure%arm_j = ends(:, 2)
-         call add_readout(suspension, readout)
-      end do
-   end subroutine read_measures
+      plan%u = max(plan%u, upright)
+      plan%v = max(plan%v, upright)
+      readout%name = text_of(draft, 'name')
+      readout%where = where_of(draft)
+      readout%measure%kind = kind
+      readout%measure%body_i = number(1)
+      readout%measure%body_j = number(2)
+      draft%plan%readouts = [draft%plan%readouts, plan]
+      draft%cards(draft%k)%index = size(draft%plan%readouts)
+      call add_readout(draft%plan%prototype, readout)
+   end subroutine read_measure
 
    !> &joint.
-   subroutine read_joints(deck, draft, suspension)
-      type(deck_t), intent(in) :: deck
+   subroutine read_joint(draft)
       type(draft_t), intent(inout) :: draft
-      type(suspension_t), intent(inout) :: suspension
-      character(word_length) :: name, type, bodies(2), at(2), axis(2), axis_2(2), measure, measures(most_measures)
-      real(wp) :: axis_vector(3), axis_2_vector(3), ratios(most_measures), stiffness
-      namelist /joint/ name, type, bodies, at, axis, axis_vector, axis_2, axis_2_vector, measure, measures, ratios, &
-         stiffness, balance
-      logical :: balance
-      character(:), allocatable :: kind
-      integer :: k, number, status
+      integer :: number, bodies(2)
+      logical :: is_found
 
-      do k = 1, deck%used
-         if (draft%cards(k)%group /= joint_group) cycle
-         name = ''
-         type = ''
-         bodies = ''
-         at = ''
-         axis = ''
-         axis_2 = ''
-         measure = ''
-         measures = ''
-         axis_vector = 0.0_wp
-         axis_2_vector = 0.0_wp
-         ratios = 0.0_wp
-         stiffness = 1.0_wp
-         balance = .true.
-         read (draft%cards(k)%text, nml=joint, iostat=status)
-         if (status /= 0) call complain(draft, deck, k, '', 'cannot be read')
-         call choice(draft, deck, k, 'type', trim(type), joint_kinds, number)
-         if (number == 0) then
-            call mark_bodies()
-            cycle
-         end if
-         kind = trim(joint_kinds(number))
-         call check_keys(draft, deck, k, kind)
-         select case (kind)
-         case ('driver')
-            call make_driver()
-         case ('coupler')
-            call make_coupler()
-         case default
-            call make_joint()
-         end select
+      call choice(draft, 'type', joint_kinds, number)
+      if (number == 0) then
+         ! bodies of a joint of unknown type count as attached: no second message about them
+         call find_bodies(draft, bodies, is_found)
+         return
+      end if
+      call check_keys(draft, trim(joint_kinds(number)))
+      select case (joint_kinds(number))
+      case ('driver')
+         call make_driver(draft)
+      case ('coupler')
+         call make_coupler(draft)
+      case default
+         call make_joint(draft, trim(joint_kinds(number)))
+      end select
+   end subroutine read_joint
+
+   !> A joint that is defined by points and axes.
+   subroutine make_joint(draft, kind)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: kind
+      type(joint_geometry_t) :: geometry
+      type(joint_plan_t) :: plan
+      integer :: numbers(2)
+      logical :: has_bodies, has_points, has_u, has_v, is_u, is_v
+
+      call find_bodies(draft, numbers, has_bodies)
+      call find_ends(draft, .true., plan%ends, has_points)
+      select case (kind)
+      case ('distance')
+         call check_apart(draft, plan%ends, has_points, 'a distance joint')
+      case ('in_plane', 'in_line')
+         continue
+      case default
+         if (value_count(draft, 'at') > 1) call complain(draft, 'at', 'at: a '//kind//' joint has one point, found two')
+      end select
+      call find_direction(draft, 'axis', 'axis_vector', plan%axes(1), has_u, is_u)
+      call find_direction(draft, 'axis_2', 'axis_2_vector', plan%axes(2), has_v, is_v)
+      if (is_u .and. is_v) call check_axes(draft, kind, plan%axes)
+      if (.not. draft%cards(draft%k)%is_good .or. .not. has_bodies) return
+      if (kind == 'universal') then
+         if (.not. has_v) call new_vector(draft, vector_t(kind=across, a=plan%axes(1)), plan%axes(2))
+         if (.not. has_u) call new_vector(draft, vector_t(kind=across, a=plan%axes(2)), plan%axes(1))
+      else
+         plan%axes(1) = max(plan%axes(1), upright)
+         if (.not. has_v) plan%axes(2) = plan%axes(1)
+      end if
+      geometry%body_i = numbers(1)
+      geometry%body_j = numbers(2)
+      geometry%point_i = vector_at(draft, plan%ends(1))
+      geometry%point_j = vector_at(draft, plan%ends(2))
+      geometry%axis_i = vector_at(draft, plan%axes(1))
+      geometry%axis_j = vector_at(draft, plan%axes(2))
+      draft%plan%joints = [draft%plan%joints, plan]
+      call add_joint(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), kind, geometry)
+      if (kind /= 'universal') return
+      associate (joint => draft%plan%prototype%joints(size(draft%plan%joints)))
+         if (.not. has_u) joint%chosen_axis = 1
+         if (.not. has_v) joint%chosen_axis = 2
+      end associate
+   end subroutine make_joint
+
+   !> Reports axes that do not suit the joint.
+   subroutine check_axes(draft, kind, axes)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: kind
+      integer, intent(in) :: axes(2)       !! vectors
+      real(wp) :: angle
+
+      if (axes_fit(kind, vector_at(draft, axes(1)), vector_at(draft, axes(2)))) return
+      angle = angle_between(vector_at(draft, axes(1)), vector_at(draft, axes(2)))
+      select case (kind)
+      case ('universal', 'perpendicular')
+         call complain(draft, '', 'axis and axis_2 must be at 90 deg to each other, found '//str(angle)//' deg')
+      case ('parallel')
+         call complain(draft, '', 'axis and axis_2 must be parallel, found '//str(angle)//' deg between them')
+      case ('constant_velocity')
+         call complain(draft, '', 'axis and axis_2 point in opposite directions; reverse one of them')
+      end select
+   end subroutine check_axes
+
+   !> Stiffness: force/length, or moment/angle where the measure is an angle.
+   subroutine make_driver(draft)
+      type(draft_t), intent(inout) :: draft
+      type(joint_plan_t) :: plan
+      real(wp) :: reaction_unit, place_unit
+      integer :: found, readout
+
+      call look_up(draft, 'measure', measure_group, text_of(draft, 'measure'), found)
+      if (found == 0) return
+      place_unit = draft%cards(found)%factor
+      draft%cards(draft%k)%factor = place_unit
+      readout = draft%cards(found)%index
+      if (.not. draft%cards(draft%k)%is_good .or. readout == 0) return
+      plan%readouts = [readout]
+      plan%units = [place_unit]
+      if (.not. has_key(draft, 'stiffness')) then
+         if (has_key(draft, 'balance')) call complain(draft, 'balance', &
+            'balance: only a driver with a stiffness takes this key')
+         call add_driver(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), readout)
+      else
+         reaction_unit = draft%units%force
+         if (is_of_angle(draft%plan%prototype%readouts(readout)%measure%kind)) reaction_unit = reaction_unit*draft%units%length
+         call slot(draft, 'stiffness', reaction_unit, plan%stiffness)
+         call add_driver(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), readout, 1.0_wp)
+         associate (joint => draft%plan%prototype%joints(size(draft%plan%prototype%joints)))
+            joint%says_balance = has_key(draft, 'balance')
+            joint%is_balanced = switch_of(draft, 'balance', .true.)
+         end associate
+      end if
+      draft%plan%joints = [draft%plan%joints, plan]
+   end subroutine make_driver
+
+   !> Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
+   subroutine make_coupler(draft)
+      type(draft_t), intent(inout) :: draft
+      type(joint_plan_t) :: plan
+      character(word_length) :: measures(most_measures)
+      integer :: found(most_measures), given, first, j
+
+      measures = texts_of(draft, 'measures', most_measures)
+      given = count(measures /= '')
+      if (given == 0) return
+      do j = 1, given
+         call look_up(draft, 'measures', measure_group, trim(measures(j)), found(j))
       end do
-
-   contains
-
-      !> Bodies of a joint of unknown type count as attached: no second message about them.
-      subroutine mark_bodies()
-         integer :: numbers(2)
-         logical :: is_found
-         call find_bodies(draft, deck, k, bodies, numbers, is_found)
-      end subroutine mark_bodies
-
-      subroutine make_joint()
-         type(joint_geometry_t) :: geometry
-         real(wp) :: ends(3, 2), angle
-         integer :: numbers(2)
-         logical :: has_bodies, has_points, has_u, has_v, is_u, is_v
-
-         call find_bodies(draft, deck, k, bodies, numbers, has_bodies)
-         call find_points(draft, deck, k, at, ends, has_points)
-         select case (kind)
-         case ('distance')
-            call check_apart(draft, deck, k, at, ends, has_points, 'a distance joint')
-         case ('in_plane', 'in_line')
-            continue
-         case default
-            if (at(2) /= '') call complain(draft, deck, k, 'at', 'at: a '//kind//' joint has one point, found two')
-         end select
-         call find_direction(draft, deck, k, 'axis', axis, 'axis_vector', axis_vector, geometry%axis_i, has_u, is_u)
-         call find_direction(draft, deck, k, 'axis_2', axis_2, 'axis_2_vector', axis_2_vector, geometry%axis_j, has_v, is_v)
-         if (kind == 'universal') then
-            if (is_u .and. .not. has_v) geometry%axis_j = across(geometry%axis_i)
-            if (is_v .and. .not. has_u) geometry%axis_i = across(geometry%axis_j)
-         else if (.not. has_v) then
-            geometry%axis_j = geometry%axis_i
-         end if
-         if (is_u .and. is_v) then
-            angle = angle_between(geometry%axis_i, geometry%axis_j)
-            select case (kind)
-            case ('universal', 'perpendicular')
-               if (abs(angle - 90.0_wp) > angle_tolerance) call complain(draft, deck, k, '', &
-                  'axis and axis_2 must be at 90 deg to each other, found '//str(angle)//' deg')
-            case ('parallel')
-               if (min(angle, 180.0_wp - angle) > angle_tolerance) call complain(draft, deck, k, '', &
-                  'axis and axis_2 must be parallel, found '//str(angle)//' deg between them')
-            case ('constant_velocity')
-               if (angle > 179.0_wp) call complain(draft, deck, k, '', &
-                  'axis and axis_2 point in opposite directions; reverse one of them')
-            end select
-         end if
-         if (.not. draft%cards(k)%is_good .or. .not. has_bodies) return
-         geometry%body_i = numbers(1)
-         geometry%body_j = numbers(2)
-         geometry%point_i = ends(:, 1)
-         geometry%point_j = ends(:, 2)
-         call add_joint(suspension, trim(name), where_of(deck, k), kind, geometry)
-         if (kind /= 'universal') return
-         associate (joint => suspension%joints(size(suspension%joints)))
-            joint%axis(:, 1) = geometry%axis_i
-            joint%axis(:, 2) = geometry%axis_j
-            if (.not. has_u) joint%chosen_axis = 1
-            if (.not. has_v) joint%chosen_axis = 2
-         end associate
-      end subroutine make_joint
-
-      !> Stiffness: force/length, or moment/angle where the measure is an angle.
-      subroutine make_driver()
-         real(wp) :: reaction_unit
-         integer :: found
-
-         call look_up(draft, deck, k, 'measure', measure_group, trim(measure), found)
-         if (found == 0) return
-         draft%cards(k)%factor = draft%cards(found)%factor
-         if (.not. stiffness > 0.0_wp) &
-            call complain(draft, deck, k, 'stiffness', 'stiffness must be above 0, found '//str(stiffness))
-         associate (readout => draft%cards(found)%index)
-            if (.not. draft%cards(k)%is_good .or. readout == 0) return
-            if (.not. has_key(deck, k, 'stiffness')) then
-               if (has_key(deck, k, 'balance')) call complain(draft, deck, k, 'balance', &
-                  'balance: only a driver with a stiffness takes this key')
-               call add_driver(suspension, trim(name), where_of(deck, k), readout)
-               return
-            end if
-            reaction_unit = draft%units%force
-            if (any(suspension%readouts(readout)%measure%kind == [axis_axis, rotation])) &
-               reaction_unit = reaction_unit*draft%units%length
-            call add_driver(suspension, trim(name), where_of(deck, k), readout, &
-               stiffness*reaction_unit/draft%cards(found)%factor)
-            suspension%joints(size(suspension%joints))%says_balance = has_key(deck, k, 'balance')
-            suspension%joints(size(suspension%joints))%is_balanced = balance
-         end associate
-      end subroutine make_driver
-
-      !> Σ ratio × value is constrained in deck units; the row is scaled so that the first ratio is unchanged.
-      subroutine make_coupler()
-         integer :: found(most_measures), readouts(most_measures), given, j
-         real(wp) :: scaled(most_measures)
-
-         given = count(measures /= '')
-         if (given == 0) return
-         do j = 1, given
-            call look_up(draft, deck, k, 'measures', measure_group, trim(measures(j)), found(j))
-         end do
-         if (.not. draft%cards(k)%is_good) return
-         if (ratio_count() /= given) then
-            call complain(draft, deck, k, 'ratios', 'ratios needs one value for each of the '//str(given)// &
-               ' measures, found '//str(ratio_count()))
-         else if (any(abs(ratios(:given)) <= 0.0_wp)) then
-            call complain(draft, deck, k, 'ratios', 'ratios must not be zero')
-         end if
-         if (.not. draft%cards(k)%is_good .or. any(found(:given) == 0)) return
-         do j = 1, given
-            readouts(j) = draft%cards(found(j))%index
-            if (readouts(j) == 0) return      ! a measure that was rejected
-            scaled(j) = ratios(j)*draft%cards(found(1))%factor/draft%cards(found(j))%factor
-         end do
-         call add_coupler(suspension, trim(name), where_of(deck, k), readouts(:given), scaled(:given))
-      end subroutine make_coupler
-
-      integer function ratio_count()
-         integer :: e
-         ratio_count = 0
-         do e = 1, deck%records(k)%used
-            if (deck%records(k)%entries(e)%key == 'ratios') ratio_count = ratio_count + deck%records(k)%entries(e)%used
-         end do
-      end function ratio_count
-
-   end subroutine read_joints
-
-   !> The axis of a universal joint that is not given: horizontal and perpendicular to the given one; longitudinal if that one is
-   !> vertical. On a mirrored axle it is symmetric.
-   pure function across(axis) result(chosen)
-      real(wp), intent(in) :: axis(3)                 !! unit
-      real(wp) :: chosen(3)
-      real(wp), parameter :: upright = 1.0e-3_wp      ! sine of the angle to the vertical: below it, longitudinal
-
-      chosen = [-axis(2), axis(1), 0.0_wp]
-      if (norm2(chosen) < upright) chosen = [1.0_wp, 0.0_wp, 0.0_wp] - axis(1)*axis
-      chosen = chosen/norm2(chosen)
-   end function across
+      if (.not. draft%cards(draft%k)%is_good) return
+      if (value_count(draft, 'ratios') /= given) call complain(draft, 'ratios', 'ratios needs one value for each of the '// &
+         str(given)//' measures, found '//str(value_count(draft, 'ratios')))
+      if (.not. draft%cards(draft%k)%is_good .or. any(found(:given) == 0)) return
+      plan%readouts = draft%cards(found(:given))%index
+      if (any(plan%readouts == 0)) return      ! a measure that was rejected
+      plan%units = draft%cards(found(:given))%factor
+      call slots(draft, 'ratios', given, 1.0_wp, first)
+      plan%ratios = [(first + j - 1, j=1, given)]
+      call add_coupler(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), plan%readouts, &
+         numbers_of(draft, 'ratios', given))
+      draft%plan%joints = [draft%plan%joints, plan]
+   end subroutine make_coupler
 
    !> Checks which keys a type of joint requires and which it does not take.
-   subroutine check_keys(draft, deck, k, kind)
+   subroutine check_keys(draft, kind)
       type(draft_t), intent(inout) :: draft
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
       character(*), intent(in) :: kind
       character(*), parameter :: joint_keys(11) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
          'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance']
@@ -307,61 +242,42 @@ contains
       must(3:6) = .false.
       must(10:11) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(draft, deck, k, trim(joint_keys(j)), 'a '//kind//' joint does not take this key')
-         if (must(j) .and. .not. has_key(deck, k, trim(joint_keys(j)))) &
-            call complain(draft, deck, k, '', quoted(joint_keys(j))//' is missing')
+         if (.not. may(j)) call refuse(draft, trim(joint_keys(j)), 'a '//kind//' joint does not take this key')
+         if (must(j) .and. .not. has_key(draft, trim(joint_keys(j)))) &
+            call complain(draft, '', quoted(joint_keys(j))//' is missing')
       end do
       if (kind == 'universal') then
-         if (.not. any([has_key(deck, k, 'axis'), has_key(deck, k, 'axis_vector'), has_key(deck, k, 'axis_2'), &
-            has_key(deck, k, 'axis_2_vector')])) call complain(draft, deck, k, '', &
+         if (.not. any([has_key(draft, 'axis'), has_key(draft, 'axis_vector'), has_key(draft, 'axis_2'), &
+            has_key(draft, 'axis_2_vector')])) call complain(draft, '', &
             "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
          return
       end if
-      if (needs_axis(kind) .and. .not. (has_key(deck, k, 'axis') .or. has_key(deck, k, 'axis_vector'))) &
-         call complain(draft, deck, k, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
-      if (needs_second_axis(kind) .and. .not. (has_key(deck, k, 'axis_2') .or. has_key(deck, k, 'axis_2_vector'))) &
-         call complain(draft, deck, k, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
+      if (needs_axis(kind) .and. .not. (has_key(draft, 'axis') .or. has_key(draft, 'axis_vector'))) &
+         call complain(draft, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
+      if (needs_second_axis(kind) .and. .not. (has_key(draft, 'axis_2') .or. has_key(draft, 'axis_2_vector'))) &
+         call complain(draft, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
    end subroutine check_keys
 
    !> Rejects a key that has no meaning here.
-   subroutine refuse(draft, deck, k, key, why)
+   subroutine refuse(draft, key, why)
       type(draft_t), intent(inout) :: draft
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
       character(*), intent(in) :: key, why
-      if (has_key(deck, k, key)) call complain(draft, deck, k, key, key//': '//why)
+      if (has_key(draft, key)) call complain(draft, key, key//': '//why)
    end subroutine refuse
 
-   !> One or two points; with one point, the second equals the first.
-   subroutine find_points(draft, deck, k, at, ends, is_found)
-      type(draft_t), intent(inout) :: draft
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
-      character(*), intent(in) :: at(2)
-      real(wp), intent(out) :: ends(3, 2)   !! m, x rearward
-      logical, intent(out) :: is_found
-      logical :: is_there
-
-      call find_point(draft, deck, k, 'at', trim(at(1)), ends(:, 1), is_found)
-      ends(:, 2) = ends(:, 1)
-      if (at(2) == '') return
-      call find_point(draft, deck, k, 'at', trim(at(2)), ends(:, 2), is_there)
-      is_found = is_found .and. is_there
-   end subroutine find_points
-
    !> Checks that two distinct points are given.
-   subroutine check_apart(draft, deck, k, at, ends, is_found, what)
+   subroutine check_apart(draft, ends, is_found, what)
       type(draft_t), intent(inout) :: draft
-      type(deck_t), intent(in) :: deck
-      integer, intent(in) :: k
-      character(*), intent(in) :: at(2), what
-      real(wp), intent(in) :: ends(3, 2)
+      integer, intent(in) :: ends(2)       !! vectors
       logical, intent(in) :: is_found
+      character(*), intent(in) :: what
+      character(word_length) :: at(2)
 
+      at = texts_of(draft, 'at', 2)
       if (at(1) /= '' .and. at(2) == '') then
-         call complain(draft, deck, k, 'at', 'at: '//what//' needs two points, found one')
-      else if (is_found .and. .not. norm2(ends(:, 2) - ends(:, 1)) > 0.0_wp) then
-         call complain(draft, deck, k, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+         call complain(draft, 'at', 'at: '//what//' needs two points, found one')
+      else if (is_found .and. .not. norm2(vector_at(draft, ends(2)) - vector_at(draft, ends(1))) > 0.0_wp) then
+         call complain(draft, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
       end if
    end subroutine check_apart
 

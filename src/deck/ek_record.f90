@@ -22,6 +22,7 @@ module ek_record
       integer :: first = 1                !! subscript of the first value
       integer :: line = 0
       character(:), allocatable :: setting   !! 'path=value' if it came from --set
+      logical :: is_bad = .false.         !! rejected by check_record
       integer :: used = 0
       type(value_t), allocatable :: values(:)
    end type entry_t
@@ -87,6 +88,7 @@ contains
 
       to%first = from%first
       to%line = from%line
+      to%is_bad = from%is_bad
       to%used = from%used
       call move_alloc(from%key, to%key)
       call move_alloc(from%setting, to%setting)
@@ -174,6 +176,7 @@ contains
 
       name = element(record, 'name', 1)
       if (record%twin == single) return
+      if (record%group == 'wheel' .and. name == 'right') name = 'left'      ! the wheel of the half deck has the name of its side
       if (index(name, trim(twin_prefix(record%twin))) == 1) name = name(len_trim(twin_prefix(record%twin)) + 1:)
    end function own_name
 

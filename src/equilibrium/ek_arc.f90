@@ -88,8 +88,8 @@ contains
       self%other = self%state
       self%range = range
       self%size = length
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%measure%kind == distance) self%size = max(self%size, suspension%springs(k)%design_length)
+      do k = 1, size(suspension%elements)
+         if (suspension%elements(k)%measure%kind == distance) self%size = max(self%size, suspension%elements(k)%design_length)
       end do
       self%tolerance = tolerance
       do k = 1, size(suspension%loads)

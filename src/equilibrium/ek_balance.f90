@@ -9,22 +9,26 @@
 !> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Others (a rack, a steering
 !> column) take part.
 module ek_balance
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
-   use ek_spring, only: axial_spring, spring_t
+   use ek_element, only: axial_spring, element_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
    use ek_reach, only: settle, failure_t
-   use ek_lapack, only: dgelsd
+   use ek_singular_values, only: singular_values_t, decompose, least_norm
    implicit none(type, external)
    private
    public :: balance, balance_words, takes_part
+
+   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
+   character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
 
 contains
 
@@ -43,9 +47,9 @@ contains
    end subroutine balance
 
    !> Whether balance may change the preload of an element.
-   elemental logical function is_free(spring)
-      type(spring_t), intent(in) :: spring
-      is_free = spring%kind == axial_spring .and. spring%is_balanced
+   elemental logical function is_free(element)
+      type(element_t), intent(in) :: element
+      is_free = element%kind == axial_spring .and. element%is_balanced
    end function is_free
 
    !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel
@@ -85,7 +89,7 @@ contains
             end associate
          end do
       case ('spring')
-         springs = count(is_free(suspension%springs))
+         springs = count(is_free(suspension%elements))
          if (springs > size(suspension%wheels)) call words%add('balance: '//str(springs)//' springs are balanced for '// &
             plural(size(suspension%wheels), 'wheel', 'wheels')//', so their preloads are not unique; the smallest change of '// &
             'them is used. Springs in series carry one force: set balance = .false. in the &spring that is to keep its preload')
@@ -120,7 +124,7 @@ contains
       real(wp) :: height(size(suspension%wheels))
       integer :: w, iteration
 
-      if (.not. any(is_free(suspension%springs)) .or. size(suspension%wheels) == 0) then
+      if (.not. any(is_free(suspension%elements)) .or. size(suspension%wheels) == 0) then
          call fail(error, exit_model, "balance = 'spring' needs a spring and a wheel")
          return
       end if
@@ -133,7 +137,8 @@ contains
          do w = 1, size(height)
             height(w) = rise(suspension, state, w, kkt%rhs)
          end do
-         call lower_by(height, suspension, state, kkt)
+         call lower_by(height, suspension, state, kkt, error)
+         if (allocated(error)) return
       end if
       do iteration = 1, 30
          state = design_state(suspension)
@@ -152,27 +157,34 @@ contains
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
          call assemble(suspension, state, demand_t(), whole_tangent, kkt)
          call factorise(kkt)
-         call lower_by(height, suspension, state, kkt)
+         call lower_by(height, suspension, state, kkt, error)
+         if (allocated(error)) return
       end do
       call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; "// &
          'the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm')
    end subroutine balance_springs
 
    !> Changes the spring preloads so that, according to the tangent at a state, the wheels move down by `height`.
-   subroutine lower_by(height, suspension, state, kkt)
+   subroutine lower_by(height, suspension, state, kkt, error)
       real(wp), intent(in) :: height(:)                    !! per wheel [m]
       type(suspension_t), intent(inout) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
+      type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the tangent is singular
+      type(singular_values_t) :: parts
       type(view_t) :: view
-      real(wp) :: slope(size(suspension%wheels), size(suspension%springs))
-      real(wp) :: change(size(suspension%springs))         ! per spring; 0 for other elements
+      real(wp) :: slope(size(suspension%wheels), suspension%scalars)
+      real(wp) :: change(suspension%scalars)         ! per spring; 0 for other elements
       integer :: s, w, at
 
+      if (kkt%is_singular) then
+         call fail(error, exit_convergence, "balance = 'spring': the matrix is singular where the suspension settles")
+         return
+      end if
       slope = 0.0_wp
       do s = 1, size(change)
-         if (.not. is_free(suspension%springs(s))) cycle
-         associate (m => suspension%springs(s)%measure)
+         if (.not. is_free(suspension%elements(s))) cycle
+         associate (m => suspension%elements(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             kkt%rhs = 0.0_wp     ! a unit preload pushes the ends apart
             at = 6*(m%body_i - 1)
@@ -185,9 +197,14 @@ contains
             slope(w, s) = rise(suspension, state, w, kkt%rhs)
          end do
       end do
-      call least_norm(slope, -height, change)
+      call decompose(slope, rank_share, parts)
+      if (.not. parts%is_found) then
+         call fail(error, exit_convergence, "balance = 'spring': "//not_finite)
+         return
+      end if
+      call least_norm(parts, -height, change)
       do s = 1, size(change)
-         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = suspension%springs(s)%preload + change(s)
+         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = suspension%elements(s)%preload + change(s)
       end do
    end subroutine lower_by
 
@@ -212,36 +229,37 @@ contains
       type(kkt_t) :: kkt
       type(state_t) :: state
       type(view_t) :: view
-      real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), projector(:, :)
+      type(singular_values_t) :: carried, held
+      real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), uncarried(:, :)
       real(wp), allocatable :: root(:), column(:)
       integer :: b, k, s, at, t, nx, ny
 
-      do s = 1, size(suspension%springs)
-         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = 0.0_wp
+      do s = 1, suspension%scalars
+         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = 0.0_wp
       end do
-      do b = 1, size(suspension%bushings)
-         suspension%bushings(b)%preload_force = 0.0_wp
-         suspension%bushings(b)%preload_moment = 0.0_wp
-         call set_bushing_axes(suspension%bushings(b))
+      do b = 1, size(suspension%elements) - suspension%scalars
+         suspension%elements(suspension%scalars + b)%bushing%preload_force = 0.0_wp
+         suspension%elements(suspension%scalars + b)%bushing%preload_moment = 0.0_wp
+         call set_bushing_axes(suspension%elements(suspension%scalars + b)%bushing)
       end do
       kkt = new_kkt(suspension)
       state = design_state(suspension)
       call assemble(suspension, state, demand_t(), residual_only, kkt)
       allocate (load(kkt%nq), remainder(kkt%nq))
       load = kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
-      nx = 6*size(suspension%bushings)
-      ny = size(suspension%springs) + kkt%nc
+      nx = 6*(size(suspension%elements) - suspension%scalars)
+      ny = suspension%scalars + kkt%nc
       allocate (weighted(kkt%nq, nx), free(kkt%nq, ny), root(nx), column(kkt%nq), source=0.0_wp)
-      do b = 1, size(suspension%bushings)
-         root(6*b - 5:6*b) = sqrt(max(design_rates(suspension%bushings(b)), 0.0_wp))
+      do b = 1, size(suspension%elements) - suspension%scalars
+         root(6*b - 5:6*b) = sqrt(max(design_rates(suspension%elements(suspension%scalars + b)%bushing), 0.0_wp))
          do k = 1, 6
             call bushing_column(suspension, b, k, column)
             weighted(:, 6*(b - 1) + k) = column*root(6*(b - 1) + k)*kkt%scale(:kkt%nq)
          end do
       end do
-      do s = 1, size(suspension%springs)
-         if (.not. is_free(suspension%springs(s))) cycle
-         associate (m => suspension%springs(s)%measure)
+      do s = 1, suspension%scalars
+         if (.not. is_free(suspension%elements(s))) cycle
+         associate (m => suspension%elements(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)
             if (at >= 0) free(at + 1:at + 6, s) = view%gradient(1:6)
@@ -252,7 +270,7 @@ contains
       do k = 1, kkt%nc
          if (.not. takes_part(suspension, k)) cycle
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
-            associate (m => suspension%terms(t)%measure, c => size(suspension%springs) + k)
+            associate (m => suspension%terms(t)%measure, c => suspension%scalars + k)
                at = 6*(m%body_i - 1)
                if (at >= 0) free(at + 1:at + 6, c) = free(at + 1:at + 6, c) - kkt%gradients(1:6, t)
                at = 6*(m%body_j - 1)
@@ -266,27 +284,33 @@ contains
 
       ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
       ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
-      allocate (x(nx), y(ny), projector(kkt%nq, kkt%nq))
-      call complement(free, projector)
-      call least_norm(matmul(projector, weighted), -matmul(projector, load), x, norm2(weighted))
+      call decompose(free, rank_share, carried)
+      allocate (uncarried, source=transpose(carried%left(:, carried%rank + 1:)))
+      call decompose(matmul(uncarried, weighted), rank_share, held, whole=norm2(weighted))
+      if (.not. (carried%is_found .and. held%is_found .and. all(ieee_is_finite(load)))) then
+         call fail(error, exit_model, "balance = 'all': "//not_finite)
+         return
+      end if
+      allocate (x(nx), y(ny))
+      call least_norm(held, -matmul(uncarried, load), x)
       remainder = -load - matmul(weighted, x)
-      call least_norm(free, remainder, y)
+      call least_norm(carried, remainder, y)
       remainder = remainder - matmul(free, y)
-      if (norm2(remainder) > 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
+      if (.not. norm2(remainder) <= 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
          call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
             kept_out(suspension))
          return
       end if
-      do s = 1, size(suspension%springs)
-         if (is_free(suspension%springs(s))) suspension%springs(s)%preload = y(s)
+      do s = 1, suspension%scalars
+         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = y(s)
       end do
       do k = 1, kkt%nc      ! the prescribed value of a driver with a stiffness compensates its deflection
-         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(size(suspension%springs) + k)
+         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(suspension%scalars + k)
       end do
-      do b = 1, size(suspension%bushings)
-         suspension%bushings(b)%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
-         suspension%bushings(b)%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
-         call set_bushing_axes(suspension%bushings(b))
+      do b = 1, size(suspension%elements) - suspension%scalars
+         suspension%elements(suspension%scalars + b)%bushing%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
+         suspension%elements(suspension%scalars + b)%bushing%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
+         call set_bushing_axes(suspension%elements(suspension%scalars + b)%bushing)
       end do
    end subroutine balance_all
 
@@ -299,7 +323,7 @@ contains
       integer :: at
 
       column = 0.0_wp
-      associate (bushing => suspension%bushings(b))
+      associate (bushing => suspension%elements(suspension%scalars + b)%bushing)
          axis = bushing%axes(:, merge(k, k - 3, k <= 3))
          at = 6*(bushing%body_j - 1)
          if (at >= 0) call put(at, bushing%arm_j, 1.0_wp)
@@ -321,50 +345,5 @@ contains
       end subroutine put
 
    end subroutine bushing_column
-
-   !> The projector on the complement of the columns of a matrix: I − A A⁺, column by column.
-   subroutine complement(a, projector)
-      real(wp), intent(in) :: a(:, :)
-      real(wp), intent(out) :: projector(:, :)
-      real(wp) :: unit(size(a, 1)), x(size(a, 2))
-      integer :: k
-
-      do k = 1, size(a, 1)
-         unit = 0.0_wp
-         unit(k) = 1.0_wp
-         call least_norm(a, unit, x)
-         projector(:, k) = unit - matmul(a, x)
-      end do
-   end subroutine complement
-
-   !> Minimum-norm least squares (LAPACK dgelsd); singular values below 1e-11 of the largest, or of `whole`, are neglected.
-   subroutine least_norm(a, b, x, whole)
-      real(wp), intent(in) :: a(:, :), b(:)
-      real(wp), intent(out) :: x(:)
-      real(wp), intent(in), optional :: whole        !! norm of the unprojected matrix: its rounding must not count as rank
-      real(wp), parameter :: threshold = 1.0e-11_wp
-      real(wp) :: share
-      real(wp) :: copy(size(a, 1), size(a, 2)), rhs(max(size(a, 1), size(a, 2)))
-      real(wp) :: singular(max(1, min(size(a, 1), size(a, 2)))), query(1)
-      real(wp), allocatable :: work(:)
-      integer :: rank, info
-      integer :: iwork(max(1, 20*min(size(a, 1), size(a, 2))*12))
-
-      x = 0.0_wp
-      if (size(a) == 0) return
-      share = threshold
-      if (present(whole)) then
-         if (norm2(a) <= threshold*whole) return     ! dgelsd does not accept a share of 1 or more
-         share = threshold*whole/norm2(a)
-      end if
-      copy = a
-      rhs = 0.0_wp
-      rhs(:size(b)) = b
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, query, -1, iwork, info)
-      allocate (work(int(query(1))))
-      call dgelsd(size(a, 1), size(a, 2), 1, copy, size(a, 1), rhs, size(rhs), singular, share, rank, work, size(work), &
-         iwork, info)
-      x = rhs(:size(x))
-   end subroutine least_norm
 
 end module ek_balance

@@ -19,20 +19,15 @@ contains
       integer :: k, axis, i, j
 
       bend = no_bend
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
-            if (.not. spring%has_law) cycle
-            i = spring%measure%body_i + 1
-            j = spring%measure%body_j + 1
-            bend = max(bend, bend_between(spring%law, measure_value(spring%measure, a%poses(i), a%poses(j)), &
-               measure_value(spring%measure, b%poses(i), b%poses(j))))
-         end associate
-      end do
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
+            i = element%measure%body_i + 1
+            j = element%measure%body_j + 1
+            if (element%has_law) bend = max(bend, bend_between(element%law, &
+               measure_value(element%measure, a%poses(i), a%poses(j)), measure_value(element%measure, b%poses(i), b%poses(j))))
             if (.not. bushing%has_curves) cycle
-            call look_bushing(bushing, a%poses(bushing%body_i + 1), a%poses(bushing%body_j + 1), from)
-            call look_bushing(bushing, b%poses(bushing%body_i + 1), b%poses(bushing%body_j + 1), to)
+            call look_bushing(bushing, a%poses(i), a%poses(j), from)
+            call look_bushing(bushing, b%poses(i), b%poses(j), to)
             do axis = 1, 3
                if (bushing%laws(axis)%has_curve) bend = max(bend, bend_between(bushing%laws(axis), &
                   dot_product(bushing%axes(:, axis), from%gap), dot_product(bushing%axes(:, axis), to%gap)))

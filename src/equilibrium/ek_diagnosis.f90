@@ -13,35 +13,41 @@
 !> is reported separately.
 !> Equation (K.7) of docs/theory/kkt.md.
 module ek_diagnosis
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted, plural
-   use ek_spring, only: axial_spring, spring_tension
-   use ek_elastic, only: design_rates
+   use ek_element, only: axial_spring, bushing_element, element_label
+   use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t, assemble, condition, whole_tangent, material_only
    use ek_motion_words, only: motion_words, place
-   use ek_lapack, only: dgesvd, dsyev
+   use ek_singular_values, only: singular_values_t, decompose
+   use ek_lapack, only: dsyev
    implicit none(type, external)
    private
-   public :: diagnosis_t, diagnose
+   public :: diagnosis_t, diagnose, softest_rate
+   public :: rank_tolerance, no_stiffness, rounding
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
    real(wp), parameter :: no_stiffness = 1.0e-7_wp        !! of the softest element: a mechanism of one body
    real(wp), parameter :: rounding = 50.0_wp*epsilon(1.0_wp)   !! per part of a sum of n parts: smaller values count as zero
    real(wp), parameter :: soft_stiffness = 1.0e-5_wp      !! of the characteristic stiffness: below it a warning is given
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a null vector
+   character(*), parameter :: failed = 'the model cannot be examined: its forces or stiffnesses are too large to calculate with'
 
    !> Findings about a model at a state.
    type :: diagnosis_t
       integer :: unknowns = 0
       integer :: constraints = 0, rank = 0       !! number and rank of the rigid rows (a driver with a stiffness is elastic)
       integer :: freedoms = 0                    !! unknowns − rank: motions held by elastic elements or free
+      integer :: negative = 0                    !! negative eigenvalues of the KKT matrix; constraints + compliant rows if stable
       real(wp) :: rcond = 0.0_wp                 !! reciprocal condition number of the scaled KKT matrix
       real(wp) :: softest = 0.0_wp               !! smallest stiffness of a free motion, relative to the characteristic one
       type(message_list_t) :: mechanisms         !! one line each
       type(message_list_t) :: redundancies       !! one line each
+      type(message_list_t) :: failures           !! a decomposition that failed: nothing is known then
       type(message_list_t) :: warnings           !! soft or unstable motions
       type(message_list_t) :: preload_held       !! motions held by preloads only
    contains
@@ -51,10 +57,10 @@ module ek_diagnosis
 
 contains
 
-   !> No mechanism and no redundant constraint.
+   !> No mechanism and no redundant constraint; false as well if the diagnosis failed.
    pure logical function is_solvable(self)
       class(diagnosis_t), intent(in) :: self
-      is_solvable = self%mechanisms%count() == 0 .and. self%redundancies%count() == 0
+      is_solvable = self%mechanisms%count() + self%redundancies%count() + self%failures%count() == 0
    end function is_solvable
 
    !> All defects, one per line.
@@ -63,8 +69,10 @@ contains
       character(:), allocatable :: text
 
       text = self%mechanisms%text()
-      if (self%mechanisms%count() > 0 .and. self%redundancies%count() > 0) text = text//new_line('a')
+      if (len(text) > 0 .and. self%redundancies%count() > 0) text = text//new_line('a')
       text = text//self%redundancies%text()
+      if (len(text) > 0 .and. self%failures%count() > 0) text = text//new_line('a')
+      text = text//self%failures%text()
    end function words
 
    !> Examines a model at a state (design, or where a solution failed).
@@ -76,41 +84,39 @@ contains
       type(kkt_t), intent(inout) :: kkt              !! work space of this model
       type(diagnosis_t), intent(out) :: diagnosis
       logical, intent(in), optional :: wants_preload_held    !! also search motions held by preload only
-      real(wp) :: tangent(kkt%nq, kkt%nq), material(kkt%nq, kkt%nq), right(kkt%nq, kkt%nq)
-      real(wp), allocatable :: jacobian(:, :), left(:, :), singular(:)
+      type(singular_values_t) :: parts
+      real(wp), allocatable :: jacobian(:, :), tangent(:, :), material(:, :)
       integer, allocatable :: rows(:)      ! the rigid rows: those without compliance
-      integer :: i, j, rank
+      integer :: i, j
 
       rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
-      allocate (jacobian(size(rows), kkt%nq), left(size(rows), size(rows)), singular(max(1, min(size(rows), kkt%nq))))
+      allocate (jacobian(size(rows), kkt%nq), tangent(kkt%nq, kkt%nq))
       call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
+      diagnosis%negative = kkt%negative
       call assemble(suspension, state, demand_t(), whole_tangent, kkt)
       call scaled_stiffness(suspension, kkt, tangent)
       do j = 1, kkt%nq
          jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
       end do
 
-      left = 0.0_wp
-      right = 0.0_wp
-      do j = 1, kkt%nq
-         right(j, j) = 1.0_wp
-      end do
-      rank = 0
-      if (size(rows) > 0 .and. kkt%nq > 0) then
-         call decompose(jacobian, left, singular, right)
-         rank = count(singular(:min(size(rows), kkt%nq)) > rank_tolerance*singular(1))
-      end if
+      call decompose(jacobian, rank_tolerance, parts, wants_null_space=.true.)
       diagnosis%unknowns = kkt%nq
       diagnosis%constraints = size(rows)
-      diagnosis%rank = rank
-      diagnosis%freedoms = kkt%nq - rank
-      if (rank < size(rows)) call name_redundancies(suspension, left(:, rank + 1:), rows, diagnosis)
-      if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, right(:, rank + 1:), kkt, diagnosis)
+      diagnosis%rank = parts%rank
+      diagnosis%freedoms = kkt%nq - parts%rank
+      if (.not. (parts%is_found .and. all(ieee_is_finite(tangent)) .and. all(ieee_is_finite(kkt%rhs)))) then
+         call diagnosis%failures%add(failed)
+         return
+      end if
+      if (parts%rank < size(rows)) call name_redundancies(suspension, parts%left(:, parts%rank + 1:), rows, diagnosis)
+      if (diagnosis%freedoms > 0) call name_mechanisms(suspension, state, tangent, parts%right(:, parts%rank + 1:), kkt, &
+         diagnosis)
       if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
       if (.not. wants_preload_held) return
+      allocate (material, mold=tangent)
       call assemble(suspension, state, demand_t(), material_only, kkt)
       call scaled_stiffness(suspension, kkt, material)
-      call name_preload_held(suspension, state, tangent, material, right(:, rank + 1:), kkt, diagnosis)
+      call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
    !> The full scaled stiffness matrix of the last assembled system.
@@ -134,20 +140,6 @@ contains
          end do
       end do
    end subroutine scaled_stiffness
-
-   !> Singular value decomposition: left vectors, singular values, right vectors by column.
-   subroutine decompose(a, left, singular, right)
-      real(wp), intent(inout) :: a(:, :)
-      real(wp), intent(out) :: left(:, :), singular(:), right(:, :)
-      real(wp), allocatable :: work(:), vt(:, :)
-      integer :: m, n, info
-
-      m = size(a, 1)
-      n = size(a, 2)
-      allocate (work(10*(m + n) + 5*min(m, n)), vt(n, n))
-      call dgesvd('A', 'A', m, n, a, m, singular, left, m, vt, n, work, size(work), info)
-      right = transpose(vt)
-   end subroutine decompose
 
    !> Names the joints of each left null vector of Φq.
    subroutine name_redundancies(suspension, basis, rows, diagnosis)
@@ -228,10 +220,12 @@ contains
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
       real(wp), allocatable :: free(:, :)
-      logical :: is_free(size(basis, 2))
+      logical :: is_free(size(basis, 2)), is_found
       integer :: k
 
-      call modes(tangent, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise)
+      call modes(tangent, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise, is_found)
+      if (.not. is_found) call diagnosis%failures%add(failed)
+      if (.not. is_found) return
       diagnosis%softest = eigenvalue(1)
       is_free = abs(eigenvalue) <= noise
       allocate (free, source=pick(motions, is_free))
@@ -261,14 +255,19 @@ contains
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
       real(wp), allocatable :: loose(:, :), held(:, :), motions_held(:, :), stiffness(:), least(:)
+      logical :: is_found
       integer :: k
 
-      call modes(material, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise)
+      call modes(material, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise, is_found)
+      if (.not. is_found) call diagnosis%failures%add(failed)
+      if (.not. is_found) return
       allocate (loose, source=pick(motions, eigenvalue <= noise))
       if (size(loose, 2) == 0) return
       allocate (held, mold=loose)
       allocate (stiffness(size(loose, 2)), least(size(loose, 2)))
-      call modes(tangent, loose, softest_rate(suspension, kkt), held, stiffness, least)
+      call modes(tangent, loose, softest_rate(suspension, kkt), held, stiffness, least, is_found)
+      if (.not. is_found) call diagnosis%failures%add(failed)
+      if (.not. is_found) return
       allocate (motions_held, source=pick(held, stiffness > least))
       call make_sparse(motions_held)
       do k = 1, size(motions_held, 2)
@@ -279,17 +278,22 @@ contains
 
    !> Eigenvectors of a stiffness within a space of motions, softest first, and for each the limit below which its stiffness
    !> counts as zero.
-   subroutine modes(stiffness, basis, least, motions, eigenvalue, noise)
+   subroutine modes(stiffness, basis, least, motions, eigenvalue, noise, is_found)
       real(wp), intent(in) :: stiffness(:, :), basis(:, :)
       real(wp), intent(in) :: least              !! rate of the softest element, scaled
       real(wp), intent(out) :: motions(:, :), eigenvalue(:), noise(:)
+      logical, intent(out) :: is_found           !! false: numbers are not finite, or LAPACK's iteration did not converge
       real(wp), allocatable :: reduced(:, :), work(:)     ! not automatic: flang has these on the stack, too small for long chains
       integer :: n, k, info
 
       n = size(basis, 2)
       allocate (work(40*n))
       reduced = matmul(transpose(basis), matmul(stiffness, basis))
+      eigenvalue = 0.0_wp
+      is_found = all(ieee_is_finite(reduced))
+      if (.not. is_found) return
       call dsyev('V', 'L', n, reduced, n, eigenvalue, work, size(work), info)
+      is_found = info == 0
       motions = matmul(basis, reduced)
       do k = 1, n
          eigenvalue(k) = dot_product(motions(:, k), matmul(stiffness, motions(:, k)))
@@ -314,17 +318,13 @@ contains
    real(wp) function softest_rate(suspension, kkt) result(least)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
-      real(wp) :: rates(6), tension, slope
+      real(wp) :: rates(6)
       integer :: k
 
       least = kkt%stiffness
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%kind /= axial_spring) cycle
-         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
-         if (slope > 0.0_wp) least = min(least, slope)
-      end do
-      do k = 1, size(suspension%bushings)
-         rates = design_rates(suspension%bushings(k))
+      do k = 1, size(suspension%elements)
+         if (all(suspension%elements(k)%kind /= [axial_spring, bushing_element])) cycle
+         rates = design_stiffness(suspension%elements(k))
          least = min(least, minval(rates(1:3), mask=rates(1:3) > 0.0_wp))
       end do
       least = least/kkt%stiffness
@@ -356,14 +356,14 @@ contains
 
       text = ''
       stiffest = 0
-      do k = 1, size(suspension%bushings)
+      do k = suspension%scalars + 1, size(suspension%elements)
          if (stiffest == 0) stiffest = k
-         if (maxval(suspension%bushings(k)%kt) > maxval(suspension%bushings(stiffest)%kt)) stiffest = k
+         if (maxval(suspension%elements(k)%bushing%kt) > maxval(suspension%elements(stiffest)%bushing%kt)) stiffest = k
       end do
       if (stiffest == 0) return
-      associate (b => suspension%bushings(stiffest))
-         if (maxval(b%kt) < much*stiffness) return
-         text = ', '//str(maxval(b%kt)/stiffness, 2)//' times softer than bushing '//quoted(b%name)//place(b%where)
+      associate (element => suspension%elements(stiffest), kt => suspension%elements(stiffest)%bushing%kt)
+         if (maxval(kt) < much*stiffness) return
+         text = ', '//str(maxval(kt)/stiffness, 2)//' times softer than '//element_label(element)//place(element%where)
       end associate
    end function softer_than
 

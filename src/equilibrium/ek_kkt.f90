@@ -12,11 +12,10 @@
 !> Equations (K.2), (K.3) of docs/theory/kkt.md.
 module ek_kkt
    use ek_kinds, only: wp
-   use ek_measure, only: view_t, look, add_measure_hessian, distance, rotation
+   use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
-   use ek_block, only: add_diagonal_block, add_block, add_link_stiffness, s_matrix, rotated, dyad
-   use ek_spring, only: spring_tension, add_spring_tangent, add_torsion_tangent, add_torsion_material, add_measure_material
-   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material
+   use ek_block, only: add_diagonal_block, add_block, s_matrix, rotated
+   use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
@@ -118,8 +117,8 @@ contains
       real(wp), intent(inout) :: gradients(12, *), values(*)
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
       type(view_t) :: view
-      type(bushing_view_t) :: bushing_view
-      real(wp) :: tension, slope, pull(12), value, force(3), moment(3), arm(3), block(3, 3)
+      type(element_view_t) :: element_view
+      real(wp) :: pull(12), value, force(3), moment(3), arm(3), block(3, 3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
@@ -154,43 +153,18 @@ contains
          end if
       end do
 
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
-            i = spring%measure%body_i
-            j = spring%measure%body_j
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k))
+            i = element%measure%body_i
+            j = element%measure%body_j
             at_i = 6*(i - 1)
             at_j = 6*(j - 1)
-            call look(spring%measure, poses(i), poses(j), view)
-            call spring_tension(spring, view%value, tension, slope)
-            call push(-tension*view%gradient, at_i, at_j, rhs)
-            if (spring%measure%kind == rotation) then
-               if (mode == whole_tangent) call add_torsion_tangent(view, tension, slope, at_i, at_j, n, matrix)
-               if (mode == material_only) call add_torsion_material(view, slope, at_i, at_j, n, matrix)
-            else if (spring%measure%kind /= distance) then
-               if (mode /= residual_only) call add_measure_material(view, slope, at_i, at_j, n, matrix)
-               if (mode == whole_tangent) call add_measure_hessian(spring%measure%kind, view, tension, at_i, at_j, n, matrix)
-            else if (mode == whole_tangent) then
-               call add_spring_tangent(view, tension, slope, at_i, at_j, n, matrix)
-            else if (mode == material_only) then
-               block = slope*dyad(view%u, view%u)
-               call add_link_stiffness(block, view%a, view%b, at_i, at_j, n, matrix)
-            end if
-         end associate
-      end do
-
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
-            i = bushing%body_i
-            j = bushing%body_j
-            at_i = 6*(i - 1)
-            at_j = 6*(j - 1)
-            call look_bushing(bushing, poses(i), poses(j), bushing_view)
-            pull = bushing_pull(bushing_view)
-            call push(-pull, at_i, at_j, rhs)
+            call look_element(element, poses(i), poses(j), element_view)
+            call resist(element_view%pull, at_i, at_j, rhs)
             if (mode == whole_tangent) then
-               call add_bushing_tangent(bushing, bushing_view, at_i, at_j, n, matrix)
+               call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
             else if (mode == material_only) then
-               call add_bushing_material(bushing, bushing_view, at_i, at_j, n, matrix)
+               call add_element_material(element, element_view, at_i, at_j, n, matrix)
             end if
          end associate
       end do
@@ -206,8 +180,8 @@ contains
                call look(term%measure, poses(i), poses(j), view)
                value = value + term%coefficient*view%value
                gradients(:, t) = term%coefficient*view%gradient
-               pull = (-reaction(k))*gradients(:, t)
-               call push(pull, at_i, at_j, rhs)
+               pull = reaction(k)*gradients(:, t)
+               call resist(pull, at_i, at_j, rhs)
                if (mode /= residual_only) then
                   if (i > 0) matrix(nq + k, at_i + 1:at_i + 6) = matrix(nq + k, at_i + 1:at_i + 6) + gradients(1:6, t)
                   if (j > 0) matrix(nq + k, at_j + 1:at_j + 6) = matrix(nq + k, at_j + 1:at_j + 6) + gradients(7:12, t)
@@ -273,14 +247,14 @@ contains
       end do
    end function load_factor
 
-   !> Adds a generalised force on both bodies to the right-hand side.
-   pure subroutine push(force, at_i, at_j, rhs)
-      real(wp), intent(in) :: force(12)
+   !> Subtracts a generalised force dV/dz from the right-hand side: the force ON the bodies is −dV/dz.
+   pure subroutine resist(pull, at_i, at_j, rhs)
+      real(wp), intent(in) :: pull(12)
       integer, intent(in) :: at_i, at_j        !! negative: the chassis
       real(wp), intent(inout) :: rhs(*)
-      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) + force(1:6)
-      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) + force(7:12)
-   end subroutine push
+      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) - pull(1:6)
+      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) - pull(7:12)
+   end subroutine resist
 
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
    !>
@@ -379,8 +353,10 @@ contains
       end do
       call factorise(kkt)
       rcond = 0.0_wp
+      info = 0
       if (.not. kkt%is_singular) call dsycon('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%norm, rcond, &
          kkt%work, kkt%iwork, info)
+      if (info /= 0) rcond = 0.0_wp
    end subroutine condition
 
 end module ek_kkt

@@ -7,8 +7,8 @@
 module ek_scale
    use ek_kinds, only: wp
    use ek_measure, only: axis_axis, rotation
-   use ek_spring, only: axial_spring, measure_spring, is_of_angle, spring_tension
-   use ek_elastic, only: design_rates
+   use ek_element, only: element_kinds, bushing_element
+   use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
@@ -22,7 +22,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(out) :: length       !! L [m], at least 1 mm
       real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil spring if nothing is elastic
-      real(wp) :: sum_log, least, tension, slope, rates(6)
+      real(wp) :: sum_log, least, rates(6)
       real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil spring, for a model without elastic elements
       integer :: k, count, axis
 
@@ -35,24 +35,21 @@ contains
             if (m%body_j > 0) call include(m%arm_j)
          end associate
       end do
-      do k = 1, size(suspension%bushings)
-         associate (b => suspension%bushings(k))
-            if (b%body_i > 0) call include(b%arm_i)
-            if (b%body_j > 0) call include(b%arm_j)
+      do k = suspension%scalars + 1, size(suspension%elements)
+         associate (m => suspension%elements(k)%measure)
+            if (m%body_i > 0) call include(m%arm_i)
+            if (m%body_j > 0) call include(m%arm_j)
          end associate
       end do
       length = max(length/max(count, 1), least)
 
       sum_log = 0.0_wp
       count = 0
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%kind /= axial_spring .and. suspension%springs(k)%kind /= measure_spring) cycle
-         if (is_of_angle(suspension%springs(k)%measure%kind)) cycle     ! gas, stops and anti-roll bars carry no wheel at design
-         call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
-         call include_rate(slope)
-      end do
-      do k = 1, size(suspension%bushings)
-         rates = design_rates(suspension%bushings(k))
+      do k = 1, size(suspension%elements)
+         associate (kind => suspension%elements(k)%kind)       ! gas, stops and anti-roll bars carry no wheel at design
+            if (.not. (element_kinds(kind)%carries .or. kind == bushing_element)) cycle
+         end associate
+         rates = design_stiffness(suspension%elements(k))
          do axis = 1, 3
             call include_rate(rates(axis))
          end do
@@ -67,13 +64,8 @@ contains
       subroutine include_angles()
          integer :: k, axis
 
-         do k = 1, size(suspension%springs)
-            if (.not. is_of_angle(suspension%springs(k)%measure%kind)) cycle
-            call spring_tension(suspension%springs(k), suspension%springs(k)%design_length, tension, slope)
-            call include_rate(slope/length**2)
-         end do
-         do k = 1, size(suspension%bushings)
-            rates = design_rates(suspension%bushings(k))
+         do k = 1, size(suspension%elements)
+            rates = design_stiffness(suspension%elements(k))
             do axis = 4, 6
                call include_rate(rates(axis)/length**2)
             end do

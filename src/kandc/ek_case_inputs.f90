@@ -135,14 +135,14 @@ contains
             if (columns(j) /= columns(k)) cycle
             owners = ''
             place = cases(1)%where(:index(cases(1)%where, ':', back=.true.) - 1)
-            do m = 1, size(suspension%springs)
-               call add_owner(suspension%springs(m)%name, suspension%springs(m)%where)
+            do m = 1, suspension%scalars
+               call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
             end do
             do m = 1, size(suspension%readouts)
                call add_owner(suspension%readouts(m)%name, suspension%readouts(m)%where)
             end do
-            do m = 1, size(suspension%bushings)
-               call add_owner(suspension%bushings(m)%name, suspension%bushings(m)%where)
+            do m = suspension%scalars + 1, size(suspension%elements)
+               call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
             end do
             do m = 1, size(suspension%joints)
                if (.not. suspension%joints(m)%is_rig) &

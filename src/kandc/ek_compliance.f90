@@ -29,7 +29,7 @@ module ek_compliance
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
-   use ek_spring, only: axial_spring
+   use ek_element, only: axial_spring
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
@@ -63,9 +63,9 @@ contains
       integer :: n, k, side, ports
 
       self%wheels = size(suspension%wheels)
-      self%springs = count(suspension%springs%kind == axial_spring)
-      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%springs))], &
-         suspension%springs%kind == axial_spring))
+      self%springs = count(suspension%elements%kind == axial_spring)
+      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%elements))], &
+         suspension%elements%kind == axial_spring))
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
@@ -114,8 +114,10 @@ contains
       else
          call factorise(kkt)
          self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+         info = 0
          if (self%is_known) call dsytrs('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
             kkt%n, info)
+         if (info /= 0) self%is_known = .false.
       end if
       if (.not. self%is_known) then
          self%response = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -165,7 +167,7 @@ contains
          end do
       end do
       do k = 1, self%springs
-         associate (m => suspension%springs(self%spring(k))%measure)
+         associate (m => suspension%elements(self%spring(k))%measure)
             port = 6*self%wheels + k
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             at = 6*(m%body_i - 1)

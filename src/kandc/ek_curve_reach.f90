@@ -8,7 +8,7 @@ module ek_curve_reach
    use ek_curve, only: curve_t
    use ek_law, only: law_t, deflection
    use ek_measure, only: measure_value, rotation
-   use ek_spring, only: axial_spring, stop_spring
+   use ek_element, only: element_label
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
@@ -33,7 +33,7 @@ contains
       type(case_t), intent(in) :: case                   !! on the rig
       type(path_t), intent(in) :: path
       type(message_list_t), intent(inout) :: words
-      type(reach_t) :: springs(size(suspension%springs)), bushings(6, size(suspension%bushings))
+      type(reach_t) :: reach(6, size(suspension%elements))      ! of an element of one measure: the first
       type(state_t) :: state
       type(bushing_view_t) :: view
       logical :: is_told(2)
@@ -44,47 +44,39 @@ contains
       do s = 1, path%states
          if (.not. path%is_reached(s)) cycle
          call unpack_state(path%packed(:, s), state)
-         do k = 1, size(springs)
-            associate (spring => suspension%springs(k), m => suspension%springs(k)%measure)
-               if (.not. (spring%has_law .and. spring%law%has_curve)) cycle
-               call extend(springs(k), spring%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)), s)
-            end associate
-         end do
-         do k = 1, size(suspension%bushings)
-            associate (b => suspension%bushings(k))
+         do k = 1, size(suspension%elements)
+            associate (element => suspension%elements(k), b => suspension%elements(k)%bushing, &
+                  pose_i => state%poses(suspension%elements(k)%measure%body_i + 1), &
+                  pose_j => state%poses(suspension%elements(k)%measure%body_j + 1))
+               if (element%law%has_curve) &
+                  call extend(reach(1, k), element%law, measure_value(element%measure, pose_i, pose_j), s)
                if (.not. b%has_curves) cycle
-               call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+               call look_bushing(b, pose_i, pose_j, view)
                do c = 1, 3
                   if (b%laws(c)%has_curve) &
-                     call extend(bushings(c, k), b%laws(c), dot_product(b%axes(:, c), view%gap), s)
+                     call extend(reach(c, k), b%laws(c), dot_product(b%axes(:, c), view%gap), s)
                   if (b%laws(c + 3)%has_curve) &
-                     call extend(bushings(c + 3, k), b%laws(c + 3), dot_product(b%axes(:, c), view%turn%theta), s)
+                     call extend(reach(c + 3, k), b%laws(c + 3), dot_product(b%axes(:, c), view%turn%theta), s)
                end do
             end associate
          end do
       end do
-      do k = 1, size(springs)
-         if (springs(k)%at_most == 0) cycle
-         is_told = .false.
-         do s = 1, size(springs)
-            if (s == k .or. suspension%springs(s)%where /= suspension%springs(k)%where .or. springs(s)%at_most == 0) cycle
-            is_told = is_told .or. further(springs(s), springs(k), s < k)
-         end do
-         associate (spring => suspension%springs(k))
-            call tell(case, path, spring%law%curve, springs(k), trim(kind_name(spring%kind))//' '//quoted(spring%name), &
-               spring%measure%kind == rotation, is_told, words)
-         end associate
-      end do
-      do k = 1, size(suspension%bushings)
+      do k = 1, size(suspension%elements)
          do c = 1, 6
-            if (bushings(c, k)%at_most == 0) cycle
+            if (reach(c, k)%at_most == 0) cycle
             is_told = .false.
-            do s = 1, size(suspension%bushings)
-               if (s == k .or. suspension%bushings(s)%where /= suspension%bushings(k)%where) cycle
-               if (bushings(c, s)%at_most > 0) is_told = is_told .or. further(bushings(c, s), bushings(c, k), s < k)
+            do s = 1, size(suspension%elements)
+               if (s == k .or. suspension%elements(s)%where /= suspension%elements(k)%where .or. reach(c, s)%at_most == 0) cycle
+               is_told = is_told .or. further(reach(c, s), reach(c, k), s < k)
             end do
-            call tell(case, path, suspension%bushings(k)%laws(c)%curve, bushings(c, k), &
-               'bushing '//quoted(suspension%bushings(k)%name), c > 3, is_told, words)
+            associate (element => suspension%elements(k))
+               if (element%has_law) then
+                  call tell(case, path, element%law%curve, reach(c, k), element_label(element), &
+                     element%measure%kind == rotation, is_told, words)
+               else
+                  call tell(case, path, element%bushing%laws(c)%curve, reach(c, k), element_label(element), c > 3, is_told, words)
+               end if
+            end associate
          end do
       end do
    end subroutine curve_reach_words
@@ -92,17 +84,8 @@ contains
    !> Whether any element has a curve.
    pure logical function has_curves(suspension)
       type(suspension_t), intent(in) :: suspension
-      has_curves = any(suspension%springs%has_law) .or. any(suspension%bushings%has_curves)
+      has_curves = any(suspension%elements%law%has_curve) .or. any(suspension%elements%bushing%has_curves)
    end function has_curves
-
-   !> Name of the &group of an element.
-   pure function kind_name(kind) result(name)
-      integer, intent(in) :: kind
-      character(7) :: name
-      name = 'torsion'
-      if (kind == axial_spring) name = 'spring'
-      if (kind == stop_spring) name = 'stop'
-   end function kind_name
 
    !> Includes the deflection of a state; a stop without contact has none.
    subroutine extend(reach, law, value, state)

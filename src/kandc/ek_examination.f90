@@ -1,6 +1,8 @@
 !> Examines whether the cases of a deck can be solved: the diagnosis made first in every command.
 !>
 !> The model is examined as given in the deck, before balance: a preload found by balance must not count as a stiffness.
+!> The full diagnosis is made once per topology and case; a further design of the same case costs one factorisation, unless that
+!> leaves a doubt (ek_soundness).
 module ek_examination
    use ek_error, only: error_t, message_list_t
    use ek_text, only: quoted
@@ -10,9 +12,18 @@ module ek_examination
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_diagnosis, only: diagnosis_t, diagnose
+   use ek_soundness, only: is_surely_sound
    implicit none(type, external)
    private
-   public :: examination_t, examine_cases, examine_case, add_distinct
+   public :: examination_t, examine_cases, examine_case, known_case_t, add_distinct
+
+   !> What is known of a case from a design that was examined before; one value for all designs of a case.
+   type :: known_case_t
+      logical :: is_known = .false.          !! a design of the case had no defect
+      integer :: unknowns = 0, constraints = 0   !! of that design
+      integer :: negative = 0                !! its inertia: negative eigenvalues of the KKT matrix at design
+      integer :: diagnoses = 0               !! full diagnoses so far
+   end type known_case_t
 
    !> Findings about each case.
    type :: examination_t
@@ -36,18 +47,20 @@ contains
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: cases(:)
       type(examination_t), intent(out) :: found
+      type(diagnosis_t) :: diagnosis
       character(:), allocatable :: words, head
       logical :: is_new
       integer :: k
 
       allocate (found%is_solvable(size(cases)))
       do k = 1, size(cases)
-         call examine_case(base, cases(k), words)
-         found%is_solvable(k) = len(words) == 0
+         call examine_case(base, cases(k), diagnosis)
+         found%is_solvable(k) = diagnosis%is_solvable()
          if (found%is_solvable(k)) then
             call found%faults%add('')
             cycle
          end if
+         words = diagnosis%words()
          head = 'case '//quoted(cases(k)%name)//': the model cannot be solved'
          call add_distinct(found%distinct, words, is_new)
          if (is_new) then
@@ -81,25 +94,47 @@ contains
       end do
    end subroutine add_distinct
 
-   !> Defects of the model on the rig of a case; '' if there are none.
-   subroutine examine_case(base, case, words)
-      type(suspension_t), intent(in) :: base
+   !> Diagnoses the model on the rig of a case, at design.
+   !>
+   !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
+   !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
+   !> has no defect here: `error` gives the reason, and the run reports it.
+   subroutine examine_case(base, case, diagnosis, known, error)
+      type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case
-      character(:), allocatable, intent(out) :: words
+      type(diagnosis_t), intent(out) :: diagnosis
+      type(known_case_t), intent(inout), optional :: known
+      type(error_t), allocatable, intent(out), optional :: error
       type(suspension_t) :: suspension
       type(case_t) :: mounted
-      type(diagnosis_t) :: diagnosis
-      type(error_t), allocatable :: error
+      type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
+      logical :: is_sound
 
-      words = ''
       suspension = base
       mounted = case
-      call mount(suspension, mounted, error)
-      if (allocated(error)) return
+      call mount(suspension, mounted, trouble)
+      if (allocated(trouble)) then
+         if (present(error)) call move_alloc(trouble, error)
+         return
+      end if
       kkt = new_kkt(suspension)
+      if (.not. present(known)) then
+         call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+         return
+      end if
+      is_sound = .false.
+      if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
+         is_sound = is_surely_sound(suspension, design_state(suspension), known%negative, kkt)
+      end if
+      if (is_sound) return
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-      if (.not. diagnosis%is_solvable()) words = diagnosis%words()
+      known%diagnoses = known%diagnoses + 1
+      if (known%is_known .or. .not. diagnosis%is_solvable()) return
+      known%is_known = .true.
+      known%unknowns = kkt%nq
+      known%constraints = kkt%nc
+      known%negative = diagnosis%negative
    end subroutine examine_case
 
    !> A text without its digits, signs and points.

@@ -10,7 +10,7 @@ module ek_geometry_columns
    use ek_block, only: rotated
    use ek_measure, only: view_t, look, measure_value
    use ek_law, only: deflection
-   use ek_spring, only: stop_spring, measure_spring, is_of_angle
+   use ek_element, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
    use ek_vehicle, only: vehicle_t
@@ -56,13 +56,13 @@ contains
       end do
       if (is_axle(suspension)) call list_axle(suspension, vehicle, compliance, state, list)
       if (compliance%wheels > 0) then
-         do k = 1, size(suspension%springs)
-            select case (suspension%springs(k)%kind)
+         do k = 1, size(suspension%elements)
+            select case (suspension%elements(k)%kind)
             case (stop_spring)
                call list_stop(suspension, compliance, state, k, list)
             case (measure_spring)
-               if (is_of_angle(suspension%springs(k)%measure%kind)) cycle
-               call put(list, suspension%springs(k)%name//'_motion_ratio', length_ratio(suspension, compliance, state, k))
+               if (is_of_angle(suspension%elements(k)%measure%kind)) cycle
+               call put(list, suspension%elements(k)%name//'_motion_ratio', length_ratio(suspension, compliance, state, k))
             end select
          end do
       end if
@@ -175,7 +175,7 @@ contains
       real(wp) :: gap, left
 
       left = ieee_value(1.0_wp, ieee_quiet_nan)
-      associate (stop => suspension%springs(k), m => suspension%springs(k)%measure)
+      associate (stop => suspension%elements(k), m => suspension%elements(k)%measure)
          gap = -deflection(stop%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)))
          if (compliance%is_known) left = gap_over(gap, length_ratio(suspension, compliance, state, k))
          call put(list, stop%name//'_travel_left_mm', left/millimetre)
@@ -204,7 +204,7 @@ contains
       ratio = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. compliance%is_known) return
       n = size(length)
-      associate (m => suspension%springs(k)%measure)
+      associate (m => suspension%elements(k)%measure)
          call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
          length = 0.0_wp
          do j = 1, n

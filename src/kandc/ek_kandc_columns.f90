@@ -102,7 +102,7 @@ contains
          ratio = 0.0_wp
          if (self%compliance%is_known) ratio = motion_ratio(self%compliance%response(:n, :n), &
             self%compliance%response(n + k, :n))
-         call put_known(self, suspension%springs(self%compliance%spring(k))%name//'_motion_ratio', ratio)
+         call put_known(self, suspension%elements(self%compliance%spring(k))%name//'_motion_ratio', ratio)
       end do
    end subroutine list
 

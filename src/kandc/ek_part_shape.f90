@@ -6,7 +6,7 @@ module ek_part_shape
    use ek_units, only: pi
    use ek_block, only: rotated
    use ek_measure, only: measure_t, distance
-   use ek_spring, only: axial_spring, stop_spring
+   use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, &
       same_point
@@ -15,7 +15,7 @@ module ek_part_shape
       part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, part_ball, part_mount, line_ground
    implicit none(type, external)
    private
-   public :: add_body, add_joints, add_elastic, add_bushing, add_wheel, add_tread
+   public :: add_body, add_joints, add_elastic, add_wheel, add_tread
 
    ! Sizes typical of a passenger car [m]
    real(wp), parameter :: arm_radius = 0.011_wp, rod_radius = 0.008_wp, ball_radius = 0.016_wp
@@ -163,48 +163,36 @@ contains
       end associate
    end subroutine revolute_axis
 
-   !> A coil, a damper as two tubes, or the rubber of a stop; a torsion spring is part of the bars that it connects.
-   subroutine add_elastic(scene, suspension, state, k, plain)
+   !> A coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing; a torsion spring is part of the bars that
+   !> it connects.
+   subroutine add_elastic(scene, element, state, plain)
       type(scene_t), intent(inout) :: scene
-      type(suspension_t), intent(in) :: suspension
+      type(element_t), intent(in) :: element
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k
       logical, intent(in) :: plain
       real(wp), parameter :: rubber = 0.045_wp        ! m
-      real(wp) :: a(3), b(3), length
+      real(wp) :: a(3), b(3), length, axis(3)
+      integer :: shape
 
-      associate (spring => suspension%springs(k))
-         if (spring%measure%kind /= distance) return      ! a measure has no shape
-         call ends_of(spring%measure, state, a, b)
-         length = norm2(b - a)
-         if (length < same_point) return
-         if (spring%kind == axial_spring) then
-            call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
-         else if (spring%kind == stop_spring) then
-            if (plain) return
-            call add_tube(scene, part_bushing, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)
-         else
-            call add_tube(scene, part_damper, a, a + 0.58_wp*(b - a), 0.022_wp, merge(5, 10, plain))
-            call add_tube(scene, part_damper, a + 0.5_wp*(b - a), b, 0.009_wp, merge(4, 6, plain))
-         end if
-      end associate
+      shape = element_kinds(element%kind)%shape
+      if (shape /= bushing_shape .and. element%measure%kind /= distance) return      ! other measures have no shape
+      call ends_of(element%measure, state, a, b)
+      length = norm2(b - a)
+      if (shape /= bushing_shape .and. length < same_point) return
+      select case (shape)
+      case (coil_shape)
+         call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
+      case (stop_shape)
+         if (plain) return
+         call add_tube(scene, part_bushing, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)
+      case (damper_shape)
+         call add_tube(scene, part_damper, a, a + 0.58_wp*(b - a), 0.022_wp, merge(5, 10, plain))
+         call add_tube(scene, part_damper, a + 0.5_wp*(b - a), b, 0.009_wp, merge(4, 6, plain))
+      case (bushing_shape)                            ! along the z axis of its first marker
+         axis = rotated(state%poses(element%measure%body_i + 1)%a, element%bushing%axes(:, 3))
+         call add_tube(scene, part_bushing, a - 0.024_wp*axis, a + 0.024_wp*axis, 0.021_wp, merge(5, 10, plain))
+      end select
    end subroutine add_elastic
-
-   !> A bushing: a short tube along the z axis of its first marker.
-   subroutine add_bushing(scene, suspension, state, k, plain)
-      type(scene_t), intent(inout) :: scene
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      integer, intent(in) :: k
-      logical, intent(in) :: plain
-      real(wp) :: at(3), axis(3)
-
-      associate (bushing => suspension%bushings(k))
-         at = place_of(suspension, state, bushing%body_i, bushing%arm_i)
-         axis = rotated(state%poses(bushing%body_i + 1)%a, bushing%axes(:, 3))
-      end associate
-      call add_tube(scene, part_bushing, at - 0.024_wp*axis, at + 0.024_wp*axis, 0.021_wp, merge(5, 10, plain))
-   end subroutine add_bushing
 
    !> Tyre as a surface of revolution, and a hub.
    subroutine add_wheel(scene, suspension, state, k, plain)

@@ -4,10 +4,10 @@
 module ek_picture
    use ek_kinds, only: wp
    use ek_measure, only: distance
-   use ek_spring, only: stop_spring, damper
+   use ek_element, only: element_kinds, stop_shape, damper_shape
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides
-   use ek_part_shape, only: add_body, add_joints, add_elastic, add_bushing, add_wheel, add_tread
+   use ek_part_shape, only: add_body, add_joints, add_elastic, add_wheel, add_tread
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_face, add_line, add_words, part_ground, part_carrier, line_ground
    implicit none(type, external)
@@ -31,11 +31,8 @@ contains
          call add_body(scene, suspension, state, k, plain)
       end do
       call add_joints(scene, suspension, state, plain)
-      do k = 1, size(suspension%springs)
-         call add_elastic(scene, suspension, state, k, plain)
-      end do
-      do k = 1, size(suspension%bushings)
-         call add_bushing(scene, suspension, state, k, plain)
+      do k = 1, size(suspension%elements)
+         call add_elastic(scene, suspension%elements(k), state, plain)
       end do
       do k = 1, size(suspension%wheels)
          call add_wheel(scene, suspension, state, k, plain)
@@ -155,12 +152,14 @@ contains
          at = 0.8_wp*a + 0.2_wp*b      ! away from the name of a wishbone or a carrier beside it
          call name_at(suspension%joints(k)%name)
       end do
-      do k = 1, size(suspension%springs)
-         if (suspension%springs(k)%measure%kind /= distance .or. suspension%springs(k)%kind == stop_spring) cycle
-         call ends_of(suspension%springs(k)%measure, state, a, b)
-         at = 0.3_wp*a + 0.7_wp*b
-         if (suspension%springs(k)%kind == damper) at = b         ! name above the coil around it
-         call name_at(suspension%springs(k)%name, 5.0_wp)
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k), shape => element_kinds(suspension%elements(k)%kind)%shape)
+            if (element%measure%kind /= distance .or. shape == stop_shape) cycle
+            call ends_of(element%measure, state, a, b)
+            at = 0.3_wp*a + 0.7_wp*b
+            if (shape == damper_shape) at = b         ! name above the coil around it
+            call name_at(element%name, 5.0_wp)
+         end associate
       end do
 
    contains

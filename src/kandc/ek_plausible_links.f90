@@ -4,7 +4,7 @@ module ek_plausible_links
    use ek_text, only: str, quoted
    use ek_units, only: degree
    use ek_measure, only: measure_t, axis_axis, rotation, distance
-   use ek_spring, only: axial_spring, damper
+   use ek_element, only: axial_spring, damper, element_label
    use ek_suspension, only: suspension_t, body_name
    use ek_plausible_range, only: doubts_t, judge, speak, length
    use ek_plausible_shape, only: place
@@ -41,14 +41,13 @@ contains
                ': the tie rod is more than 32 deg off the lateral direction; check the signs of the coordinates of its ends')
          end associate
       end do
-      do k = 1, size(suspension%bushings)
-         associate (b => suspension%bushings(k))
-            call doubt_own_points(suspension, measure_t(body_i=b%body_i, body_j=b%body_j, arm_i=b%arm_i, arm_j=b%arm_j), &
-               b%where, 'bushing '//quoted(b%name), doubts)
+      do k = suspension%scalars + 1, size(suspension%elements)
+         associate (b => suspension%elements(k))
+            call doubt_own_points(suspension, b%measure, b%where, element_label(b), doubts)
          end associate
       end do
-      do k = 1, size(suspension%springs)
-         if (all(suspension%springs(k)%kind /= [axial_spring, damper])) cycle
+      do k = 1, suspension%scalars
+         if (all(suspension%elements(k)%kind /= [axial_spring, damper])) cycle
          call doubt_upright(suspension, k, doubts)
       end do
    end subroutine doubt_links
@@ -63,11 +62,8 @@ contains
       do k = 1, size(suspension%terms)
          if (leads(suspension%terms(k)%measure%body_i, suspension%terms(k)%measure%body_j)) return
       end do
-      do k = 1, size(suspension%bushings)
-         if (leads(suspension%bushings(k)%body_i, suspension%bushings(k)%body_j)) return
-      end do
-      do k = 1, size(suspension%springs)
-         if (leads(suspension%springs(k)%measure%body_i, suspension%springs(k)%measure%body_j)) return
+      do k = 1, size(suspension%elements)
+         if (leads(suspension%elements(k)%measure%body_i, suspension%elements(k)%measure%body_j)) return
       end do
       call doubts%add(suspension%steering%where, 'no tie rod', '&steering: the rack, body '// &
          quoted(body_name(suspension, rack))//', is not connected to a wheel: is a tie rod missing?')
@@ -160,13 +156,13 @@ contains
       real(wp) :: up(3)
       integer :: order
 
-      associate (spring => suspension%springs(k), m => suspension%springs(k)%measure)
+      associate (spring => suspension%elements(k), m => suspension%elements(k)%measure)
          order = rank_of(m%body_j) - rank_of(m%body_i)
          if (order == 0 .or. m%kind /= distance) return
          up = place(suspension, m%body_j, m%arm_j) - place(suspension, m%body_i, m%arm_i)
          if (order*up(3) > -0.7_wp*norm2(up)) return
-         call doubts%add(spring%where, 'upside down', merge('spring ', 'damper ', spring%kind == axial_spring)// &
-            quoted(spring%name)//': its upper end is on '//quoted(body_name(suspension, merge(m%body_i, m%body_j, order > 0)))// &
+         call doubts%add(spring%where, 'upside down', element_label(spring)// &
+            ': its upper end is on '//quoted(body_name(suspension, merge(m%body_i, m%body_j, order > 0)))// &
             ', its lower end on '//quoted(body_name(suspension, merge(m%body_j, m%body_i, order > 0)))// &
             ': are the two points swapped?')
       end associate

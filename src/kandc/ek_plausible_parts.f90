@@ -4,8 +4,8 @@ module ek_plausible_parts
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t
    use ek_law, only: law_t
-   use ek_spring, only: axial_spring, damper, stop_spring, torsion_spring, spring_t, spring_tension
-   use ek_elastic, only: bushing_t
+   use ek_element, only: element_t, element_label, axial_spring, damper, stop_spring, torsion_spring, bushing_element
+   use ek_spring, only: spring_tension
    use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
@@ -24,24 +24,23 @@ contains
       type(doubts_t), intent(inout) :: doubts
       integer :: k
 
-      do k = 1, size(suspension%springs)
-         select case (suspension%springs(k)%kind)
-         case (axial_spring)
-            call doubt_spring(suspension%springs(k), doubts)
-         case (damper)
-            associate (s => suspension%springs(k))
-               call judge(doubts, s%where, 'damper '//quoted(s%name), 'length at design', s%design_length)
-               call judge(doubts, s%where, 'damper '//quoted(s%name), 'gas force', s%preload)
-               call judge(doubts, s%where, 'damper '//quoted(s%name), 'gas rate', s%rate)
-            end associate
-         case (stop_spring)
-            call doubt_stop(suspension%springs(k), doubts)
-         case (torsion_spring)
-            call doubt_torsion(suspension%springs(k), doubts)
-         end select
-      end do
-      do k = 1, size(suspension%bushings)
-         call doubt_bushing(suspension%bushings(k), doubts)
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k))
+            select case (element%kind)
+            case (axial_spring)
+               call doubt_spring(element, doubts)
+            case (damper)
+               call judge(doubts, element%where, element_label(element), 'length at design', element%design_length)
+               call judge(doubts, element%where, element_label(element), 'gas force', element%preload)
+               call judge(doubts, element%where, element_label(element), 'gas rate', element%rate)
+            case (stop_spring)
+               call doubt_stop(element, doubts)
+            case (torsion_spring)
+               call doubt_torsion(element, doubts)
+            case (bushing_element)
+               call doubt_bushing(element, doubts)
+            end select
+         end associate
       end do
       do k = 1, size(suspension%rows)
          if (.not. suspension%rows(k)%compliance > 0.0_wp) cycle
@@ -54,12 +53,12 @@ contains
 
    !> A spring: rate, length, and its force at design.
    subroutine doubt_spring(spring, doubts)
-      type(spring_t), intent(in) :: spring
+      type(element_t), intent(in) :: spring
       type(doubts_t), intent(inout) :: doubts
       character(:), allocatable :: thing
       real(wp) :: tension, slope
 
-      thing = 'spring '//quoted(spring%name)
+      thing = element_label(spring)
       if (spring%measure%kind == distance) call judge(doubts, spring%where, thing, 'length at design', spring%design_length)
       if (spring%has_law) then
          call doubt_curve(spring%law, spring%where, thing, .false., doubts)
@@ -76,13 +75,13 @@ contains
 
    !> A stop: clearance, transition, rate, and no contact at design.
    subroutine doubt_stop(stop, doubts)
-      type(spring_t), intent(in) :: stop
+      type(element_t), intent(in) :: stop
       type(doubts_t), intent(inout) :: doubts
       character(:), allocatable :: thing
       real(wp), parameter :: bears = 50.0_wp      ! N: more than in the transition of a stop that just touches
       real(wp) :: clearance, tension, slope
 
-      thing = 'stop '//quoted(stop%name)
+      thing = element_label(stop)
       clearance = stop%law%sign*(stop%law%reference - stop%design_length)
       call judge(doubts, stop%where, thing, 'length at design', stop%design_length)
       call judge(doubts, stop%where, thing, 'clearance', clearance)
@@ -101,11 +100,11 @@ contains
    end subroutine doubt_stop
 
    subroutine doubt_torsion(spring, doubts)
-      type(spring_t), intent(in) :: spring
+      type(element_t), intent(in) :: spring
       type(doubts_t), intent(inout) :: doubts
       character(:), allocatable :: thing
 
-      thing = 'torsion '//quoted(spring%name)
+      thing = element_label(spring)
       if (spring%has_law) then
          call doubt_angular_curve(spring%law%curve, spring%where, thing, doubts)
       else if (min(spring%measure%body_i, spring%measure%body_j) > 0) then
@@ -116,31 +115,33 @@ contains
    end subroutine doubt_torsion
 
    !> A bushing: its largest and smallest rate, the distance of its markers, its curves.
-   subroutine doubt_bushing(bushing, doubts)
-      type(bushing_t), intent(in) :: bushing
+   subroutine doubt_bushing(element, doubts)
+      type(element_t), intent(in) :: element
       type(doubts_t), intent(inout) :: doubts
       real(wp), parameter :: rigid = 1.0e9_wp        ! N/m: such a bushing represents a joint, not rubber
       character(:), allocatable :: thing
       integer :: k
 
-      thing = 'bushing '//quoted(bushing%name)
-      call judge(doubts, bushing%where, thing, 'bushing gap', norm2(bushing%gap0))
-      if (any(bushing%kt > 0.0_wp)) then
-         call judge(doubts, bushing%where, thing, 'bushing rate kt', maxval(bushing%kt))
-         call judge(doubts, bushing%where, thing, 'bushing rate kt', minval(bushing%kt, mask=bushing%kt > 0.0_wp))
-      end if
-      if (any(bushing%kr > 0.0_wp)) then
-         call judge(doubts, bushing%where, thing, 'bushing rate kr', maxval(bushing%kr))
-         call judge(doubts, bushing%where, thing, 'bushing rate kr', minval(bushing%kr, mask=bushing%kr > 0.0_wp))
-      end if
-      if (any(bushing%kt > 0.0_wp) .and. any(bushing%kr > 0.0_wp) .and. maxval(bushing%kt) < rigid) &
-         call judge(doubts, bushing%where, thing, 'size √(kr/kt)', sqrt(maxval(bushing%kr)/maxval(bushing%kt)))
-      if (.not. bushing%has_curves) return
-      do k = 1, 6
-         if (.not. bushing%laws(k)%has_curve) cycle
-         if (k <= 3) call doubt_curve(bushing%laws(k), bushing%where, thing, .false., doubts)
-         if (k > 3) call doubt_angular_curve(bushing%laws(k)%curve, bushing%where, thing, doubts)
-      end do
+      thing = element_label(element)
+      associate (bushing => element%bushing, where => element%where)
+         call judge(doubts, where, thing, 'bushing gap', norm2(bushing%gap0))
+         if (any(bushing%kt > 0.0_wp)) then
+            call judge(doubts, where, thing, 'bushing rate kt', maxval(bushing%kt))
+            call judge(doubts, where, thing, 'bushing rate kt', minval(bushing%kt, mask=bushing%kt > 0.0_wp))
+         end if
+         if (any(bushing%kr > 0.0_wp)) then
+            call judge(doubts, where, thing, 'bushing rate kr', maxval(bushing%kr))
+            call judge(doubts, where, thing, 'bushing rate kr', minval(bushing%kr, mask=bushing%kr > 0.0_wp))
+         end if
+         if (any(bushing%kt > 0.0_wp) .and. any(bushing%kr > 0.0_wp) .and. maxval(bushing%kt) < rigid) &
+            call judge(doubts, where, thing, 'size √(kr/kt)', sqrt(maxval(bushing%kr)/maxval(bushing%kt)))
+         if (.not. bushing%has_curves) return
+         do k = 1, 6
+            if (.not. bushing%laws(k)%has_curve) cycle
+            if (k <= 3) call doubt_curve(bushing%laws(k), where, thing, .false., doubts)
+            if (k > 3) call doubt_angular_curve(bushing%laws(k)%curve, where, thing, doubts)
+         end do
+      end associate
    end subroutine doubt_bushing
 
    !> A curve of force over deflection: its span and force are in the usual range, and it rises.

@@ -140,9 +140,11 @@ contains
             call include(m%body_j, m%arm_j)
          end associate
       end do
-      do k = 1, size(suspension%bushings)
-         call include(suspension%bushings(k)%body_i, suspension%bushings(k)%arm_i)
-         call include(suspension%bushings(k)%body_j, suspension%bushings(k)%arm_j)
+      do k = suspension%scalars + 1, size(suspension%elements)
+         associate (m => suspension%elements(k)%measure)
+            call include(m%body_i, m%arm_i)
+            call include(m%body_j, m%arm_j)
+         end associate
       end do
       do k = 0, ubound(joints, 1)
          mean(:, k) = mean(:, k)/max(joints(k), 1)

@@ -51,14 +51,13 @@ contains
          if (measure%body_i == body) call add_node(measure%arm_i, is_rigid .and. measure%body_j == 0, .false.)
          if (measure%body_j == body) call add_node(measure%arm_j, is_rigid .and. measure%body_i == 0, .false.)
       end do
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
-            if (bushing%body_i == body) call add_node(bushing%arm_i, bushing%body_j == 0, .false.)
-            if (bushing%body_j == body) call add_node(bushing%arm_j, bushing%body_i == 0, .false.)
-         end associate
+      do k = suspension%scalars + 1, size(suspension%elements)
+         measure = suspension%elements(k)%measure
+         if (measure%body_i == body) call add_node(measure%arm_i, measure%body_j == 0, .false.)
+         if (measure%body_j == body) call add_node(measure%arm_j, measure%body_i == 0, .false.)
       end do
-      do k = 1, size(suspension%springs)
-         measure = suspension%springs(k)%measure
+      do k = 1, suspension%scalars
+         measure = suspension%elements(k)%measure
          if (measure%kind /= distance) cycle           ! it has no attachment point
          if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
          if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)

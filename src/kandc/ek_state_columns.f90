@@ -12,7 +12,8 @@ module ek_state_columns
    use ek_rotation, only: cross
    use ek_joint, only: joint_t
    use ek_law, only: deflection
-   use ek_spring, only: spring_tension, stop_spring, torsion_spring, measure_spring, is_of_angle
+   use ek_element, only: element_kinds, is_of_angle
+   use ek_spring, only: spring_tension
    use ek_elastic, only: bushing_view_t, look_bushing, bushing_load
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
@@ -52,23 +53,15 @@ contains
          call add(prefix//'spindle_length_mm')
          call add(prefix//'spindle_offset_mm')
       end do
-      do k = 1, size(suspension%springs)
-         select case (suspension%springs(k)%kind)
-         case (stop_spring)
-            call add(suspension%springs(k)%name//'_gap_mm')
-            call add(suspension%springs(k)%name//'_force_n')
-         case (torsion_spring)
-            call add(suspension%springs(k)%name//'_angle_deg')
-            call add(suspension%springs(k)%name//'_moment_nm')
-         case (measure_spring)
-            associate (kind => suspension%springs(k)%measure%kind)
-               call add(suspension%springs(k)%name//value_ending(kind))
-               call add(suspension%springs(k)%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(kind))))
-            end associate
-         case default
-            call add(suspension%springs(k)%name//'_length_mm')
-            call add(suspension%springs(k)%name//'_force_n')
-         end select
+      do k = 1, suspension%scalars
+         associate (element => suspension%elements(k))
+            if (element_kinds(element%kind)%has_gap) then
+               call add(element%name//'_gap_mm')
+            else
+               call add(element%name//value_ending(element%measure%kind))
+            end if
+            call add(element%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(element%measure%kind))))
+         end associate
       end do
       do k = 1, size(suspension%readouts)
          select case (suspension%readouts(k)%measure%kind)
@@ -80,11 +73,11 @@ contains
             call add(suspension%readouts(k)%name//'_mm')
          end select
       end do
-      do k = 1, size(suspension%bushings)
-         call add_three(suspension%bushings(k)%name//'_d', 'mm')
-         call add_three(suspension%bushings(k)%name//'_r', 'deg')
-         call add_three(suspension%bushings(k)%name//'_f', 'n')
-         call add_three(suspension%bushings(k)%name//'_m', 'nm')
+      do k = suspension%scalars + 1, size(suspension%elements)
+         call add_three(suspension%elements(k)%name//'_d', 'mm')
+         call add_three(suspension%elements(k)%name//'_r', 'deg')
+         call add_three(suspension%elements(k)%name//'_f', 'n')
+         call add_three(suspension%elements(k)%name//'_m', 'nm')
       end do
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
@@ -149,21 +142,12 @@ contains
             now%spindle_offset/millimetre]
          at = at + 6
       end do
-      do k = 1, size(suspension%springs)
-         associate (spring => suspension%springs(k))
-            length = measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
-               state%poses(spring%measure%body_j + 1))
-            call spring_tension(spring, length, tension, slope)
-            select case (spring%kind)
-            case (stop_spring)
-               row(at + 1) = -deflection(spring%law, length)/millimetre
-            case (torsion_spring)
-               row(at + 1) = length/degree
-            case (measure_spring)
-               row(at + 1) = length/measure_unit(spring%measure%kind)
-            case default
-               row(at + 1) = length/millimetre
-            end select
+      do k = 1, suspension%scalars
+         associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
+            length = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
+            call spring_tension(element, length, tension, slope)
+            row(at + 1) = length/measure_unit(m%kind)
+            if (element_kinds(element%kind)%has_gap) row(at + 1) = -deflection(element%law, length)/millimetre
             row(at + 2) = -tension
             at = at + 2
          end associate
@@ -174,9 +158,9 @@ contains
             row(at) = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))/measure_unit(m%kind)
          end associate
       end do
-      do k = 1, size(suspension%bushings)
-         associate (bushing => suspension%bushings(k))
-            call look_bushing(bushing, state%poses(bushing%body_i + 1), state%poses(bushing%body_j + 1), view)
+      do k = suspension%scalars + 1, size(suspension%elements)
+         associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
+            call look_bushing(bushing, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             row(at + 1:at + 3) = to_marker(bushing%axes, view%gap)/millimetre
             row(at + 4:at + 6) = to_marker(bushing%axes, view%turn%theta)/degree
             call bushing_load(bushing, view, force, moment)
@@ -208,7 +192,7 @@ contains
       end do
    end subroutine state_values
 
-   !> Ending of the column of the value of a spring on a measure.
+   !> Ending of the column of the value of the measure of an element.
    pure function value_ending(kind) result(ending)
       integer, intent(in) :: kind         !! kind of the measure
       character(:), allocatable :: ending

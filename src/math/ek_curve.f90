@@ -14,9 +14,11 @@ module ek_curve
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, has_corner
+   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, has_corner, has_points, least_step
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
+
+   real(wp), parameter :: least_step = 1.0e-30_wp   !! smallest distance of two points; with numbers below 1e30 no slope overflows
 
    !> A curve, in the units of its points.
    type :: curve_t
@@ -84,6 +86,25 @@ contains
       scaled%end_value = curve%end_value*y_unit
       scaled%end_slope = curve%end_slope*(y_unit/x_unit)
    end function scaled_curve
+
+   !> Whether a curve was made from these points and units by `new_curve` and `scaled_curve`.
+   pure logical function has_points(curve, x, y, x_unit, y_unit)
+      type(curve_t), intent(in) :: curve
+      real(wp), intent(in) :: x(:), y(:)
+      real(wp), intent(in) :: x_unit, y_unit
+      integer :: k, n
+
+      n = size(x)
+      has_points = allocated(curve%breaks)
+      if (.not. has_points) return
+      has_points = size(curve%breaks) == n
+      do k = 1, n
+         if (.not. has_points) return
+         has_points = abs(curve%breaks(k) - x(k)*x_unit) <= 0.0_wp
+         if (k < n) has_points = has_points .and. abs(curve%coefficients(1, k) - y(k)*y_unit) <= 0.0_wp
+      end do
+      has_points = has_points .and. abs(curve%end_value - y(n)*y_unit) <= 0.0_wp
+   end function has_points
 
    !> Value and slope at x; at a corner of a linear curve, the slope to the right.
    pure subroutine look_up_curve(curve, x, value, slope)

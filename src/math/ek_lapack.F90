@@ -11,14 +11,13 @@ module ek_lapack
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
-      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, lapack_dgeqp3 => dgeqp3, &
-      lapack_dgelsd => dgelsd
+      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, lapack_dgeqp3 => dgeqp3
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3, dgelsd
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3, dgelsd
+   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
 
 #ifdef EK_TRAPS
 contains
@@ -136,22 +135,6 @@ contains
       call lapack_dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgeqp3
-
-   !> Minimum-norm least squares, any rank.
-   pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
-      integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
-      real(wp), intent(inout) :: a(lda, *), b(ldb, *)
-      real(wp), intent(out) :: s(*)
-      real(wp), intent(in) :: rcond
-      integer, intent(out) :: rank
-      real(wp), intent(out) :: work(*)
-      integer, intent(out) :: iwork(*)
-      integer, intent(out) :: info
-
-      call ieee_set_halting_mode(ieee_usual, .false.)
-      call lapack_dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
-      call ieee_set_flag(ieee_usual, .false.)
-   end subroutine dgelsd
 #endif
 
 end module ek_lapack

@@ -5,7 +5,7 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dgeqp3, dgelsd
+   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dgeqp3
 
    interface
       !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
@@ -105,20 +105,6 @@ module ek_lapack_routines
          real(wp), intent(out) :: tau(*), work(*)
          integer, intent(out) :: info
       end subroutine dgeqp3
-
-      !> Minimum-norm least squares, any rank.
-      pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
-         import :: wp
-         implicit none(type, external)
-         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
-         real(wp), intent(inout) :: a(lda, *), b(ldb, *)
-         real(wp), intent(out) :: s(*)
-         real(wp), intent(in) :: rcond
-         integer, intent(out) :: rank
-         real(wp), intent(out) :: work(*)
-         integer, intent(out) :: iwork(*)
-         integer, intent(out) :: info
-      end subroutine dgelsd
    end interface
 
 end module ek_lapack_routines

@@ -4,9 +4,10 @@
 !> body axes to global axes. Products satisfy A(p⊗q) = A(p) A(q).
 module ek_rotation
    use ek_kinds, only: wp
+   use ek_units, only: degree
    implicit none(type, external)
    private
-   public :: cross, skew, unit_vector, perpendicular
+   public :: cross, skew, unit_vector, perpendicular, angle_between
    public :: quaternion_product, quaternion_of_vector, rotation_matrix, rotate_quaternion
    public :: matrix_of_vector, quaternion_of_matrix, identity3
 
@@ -52,6 +53,12 @@ contains
       x(least) = 1.0_wp
       x = unit_vector(x - dot_product(x, z)*z)
    end function perpendicular
+
+   !> Angle between two unit vectors [deg], accurate near 0 and 180 deg too.
+   pure real(wp) function angle_between(u, v) result(angle)
+      real(wp), intent(in) :: u(3), v(3)
+      angle = 2.0_wp*atan2(norm2(u - v), norm2(u + v))/degree
+   end function angle_between
 
    !> p ⊗ q
    !> Equation (R.3) of docs/theory/rotations.md.

@@ -4,7 +4,7 @@ module ek_builder
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, global_gap
    use ek_joint, only: joint_t, row_t, term_t, joint_geometry_t, joint_terms, max_terms
-   use ek_spring, only: spring_t, new_spring
+   use ek_element, only: element_t, new_spring, new_bushing
    use ek_elastic, only: bushing_t
    use ek_suspension, only: suspension_t, body_t, point_t, load_t, wheel_t, readout_t
    implicit none(type, external)
@@ -184,22 +184,25 @@ contains
       call add_element(self, new_spring(name, where, body_i, body_j, point_i, point_j, rate, preload, free_length))
    end subroutine add_spring
 
-   !> Add an element on one measure, made by new_spring, new_damper, new_stop, new_torsion or new_measure_spring of ek_spring.
+   !> Add an element on one measure, made by a function of ek_element (new_spring, new_damper, …), before all bushings.
    pure subroutine add_element(self, element)
       type(suspension_t), intent(inout) :: self
-      type(spring_t), intent(in) :: element
+      type(element_t), intent(in) :: element
 
-      if (.not. allocated(self%springs)) allocate (self%springs(0))
-      self%springs = [self%springs, element]
+      if (.not. allocated(self%elements)) allocate (self%elements(0))
+      self%elements = [self%elements(:self%scalars), element, self%elements(self%scalars + 1:)]
+      self%scalars = self%scalars + 1
    end subroutine add_element
 
    !> Add a bushing. The caller sets all components except the derived ones; arms are given as design points.
    pure subroutine add_bushing(self, bushing)
       type(suspension_t), intent(inout) :: self
       type(bushing_t), intent(in) :: bushing
+      type(element_t) :: element
 
-      if (.not. allocated(self%bushings)) allocate (self%bushings(0))
-      self%bushings = [self%bushings, bushing]
+      element = new_bushing(bushing)
+      if (.not. allocated(self%elements)) allocate (self%elements(0))
+      self%elements = [self%elements, element]
    end subroutine add_bushing
 
    !> Add a load; its arm is given as a design point.

@@ -3,12 +3,12 @@ module ek_completion
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t, measure_value, axis_axis, rotation
-   use ek_spring, only: measure_spring, is_of_angle, set_measure_design
+   use ek_element, only: measure_spring, bushing_element, is_of_angle, set_measure_design
    use ek_elastic, only: set_bushing_axes
-   use ek_suspension, only: suspension_t, design_poses
+   use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: complete
+   public :: complete, settle_design, allocate_lists
 
 contains
 
@@ -16,10 +16,16 @@ contains
    !> the design values of the readouts. Call it once, after the last add; it cannot fail.
    subroutine complete(self)
       type(suspension_t), intent(inout) :: self
-      type(pose_t), allocatable :: poses(:)
+
+      call allocate_lists(self)
+      call settle_design(self)
+   end subroutine complete
+
+   !> The same when all lists are allocated, and all positions are design points again. Allocates nothing.
+   pure subroutine settle_design(self)
+      type(suspension_t), intent(inout) :: self
       integer :: k, t
 
-      call ensure_allocated(self)
       call settle_origins(self)
       do k = 1, size(self%terms)
          call subtract_origins(self, self%terms(k)%measure)
@@ -27,19 +33,18 @@ contains
       do k = 1, size(self%readouts)
          call subtract_origins(self, self%readouts(k)%measure)
       end do
-      do k = 1, size(self%springs)
-         if (.not. is_of_angle(self%springs(k)%measure%kind)) call subtract_origins(self, self%springs(k)%measure)
+      do k = 1, size(self%elements)
+         if (.not. is_of_angle(self%elements(k)%measure%kind)) call subtract_origins(self, self%elements(k)%measure)
+         if (self%elements(k)%kind /= bushing_element) cycle
+         associate (b => self%elements(k)%bushing, m => self%elements(k)%measure)
+            b%gap0 = b%arm_j - b%arm_i
+            b%arm_i = m%arm_i
+            b%arm_j = m%arm_j
+            call set_bushing_axes(b)
+         end associate
       end do
       do k = 1, size(self%joints)
          self%joints(k)%arm_j = self%joints(k)%arm_j - origin_of(self, self%joints(k)%body_j)
-      end do
-      do k = 1, size(self%bushings)
-         associate (b => self%bushings(k))
-            b%gap0 = b%arm_j - b%arm_i
-            b%arm_i = b%arm_i - origin_of(self, b%body_i)
-            b%arm_j = b%arm_j - origin_of(self, b%body_j)
-         end associate
-         call set_bushing_axes(self%bushings(k))
       end do
       do k = 1, size(self%bodies)
          self%bodies(k)%centre = self%bodies(k)%centre - self%bodies(k)%origin
@@ -56,37 +61,47 @@ contains
          end associate
       end do
 
-      allocate (poses, source=design_poses(self))
       do k = 1, size(self%rows)
          self%rows(k)%target = 0.0_wp
          do t = self%rows(k)%first, self%rows(k)%first + self%rows(k)%terms - 1
             associate (m => self%terms(t)%measure)
-               self%rows(k)%target = self%rows(k)%target + self%terms(t)%coefficient* &
-                  measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1))
+               self%rows(k)%target = self%rows(k)%target + self%terms(t)%coefficient*design_value(self, m)
             end associate
          end do
       end do
       do k = 1, size(self%readouts)
          associate (m => self%readouts(k)%measure)
-            self%readouts(k)%design_value = measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1))
+            self%readouts(k)%design_value = design_value(self, m)
          end associate
       end do
-      do k = 1, size(self%springs)
-         if (self%springs(k)%kind /= measure_spring) cycle
-         associate (m => self%springs(k)%measure)
-            call set_measure_design(self%springs(k), measure_value(m, poses(m%body_i + 1), poses(m%body_j + 1)))
+      do k = 1, size(self%elements)
+         if (self%elements(k)%kind /= measure_spring) cycle
+         associate (m => self%elements(k)%measure)
+            call set_measure_design(self%elements(k), design_value(self, m))
          end associate
       end do
-   end subroutine complete
+   end subroutine settle_design
+
+   !> The value of a measure with arms, at design.
+   pure real(wp) function design_value(self, measure) result(value)
+      type(suspension_t), intent(in) :: self
+      type(measure_t), intent(in) :: measure
+      type(pose_t) :: pose_i, pose_j
+
+      pose_i%r = origin_of(self, measure%body_i)
+      pose_j%r = origin_of(self, measure%body_j)
+      value = measure_value(measure, pose_i, pose_j)
+   end function design_value
 
    !> Sets the reference point of each body that has none: the mean of its attachment points.
-   subroutine settle_origins(self)
+   pure subroutine settle_origins(self)
       type(suspension_t), intent(inout) :: self
-      real(wp) :: total(3, 0:size(self%bodies))
-      integer :: count(0:size(self%bodies)), k, t
+      integer :: k, t
 
-      total = 0.0_wp
-      count = 0
+      do k = 1, size(self%bodies)
+         self%bodies(k)%attached = 0
+         if (.not. self%bodies(k)%has_origin) self%bodies(k)%origin = 0.0_wp
+      end do
       do k = 1, size(self%joints)
          t = self%rows(self%joints(k)%first_row)%first
          select case (self%joints(k)%kind)
@@ -94,36 +109,37 @@ contains
             ! angles have no point: they do not locate a body
             if (any(self%terms(t)%measure%kind == [axis_axis, rotation])) cycle
          end select
-         call include_measure(self%terms(t)%measure)
+         call include_points(self, self%terms(t)%measure)
       end do
-      do k = 1, size(self%springs)
-         if (.not. is_of_angle(self%springs(k)%measure%kind)) call include_measure(self%springs(k)%measure)
-      end do
-      do k = 1, size(self%bushings)
-         call include_point(self%bushings(k)%body_i, self%bushings(k)%arm_i)
-         call include_point(self%bushings(k)%body_j, self%bushings(k)%arm_j)
+      do k = 1, size(self%elements)
+         if (.not. is_of_angle(self%elements(k)%measure%kind)) call include_points(self, self%elements(k)%measure)
       end do
       do k = 1, size(self%bodies)
-         if (self%bodies(k)%has_origin .or. count(k) == 0) cycle
-         self%bodies(k)%origin = total(:, k)/count(k)
+         associate (body => self%bodies(k))
+            if (.not. body%has_origin .and. body%attached > 0) body%origin = body%origin/body%attached
+         end associate
       end do
-
-   contains
-
-      subroutine include_measure(m)
-         type(measure_t), intent(in) :: m
-         call include_point(m%body_i, m%arm_i)
-         call include_point(m%body_j, m%arm_j)
-      end subroutine include_measure
-
-      subroutine include_point(body, point)
-         integer, intent(in) :: body
-         real(wp), intent(in) :: point(3)
-         total(:, body) = total(:, body) + point
-         count(body) = count(body) + 1
-      end subroutine include_point
-
    end subroutine settle_origins
+
+   !> Counts both points of a measure as attachment points.
+   pure subroutine include_points(self, m)
+      type(suspension_t), intent(inout) :: self
+      type(measure_t), intent(in) :: m
+      call include_point(self, m%body_i, m%arm_i)
+      call include_point(self, m%body_j, m%arm_j)
+   end subroutine include_points
+
+   !> Adds a design point to the sum, still held in `origin`, of the attachment points of a body.
+   pure subroutine include_point(self, body, point)
+      type(suspension_t), intent(inout) :: self
+      integer, intent(in) :: body
+      real(wp), intent(in) :: point(3)
+
+      if (body == 0) return
+      if (self%bodies(body)%has_origin) return
+      self%bodies(body)%origin = self%bodies(body)%origin + point
+      self%bodies(body)%attached = self%bodies(body)%attached + 1
+   end subroutine include_point
 
    !> Converts the design points of a measure to arms.
    pure subroutine subtract_origins(self, measure)
@@ -143,15 +159,14 @@ contains
    end function origin_of
 
    !> Allocates components that were never added, as empty.
-   pure subroutine ensure_allocated(self)
+   pure subroutine allocate_lists(self)
       type(suspension_t), intent(inout) :: self
       if (.not. allocated(self%bodies)) allocate (self%bodies(0))
       if (.not. allocated(self%points)) allocate (self%points(0))
       if (.not. allocated(self%joints)) allocate (self%joints(0))
       if (.not. allocated(self%rows)) allocate (self%rows(0))
       if (.not. allocated(self%terms)) allocate (self%terms(0))
-      if (.not. allocated(self%springs)) allocate (self%springs(0))
-      if (.not. allocated(self%bushings)) allocate (self%bushings(0))
+      if (.not. allocated(self%elements)) allocate (self%elements(0))
       if (.not. allocated(self%loads)) allocate (self%loads(0))
       if (.not. allocated(self%wheels)) allocate (self%wheels(0))
       if (.not. allocated(self%readouts)) allocate (self%readouts(0))
@@ -161,6 +176,6 @@ contains
       if (.not. allocated(self%axle%where)) self%axle%where = ''
       if (.not. allocated(self%steering%where)) self%steering%where = ''
       if (.not. allocated(self%steering%driver)) self%steering%driver = ''
-   end subroutine ensure_allocated
+   end subroutine allocate_lists
 
 end module ek_completion

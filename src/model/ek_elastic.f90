@@ -1,22 +1,20 @@
-!> Elastic elements: measures with a law, each with an energy, so that all forces balance.
+!> Bushings: six components with an energy, so that all forces balance.
 !>
-!> Springs: one measure, a distance or a rotation (ek_spring); re-exported here.
-!> Bushing: V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ, d the gap from marker I to marker J and θ the
-!>          relative rotation vector, both in the axes of marker I (fixed in body i). A component may have a
-!>          curve c instead of a rate; ∫c then takes the place of ½ k d².
+!>     V = ½ dᵀK_t d + ½ θᵀK_r θ − f0·d − m0·θ
+!>
+!> d is the gap from marker I to marker J and θ the relative rotation vector, both in the axes of marker I (fixed in body i).
+!> A component may have a curve c instead of a rate; ∫c then takes the place of ½ k d².
 !>
 !> "Pull" below means the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic
    use ek_kinds, only: wp
    use ek_law, only: law_t, look_up_law
-   use ek_spring, only: spring_t, spring_tension, add_spring_tangent
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
    use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
-   public :: spring_t, bushing_t, bushing_view_t
-   public :: spring_tension, add_spring_tangent, set_bushing_axes
+   public :: bushing_t, bushing_view_t, set_bushing_axes
    public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> A six-axis bushing from marker I on body i to marker J on body j. The markers are parallel

@@ -22,11 +22,11 @@
 module ek_joint
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, axis_axis, body_gap, global_gap, distance
-   use ek_rotation, only: cross, perpendicular, identity3
+   use ek_rotation, only: cross, perpendicular, identity3, angle_between
    implicit none(type, external)
    private
    public :: joint_t, row_t, term_t, joint_geometry_t, joint_terms, joint_kinds
-   public :: needs_axis, needs_second_axis, max_terms
+   public :: needs_axis, needs_second_axis, max_terms, axes_fit
 
    integer, parameter :: max_terms = 6   !! largest number of terms of a joint (fixed)
 
@@ -91,6 +91,25 @@ contains
       character(*), intent(in) :: kind
       needs_second_axis = kind == 'universal' .or. kind == 'constant_velocity' .or. kind == 'perpendicular'
    end function needs_second_axis
+
+   !> Whether two axes suit a joint: at a right angle, parallel, or not opposed.
+   pure logical function axes_fit(kind, axis_i, axis_j)
+      character(*), intent(in) :: kind
+      real(wp), intent(in) :: axis_i(3), axis_j(3)      !! unit
+      real(wp), parameter :: tolerance = 0.01_wp, widest = 179.0_wp      ! deg
+      real(wp) :: angle
+
+      axes_fit = .true.
+      select case (kind)
+      case ('universal', 'perpendicular')
+         axes_fit = abs(angle_between(axis_i, axis_j) - 90.0_wp) <= tolerance
+      case ('parallel')
+         angle = angle_between(axis_i, axis_j)
+         axes_fit = min(angle, 180.0_wp - angle) <= tolerance
+      case ('constant_velocity')
+         axes_fit = angle_between(axis_i, axis_j) <= widest
+      end select
+   end function axes_fit
 
    !> The terms of a joint in row order, and the number of terms of each row.
    !>

@@ -9,8 +9,7 @@ module ek_suspension
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t
    use ek_joint, only: joint_t, row_t, term_t
-   use ek_spring, only: spring_t
-   use ek_elastic, only: bushing_t
+   use ek_element, only: element_t
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
@@ -21,6 +20,7 @@ module ek_suspension
       character(:), allocatable :: name, where
       real(wp) :: origin(3) = 0.0_wp      !! reference point r at design [m]
       logical :: has_origin = .false.     !! given in the deck; otherwise the mean of its attachment points
+      integer :: attached = 0             !! number of those points
       real(wp) :: mass = 0.0_wp           !! kg
       real(wp) :: centre(3) = 0.0_wp      !! centre of gravity: arm from the reference point, body axes [m]; if there is a mass
    end type body_t
@@ -105,13 +105,15 @@ module ek_suspension
       type(joint_t), allocatable :: joints(:)
       type(row_t), allocatable :: rows(:)      !! Φ(q) = 0, in joint order
       type(term_t), allocatable :: terms(:)
-      type(spring_t), allocatable :: springs(:)  !! springs, dampers, stops, torsion springs, in this order if built from a deck
-      type(bushing_t), allocatable :: bushings(:)
+      type(element_t), allocatable :: elements(:)
+      integer :: scalars = 0   !! elements(:scalars) act along one measure: springs, dampers, stops, torsion springs, in this order
+                               !! if built from a deck; the others have six components: bushings
       type(load_t), allocatable :: loads(:)
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
       type(axle_t) :: axle
       type(steering_t) :: steering
+      real(wp), allocatable :: vectors(:, :)   !! (3, 0:n) design points [m] and directions of the blueprint, see ek_realise
    contains
       procedure :: unknowns                    !! 6 × bodies
       procedure :: constraints                 !! number of rows

@@ -31,7 +31,7 @@ module ek_sheet
       type(message_list_t) :: head_mistakes, row_mistakes
       integer :: untold = 0                             !! number of errors beyond the largest number reported
       character :: separator = ','
-      logical :: has_decimal_commas = .false., has_decimal_points = .false.
+      logical :: has_decimal_points = .false.            !! then a comma is no decimal mark
    end type sheet_t
 
    !> A line cut into cells.
@@ -167,7 +167,6 @@ contains
          last = index(text(first:), line_end) + first - 2
          if (last < first - 1) last = len(text)
          if (text(first:min(first, len(text))) /= '#') then
-            sheet%has_decimal_commas = sheet%has_decimal_commas .or. index(text(first:last), ',') > 0
             sheet%has_decimal_points = sheet%has_decimal_points .or. index(text(first:last), '.') > 0
          end if
          first = last + 2

@@ -13,6 +13,7 @@ module ek_factor_sweep
    use ek_table, only: table_t, new_table, column_index, name_length
    use ek_study, only: study_t
    use ek_response, only: reading_t, prepare_reading, read_response
+   use ek_examination, only: known_case_t
    use ek_subject, only: make_subject
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
@@ -37,6 +38,7 @@ contains
       type(table_t) :: table
       type(error_t), allocatable :: trouble
       type(reading_t), allocatable :: readings(:)
+      type(known_case_t) :: known
       real(wp), allocatable :: values(:), rows(:, :)
       character(:), allocatable :: label, unit
       integer :: design, designs, first, second, i, j, f, n, used, before
@@ -58,7 +60,7 @@ contains
             do f = 1, n
                label = label//study%factors(f)%path//'='//shortest(values(f))//' '
             end do
-            call run_design(study, deck, values, design > 1, table, unit, trouble, error)
+            call run_design(study, deck, values, known, table, unit, trouble, error)
             if (allocated(error)) return
             if (design == 1) then
                if (.not. allocated(trouble)) call check_columns(study, table, unit, readings, error)
@@ -102,11 +104,11 @@ contains
    end subroutine sweep_factors
 
    !> Runs one design: its table, or the reason for its failure. `error`: a path that is invalid for every design.
-   subroutine run_design(study, deck, values, is_known, table, unit, trouble, error)
+   subroutine run_design(study, deck, values, known, table, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
-      logical, intent(in) :: is_known                    !! the inputs were checked with another design
+      type(known_case_t), intent(inout) :: known         !! from the designs before
       type(table_t), intent(out) :: table
       character(:), allocatable, intent(out) :: unit     !! of the column `factor`: 'mm', 'N', …
       type(error_t), allocatable, intent(out) :: trouble, error
@@ -129,7 +131,7 @@ contains
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
          return
       end do
-      call make_subject(changed, study%case, suspension, case, kkt, trouble, is_known)
+      call make_subject(changed, study%case, suspension, case, kkt, trouble, known)
       if (allocated(trouble)) then
          do f = 1, size(values)
             call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &

@@ -7,13 +7,14 @@ module ek_study
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, lower, quoted
    use ek_case, only: method_names, most_increments
-   use ek_complaint, only: place_t, place_in
+   use ek_complaint, only: place_t
    use ek_record, only: element, place_of
-   use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, note_length, &
-      most_values, did_you_mean, is_deck_group, names_of_groups, is_legal_name
+   use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, most_values, &
+      did_you_mean, is_deck_group, names_of_groups, is_legal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, read_deck
-   use ek_draft, only: draft_t, complain, choice, has_key, where_of, line_of
+   use ek_draft, only: draft_t, complain, complain_of_all, choice, choose, has_key, where_of, line_of, text_of, &
+      texts_of, number_of, numbers_of, whole_of, value_count
    implicit none(type, external)
    private
    public :: study_t, factor_t, response_t, read_study
@@ -46,9 +47,6 @@ module ek_study
       character(:), allocatable :: where          !! 'file:line' of the &study, for messages
    end type study_t
 
-   integer, parameter :: unset = -huge(1)
-   real(wp), parameter :: unset_number = -huge(1.0_wp)
-
 contains
 
    !> Reads a study file; all its mistakes are reported in one error.
@@ -63,22 +61,25 @@ contains
 
       call read_deck(path, file, error, is_study=.true.)
       if (allocated(error)) return
-      if (file%used == 0 .or. is_deck(file)) then
-         if (file%used == 0) then
-            call fail(error, exit_deck, file%complaints%text())
-         else
-            call fail(error, exit_deck, where_of(file, 1)//': this is a deck (&'//file%records(1)%group// &
-               '), not a study; use it with: elastokin run, check or report '//file%file// &
-               '. A study is a file with a &study, which names its deck')
-         end if
+      draft%file = file%file
+      draft%records = file%records(:file%used)
+      draft%complaints = file%complaints
+      draft%k = 1
+      if (file%used == 0) then
+         call fail(error, exit_deck, file%complaints%text())
+         return
+      else if (is_deck(file)) then
+         call fail(error, exit_deck, where_of(draft)//': this is a deck (&'//file%records(1)%group// &
+            '), not a study; use it with: elastokin run, check or report '//file%file// &
+            '. A study is a file with a &study, which names its deck')
          return
       end if
-      draft%complaints = file%complaints
       allocate (draft%cards(file%used))
       allocate (study%factors(0), study%responses(0))
       studies = 0
       do k = 1, file%used
-         associate (card => draft%cards(k), record => file%records(k))
+         draft%k = k
+         associate (card => draft%cards(k), record => draft%records(k))
             card%group = group_number(record%group)
             if (card%group == 0 .or. is_deck_group(card%group)) then
                call place_of(record, 0, place)
@@ -88,26 +89,22 @@ contains
                cycle
             end if
             card%name = element(record, 'name', 1)
-            call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, &
-               card%text, card%is_good)
+            call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, card%is_good)
          end associate
-         call check_name(file, draft, k)
+         call check_name(draft)
          select case (draft%cards(k)%group)
          case (study_group)
             studies = studies + 1
-            if (studies > 1) call complain(draft, file, k, '', 'a second &study; a file may hold only one')
-            call take_study(file, draft, k, study)
+            if (studies > 1) call complain(draft, '', 'a second &study; a file may hold only one')
+            call take_study(draft, study)
          case (factor_group)
-            call take_factor(file, draft, k, study)
+            call take_factor(draft, study)
          case (response_group)
-            call take_response(file, draft, k, study)
+            call take_response(draft, study)
          end select
       end do
-      if (studies == 0) then
-         call place_in(file%file, 0, 0, place)
-         call draft%complaints%add(place, 'there is no &study')
-      end if
-      if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(file, draft, study)
+      if (studies == 0) call complain_of_all(draft, 'there is no &study')
+      if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(draft, study)
       if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
    end subroutine read_study
 
@@ -128,117 +125,88 @@ contains
    end function is_deck
 
    !> Checks a name, which appears in paths and must be unique among the column names.
-   subroutine check_name(file, draft, k)
-      type(deck_t), intent(in) :: file
+   subroutine check_name(draft)
       type(draft_t), intent(inout) :: draft
-      integer, intent(in) :: k
       character(*), parameter :: heads(3) = [character(9) :: 'design', 'factor', 'converged']   !! always present
       integer :: j
 
-      associate (card => draft%cards(k))
+      associate (card => draft%cards(draft%k))
          if (card%name == '') return
          if (.not. is_legal_name(trim(card%name))) then
-            call complain(draft, file, k, 'name', 'a name must begin with a letter and contain only letters, digits and _')
+            call complain(draft, 'name', 'a name must begin with a letter and contain only letters, digits and _')
          end if
          if (card%group == study_group) return
          if (any(heads == lower(card%name))) &
-            call complain(draft, file, k, 'name', 'the name is reserved for a column of the results')
-         do j = 1, k - 1
+            call complain(draft, 'name', 'the name is reserved for a column of the results')
+         do j = 1, draft%k - 1
             if (draft%cards(j)%group /= factor_group .and. draft%cards(j)%group /= response_group) cycle
-            if (draft%cards(j)%name == card%name) call complain(draft, file, k, 'name', 'the name is given twice, first in '// &
-               line_of(file, j, k))
+            if (draft%cards(j)%name == card%name) call complain(draft, 'name', 'the name is given twice, first in '// &
+               line_of(draft, j))
          end do
       end associate
    end subroutine check_name
 
    !> &study
-   subroutine take_study(file, draft, k, study)
-      type(deck_t), intent(in) :: file
+   subroutine take_study(draft, study)
       type(draft_t), intent(inout) :: draft
-      integer, intent(in) :: k
       type(study_t), intent(inout) :: study
-      character(note_length) :: title, deck, plot
-      character(word_length) :: name, kind, case, end, methods(3), columns(20)
-      character(:), allocatable :: text
-      integer :: increments(most_values), status, c, m
-      namelist /study_nml/ name, title, kind, deck, case, plot, end, methods, columns, increments
+      character(*), parameter :: kinds(2) = [character(9) :: 'step_size', 'sweep']
+      character(word_length) :: words(20)
+      integer :: c, m
 
-      name = ''
-      title = ''
-      kind = ''
-      deck = ''
-      case = ''
-      plot = 'plot.gp'
-      end = 'to'
-      methods = ''
-      columns = ''
-      increments = unset
-      ! the namelist cannot be called `study`, which is the dummy argument
-      text = '&study_nml'//draft%cards(k)%text(len('&study') + 1:)
-      read (text, nml=study_nml, iostat=status)
-      if (status /= 0) call complain(draft, file, k, '', 'cannot be read')
-      call choice(draft, file, k, 'kind', trim(kind), [character(9) :: 'step_size', 'sweep'], c)
-      call choice(draft, file, k, 'end', trim(end), [character(4) :: 'from', 'to'], c)
-      do m = 1, 3
-         call choice(draft, file, k, 'methods', trim(methods(m)), method_names, c)
+      call choice(draft, 'kind', kinds, c)
+      study%kind = lower(text_of(draft, 'kind'))
+      call choice(draft, 'end', [character(4) :: 'from', 'to'], c)
+      study%end = lower(text_of(draft, 'end', 'to'))
+      words = texts_of(draft, 'methods', 20)
+      study%methods = pack(words, words /= '')
+      do m = 1, size(study%methods)
+         call choose(draft, 'methods', trim(study%methods(m)), method_names, c)
       end do
-      if (all(methods == '')) methods = method_names
-      study%name = trim(name)
-      study%title = trim(title)
-      study%kind = lower(trim(kind))
-      study%deck = trim(deck)
-      study%case = trim(case)
-      study%plot = trim(plot)
-      study%end = lower(trim(end))
-      study%methods = pack(methods, methods /= '')
-      study%columns = pack(columns, columns /= '')
-      study%increments = pack(increments, increments /= unset)
-      if (any(study%increments < 1 .or. study%increments > most_increments)) call complain(draft, file, k, 'increments', &
+      if (size(study%methods) == 0) study%methods = method_names
+      study%name = text_of(draft, 'name')
+      study%title = text_of(draft, 'title')
+      study%deck = text_of(draft, 'deck')
+      study%case = text_of(draft, 'case')
+      study%plot = text_of(draft, 'plot', 'plot.gp')
+      words = texts_of(draft, 'columns', 20)
+      study%columns = pack(words, words /= '')
+      study%increments = [(whole_of(draft, 'increments', 0, m), m=1, value_count(draft, 'increments'))]
+      if (any(study%increments < 1 .or. study%increments > most_increments)) call complain(draft, 'increments', &
          'increments must be 1 to '//str(most_increments))
       do c = 2, size(study%columns)
-         if (any(study%columns(:c - 1) == study%columns(c))) call complain(draft, file, k, 'columns', &
+         if (any(study%columns(:c - 1) == study%columns(c))) call complain(draft, 'columns', &
             'columns: '//quoted(study%columns(c))//' is named twice')
       end do
-      study%where = where_of(file, k)
+      study%where = where_of(draft)
    end subroutine take_study
 
    !> &factor: values given one by one, or from, to, count and spacing.
-   subroutine take_factor(file, draft, k, study)
-      type(deck_t), intent(in) :: file
+   subroutine take_factor(draft, study)
       type(draft_t), intent(inout) :: draft
-      integer, intent(in) :: k
       type(study_t), intent(inout) :: study
-      character(note_length) :: path
-      character(word_length) :: name, spacing
-      real(wp) :: values(most_values), from, to
-      integer :: count, status, c, j
-      namelist /factor/ name, path, values, from, to, count, spacing
       type(factor_t) :: this
+      real(wp) :: from, to
+      integer :: count, c, j
 
-      name = ''
-      path = ''
-      spacing = 'linear'
-      values = unset_number
-      from = 0.0_wp
-      to = 0.0_wp
-      count = unset
-      read (draft%cards(k)%text, nml=factor, iostat=status)
-      if (status /= 0) call complain(draft, file, k, '', 'cannot be read')
-      call choice(draft, file, k, 'spacing', trim(spacing), [character(6) :: 'linear', 'log'], c)
-      this%name = trim(name)
-      this%path = trim(path)
-      if (has_key(file, k, 'values')) then
-         this%values = pack(values, values > unset_number)
-         if (has_key(file, k, 'count') .or. has_key(file, k, 'from') .or. has_key(file, k, 'to')) &
-            call complain(draft, file, k, 'values', 'give values, or from, to and count, not both')
-      else if (has_key(file, k, 'count') .and. has_key(file, k, 'from') .and. has_key(file, k, 'to')) then
+      call choice(draft, 'spacing', [character(6) :: 'linear', 'log'], c, default=1)
+      this%name = text_of(draft, 'name')
+      this%path = text_of(draft, 'path')
+      if (has_key(draft, 'values')) then
+         this%values = numbers_of(draft, 'values', value_count(draft, 'values'))
+         if (has_key(draft, 'count') .or. has_key(draft, 'from') .or. has_key(draft, 'to')) &
+            call complain(draft, 'values', 'give values, or from, to and count, not both')
+      else if (has_key(draft, 'count') .and. has_key(draft, 'from') .and. has_key(draft, 'to')) then
+         count = whole_of(draft, 'count', 2)
+         from = number_of(draft, 'from', 0.0_wp)
+         to = number_of(draft, 'to', 0.0_wp)
          if (count < 2 .or. count > most_values) then
-            call complain(draft, file, k, 'count', 'count must be 2 to 200')
+            call complain(draft, 'count', 'count must be 2 to 200')
             return
          end if
-         if (lower(spacing) == 'log') then
+         if (c == 2) then
             if (.not. (from > 0.0_wp .and. to > 0.0_wp)) then
-               call complain(draft, file, k, 'spacing', 'spacing = ''log'' needs from and to above 0')
+               call complain(draft, 'spacing', 'spacing = ''log'' needs from and to above 0')
                return
             end if
             this%values = [(from*(to/from)**(real(j, wp)/(count - 1)), j=0, count - 1)]
@@ -246,59 +214,41 @@ contains
             this%values = [(from + (to - from)*real(j, wp)/(count - 1), j=0, count - 1)]
          end if
       else
-         call complain(draft, file, k, '', 'needs values, or from, to and count')
+         call complain(draft, '', 'needs values, or from, to and count')
          return
       end if
-      this%where = where_of(file, k)
+      this%where = where_of(draft)
       study%factors = [study%factors, this]
    end subroutine take_factor
 
    !> &response
-   subroutine take_response(file, draft, k, study)
-      type(deck_t), intent(in) :: file
+   subroutine take_response(draft, study)
       type(draft_t), intent(inout) :: draft
-      integer, intent(in) :: k
       type(study_t), intent(inout) :: study
-      character(word_length) :: name, column, of, over
-      real(wp) :: at, window
-      integer :: status, c
-      namelist /response/ name, column, of, over, at, window
       type(response_t) :: this
+      integer :: c
 
-      name = ''
-      column = ''
-      of = 'value'
-      over = ''
-      at = 0.0_wp
-      window = 15.0_wp
-      read (draft%cards(k)%text, nml=response, iostat=status)
-      if (status /= 0) call complain(draft, file, k, '', 'cannot be read')
-      call choice(draft, file, k, 'of', trim(of), [character(5) :: 'value', 'slope', 'span'], c)
-      if (.not. window > 0.0_wp) call complain(draft, file, k, 'window', 'window must be above 0')
-      this%name = trim(name)
-      this%column = trim(column)
-      this%of = lower(trim(of))
-      this%over = trim(over)
-      this%at = at
-      this%window = window
-      this%where = where_of(file, k)
+      call choice(draft, 'of', [character(5) :: 'value', 'slope', 'span'], c)
+      this%name = text_of(draft, 'name')
+      this%column = text_of(draft, 'column')
+      this%of = lower(text_of(draft, 'of', 'value'))
+      this%over = text_of(draft, 'over')
+      this%at = number_of(draft, 'at', 0.0_wp)
+      this%window = number_of(draft, 'window', this%window)
+      this%where = where_of(draft)
       study%responses = [study%responses, this]
    end subroutine take_response
 
    !> Checks that the parts of a study are consistent.
-   subroutine check_whole(file, draft, study)
-      type(deck_t), intent(in) :: file
+   subroutine check_whole(draft, study)
       type(draft_t), intent(inout) :: draft
       type(study_t), intent(in) :: study
-      integer :: k
 
-      do k = 1, file%used
-         if (draft%cards(k)%group == study_group) exit
-      end do
+      draft%k = findloc(draft%cards%group, study_group, dim=1)
       if (study%kind == 'step_size') then
-         if (size(study%increments) == 0) call complain(draft, file, k, '', 'kind = ''step_size'' needs increments = …')
+         if (size(study%increments) == 0) call complain(draft, '', 'kind = ''step_size'' needs increments = …')
       else if (size(study%factors) < 1 .or. size(study%factors) > 2) then
-         call complain(draft, file, k, '', 'kind = ''sweep'' needs one or two &factor groups')
+         call complain(draft, '', 'kind = ''sweep'' needs one or two &factor groups')
       end if
    end subroutine check_whole
 

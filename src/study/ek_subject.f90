@@ -10,7 +10,8 @@ module ek_subject
    use ek_case_inputs, only: check_inputs
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
-   use ek_examination, only: examine_case
+   use ek_diagnosis, only: diagnosis_t
+   use ek_examination, only: examine_case, known_case_t
    implicit none(type, external)
    private
    public :: make_subject
@@ -18,16 +19,18 @@ module ek_subject
 contains
 
    !> Builds the model of a deck for one case ('': the first case), mounts it on the rig, and examines it.
-   subroutine make_subject(deck, case_name, suspension, case, kkt, error, is_known)
+   !>
+   !> A study of many designs passes the same `known` with each: what does not change between designs is then checked once.
+   subroutine make_subject(deck, case_name, suspension, case, kkt, error, known)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(kkt_t), intent(out) :: kkt
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(in), optional :: is_known     !! its inputs were checked with another design of the deck; default .false.
+      type(known_case_t), intent(inout), optional :: known
       type(case_t), allocatable :: cases(:)
-      character(:), allocatable :: words
+      type(diagnosis_t) :: diagnosis
       logical :: is_checked
       integer :: k
 
@@ -46,13 +49,13 @@ contains
          return
       end if
       is_checked = .false.
-      if (present(is_known)) is_checked = is_known
+      if (present(known)) is_checked = known%is_known
       if (.not. is_checked) call check_inputs(suspension, cases(k:k), error)
       if (allocated(error)) return
       case = cases(k)
-      call examine_case(suspension, case, words)
-      if (len(words) > 0) then
-         call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//words)
+      call examine_case(suspension, case, diagnosis, known)
+      if (.not. diagnosis%is_solvable()) then
+         call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//diagnosis%words())
          return
       end if
       call balance(suspension, case%tolerance, error)

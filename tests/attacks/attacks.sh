@@ -357,6 +357,15 @@ little_address_space() { # the library for linear algebra would ask for memory f
     esac
   done
 }
+memory_for_forty_thousand_designs() {
+  local values
+  values=$(seq -s, 1 200)
+  { echo "&study name = 'grid', kind = 'sweep', deck = '$tiny', case = 'sweep', columns = 'wheel_travel_mm', 'camber_deg' /"
+    echo "&factor name = 'rate', path = 'spring.coil.rate', values = $values /"
+    echo "&factor name = 'preload', path = 'spring.coil.preload', values = $values /"; } >grid.nml
+  run 5 bash -c "ulimit -v 300000; exec '$program' study grid.nml --out out" &&
+    says 'not enough memory: a study of 40000 designs needs' && clean out
+}
 memory_for_a_million_states() {
   { cat "$tiny"; echo "&case name = 'long', load = 'vertical', from = -100.0, to = 100.0, increments = 1000000 /"; } >long.nml
   run 5 bash -c "ulimit -v 400000; exec '$program' run long.nml --out out" && says 'not enough memory' &&
@@ -389,7 +398,8 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
   reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed case_called_like_a_target
-  same_bytes_again little_address_space memory_for_a_million_states no_further_process no_process_for_gnuplot few_open_files)
+  same_bytes_again little_address_space memory_for_a_million_states memory_for_forty_thousand_designs no_further_process
+  no_process_for_gnuplot few_open_files)
 [ $# -gt 0 ] || set -- "${all[@]}"
 held=0
 failed=0

@@ -1,7 +1,9 @@
 !> What a test reads off a state: constraints, wheel attitude, forces.
 module ek_reading
    use ek_kinds, only: wp
-   use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
+   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_element, only: element_t
+   use ek_spring, only: spring_tension
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_measure, only: measure_value, measure_gradient
    use ek_turn, only: pose_t
@@ -113,14 +115,13 @@ contains
    end function joint_force
 
    !> Force of a bushing on its body_j, axes of its marker on body_i [N]: preload − k·gap.
-   function bushing_force(suspension, state, bushing) result(force)
-      type(suspension_t), intent(in) :: suspension
+   function bushing_force(element, state) result(force)
+      type(element_t), intent(in) :: element
       type(state_t), intent(in) :: state
-      integer, intent(in) :: bushing
       real(wp) :: force(3)
       type(bushing_view_t) :: view
 
-      associate (b => suspension%bushings(bushing))
+      associate (b => element%bushing)
          call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
          force = b%preload_force - b%kt*matmul(transpose(b%axes), view%gap)
       end associate
@@ -133,7 +134,7 @@ contains
       integer, intent(in) :: spring
       real(wp) :: slope
 
-      associate (s => suspension%springs(spring))
+      associate (s => suspension%elements(spring))
          call spring_tension(s, measure_value(s%measure, state%poses(s%measure%body_i + 1), &
             state%poses(s%measure%body_j + 1)), tension, slope)
       end associate

@@ -10,7 +10,8 @@ module ek_trial
    use ek_deck, only: deck_t, parse_deck
    use ek_reader, only: build_model
    use ek_measure, only: measure_value, measure_gradient
-   use ek_elastic, only: bushing_view_t, look_bushing, spring_tension
+   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_spring, only: spring_tension
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t
@@ -112,14 +113,14 @@ contains
       energy = 0.0_wp
       do s = 1, trial%path%states
          state = state_of(trial%suspension, trial%path, s)
-         do k = 1, size(trial%suspension%springs)
-            associate (spring => trial%suspension%springs(k), m => trial%suspension%springs(k)%measure)
+         do k = 1, trial%suspension%scalars
+            associate (spring => trial%suspension%elements(k), m => trial%suspension%elements(k)%measure)
                e = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)) - spring%design_length
                energy(s) = energy(s) + 0.5_wp*spring%rate*e**2 - spring%preload*e
             end associate
          end do
-         do k = 1, size(trial%suspension%bushings)
-            associate (b => trial%suspension%bushings(k))
+         do k = 1, size(trial%suspension%elements) - trial%suspension%scalars
+            associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing)
                call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
                d = matmul(transpose(b%axes), view%gap)
                turn = matmul(transpose(b%axes), view%turn%theta)
@@ -143,16 +144,16 @@ contains
       lift = 0.0_wp
       do s = 1, trial%path%states
          state = state_of(trial%suspension, trial%path, s)
-         do k = 1, size(trial%suspension%springs)
-            associate (m => trial%suspension%springs(k)%measure)
-               call spring_tension(trial%suspension%springs(k), &
+         do k = 1, trial%suspension%scalars
+            associate (m => trial%suspension%elements(k)%measure)
+               call spring_tension(trial%suspension%elements(k), &
                   measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)), tension, slope)
                gradient = tension*measure_gradient(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
                call include(m%body_i, m%body_j)
             end associate
          end do
-         do k = 1, size(trial%suspension%bushings)
-            associate (b => trial%suspension%bushings(k))
+         do k = 1, size(trial%suspension%elements) - trial%suspension%scalars
+            associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing)
                call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
                gradient = 0.0_wp
                gradient(3) = -view%force(3)

@@ -23,6 +23,7 @@ contains
     if (x > huge(x)) buffer = 'Inf'
     if (x < -huge(x)) buffer = '-Inf'
     text = trim(adjustl(buffer))
+    if (index(text, 'Inf') > 0) text = text(:index(text, 'Inf') + 2)      ! or 'Infinity', likewise
   end function text_of_real
 
   pure function text_of_integer(x) result(text)

@@ -1,0 +1,177 @@
+!> The parameters: every number of a deck, by its path as `--set` writes it.
+!>
+!> x(k) is the value of parameter k [SI, axes of the deck]. On a mirrored axle the two parameters of a number of the half deck have
+!> one path without the side, and the one on the right takes `sign` × the value.
+module ek_parameter
+   use ek_kinds, only: wp
+   use ek_text, only: str, is_like
+   use ek_twin, only: right_twin
+   use ek_record, only: record_t, entry_index, element, own_name
+   use ek_group, only: group_names, group_number, point_group, key_t, find_key, is_single, is_inside
+   use ek_setting, only: path_t, split_path, change_t, changed
+   use ek_mirror_role, only: sign_of_image
+   implicit none(type, external)
+   private
+   public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range, parameter_path
+
+   !> One number of the deck.
+   type :: parameter_t
+      integer :: record = 0               !! number of its record in the mirrored deck
+      character(14) :: key = ''
+      integer :: at = 1                   !! subscript
+      real(wp) :: unit = 1.0_wp           !! SI value of its unit in the deck
+      integer :: range = 0                !! of its key, see ek_group
+      logical :: is_given = .true.        !! .false.: the deck omits it, x has its default
+      real(wp) :: sign = 1.0_wp           !! −1: on the right side, the opposite of the value on the left
+      integer :: tied = 0                 !! the parameter of the left side with the same path; 0: none
+   end type parameter_t
+
+   !> All parameters with their values in the deck.
+   type :: parameters_t
+      integer :: used = 0
+      type(parameter_t), allocatable :: list(:)     !! the first `used`
+      real(wp), allocatable :: x(:)
+   end type parameters_t
+
+   !> A parameter to which a path leads.
+   type :: choice_t
+      integer :: number = 0
+      real(wp) :: sign = 1.0_wp           !! −1: it takes the opposite of the value written to the path
+   end type choice_t
+
+contains
+
+   !> Adds a number of a record; its number is parameters%used.
+   subroutine add_parameter(parameters, records, k, key, at, value, unit, is_given)
+      type(parameters_t), intent(inout) :: parameters
+      type(record_t), intent(in) :: records(:)
+      integer, intent(in) :: k, at
+      character(*), intent(in) :: key
+      real(wp), intent(in) :: value                  !! SI
+      real(wp), intent(in) :: unit
+      logical, intent(in) :: is_given
+      type(parameter_t), allocatable :: grown(:)
+      real(wp), allocatable :: grown_x(:)
+      type(key_t) :: row
+      logical :: is_known
+      integer :: n, j
+
+      n = parameters%used
+      if (.not. allocated(parameters%list)) allocate (parameters%list(64), parameters%x(64))
+      if (n == size(parameters%x)) then
+         allocate (grown(2*n), grown_x(2*n))
+         grown(:n) = parameters%list
+         grown_x(:n) = parameters%x
+         call move_alloc(grown, parameters%list)
+         call move_alloc(grown_x, parameters%x)
+      end if
+      n = n + 1
+      parameters%used = n
+      parameters%x(n) = value
+      call find_key(group_number(records(k)%group), key, row, is_known)
+      parameters%list(n) = parameter_t(k, key, at, unit, row%range, is_given)
+      if (records(k)%twin /= right_twin) return
+      parameters%list(n)%sign = sign_of_image(records(k), key, at)
+      do j = n - 1, 1, -1         ! the left record precedes the right one
+         if (parameters%list(j)%record /= k - 1) cycle
+         if (parameters%list(j)%key /= key .or. parameters%list(j)%at /= at) cycle
+         parameters%list(n)%tied = j
+         return
+      end do
+   end subroutine add_parameter
+
+   !> The parameters with a path, which may have * in place of names; none if it is the path of a text, or of nothing that the
+   !> deck gives. The path of a half deck leads to both sides of the axle.
+   subroutine find_parameters(parameters, records, path_text, found)
+      type(parameters_t), intent(in) :: parameters
+      type(record_t), intent(in) :: records(:)
+      character(*), intent(in) :: path_text
+      type(choice_t), allocatable, intent(out) :: found(:)
+      type(path_t) :: path
+      character(:), allocatable :: message
+      integer :: k
+
+      allocate (found(0))
+      call split_path(trim(adjustl(path_text)), path, message)
+      if (message /= '') return
+      do k = 1, parameters%used
+         associate (this => parameters%list(k), record => records(parameters%list(k)%record))
+            if (record%group /= group_names(path%group) .or. this%key /= path%key) cycle
+            if (path%has_subscript .and. this%at /= path%first) cycle
+            if (is_single(path%group) .or. is_like(element(record, 'name', 1), path%name)) then
+               found = [found, choice_t(k, 1.0_wp)]
+            else if (is_like(own_name(record), path%name)) then
+               found = [found, choice_t(k, this%sign)]
+            end if
+         end associate
+      end do
+   end subroutine find_parameters
+
+   !> Gives the parameters found by a path a value, in the unit of the deck.
+   pure subroutine put_value(parameters, found, value, x)
+      type(parameters_t), intent(in) :: parameters
+      type(choice_t), intent(in) :: found(:)
+      real(wp), intent(in) :: value
+      real(wp), intent(inout) :: x(:)
+      integer :: j
+
+      do j = 1, size(found)
+         x(found(j)%number) = (found(j)%sign*value)*parameters%list(found(j)%number)%unit
+      end do
+   end subroutine put_value
+
+   !> Changes the parameters found by a path relative to their values in x, on the right side of an axle as on the left.
+   subroutine put_change(parameters, found, change, x)
+      type(parameters_t), intent(in) :: parameters
+      type(choice_t), intent(in) :: found(:)
+      type(change_t), intent(in) :: change
+      real(wp), intent(inout) :: x(:)
+      character(:), allocatable :: text
+      real(wp) :: value
+      integer :: j
+
+      do j = 1, size(found)
+         associate (unit => parameters%list(found(j)%number)%unit, at => x(found(j)%number))
+            text = changed(change, found(j)%sign*at/unit)
+            read (text, *) value
+            at = found(j)%sign*value*unit
+         end associate
+      end do
+   end subroutine put_change
+
+   !> Whether the parameters found by a path are inside their legal ranges.
+   pure logical function in_range(parameters, found, x)
+      type(parameters_t), intent(in) :: parameters
+      type(choice_t), intent(in) :: found(:)
+      real(wp), intent(in) :: x(:)
+      integer :: j
+
+      in_range = .true.
+      do j = 1, size(found)
+         in_range = in_range .and. is_inside(parameters%list(found(j)%number)%range, x(found(j)%number))
+      end do
+   end function in_range
+
+   !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
+   function parameter_path(this, records) result(path)
+      type(parameter_t), intent(in) :: this
+      type(record_t), intent(in) :: records(:)
+      character(:), allocatable :: path
+      character(*), parameter :: axes = 'xyz'
+      type(key_t) :: key
+      logical :: is_known
+
+      associate (record => records(this%record))
+         path = record%group//'.'
+         if (element(record, 'name', 1) /= '') path = path//element(record, 'name', 1)//'.'
+         if (record%group == group_names(point_group)) then
+            path = path//axes(this%at:this%at)
+            return
+         end if
+         path = path//trim(this%key)
+         call find_key(group_number(record%group), trim(this%key), key, is_known)
+         if (is_known .and. key%most > 1) path = path//'('//str(this%at)//')'
+      end associate
+   end function parameter_path
+
+end module ek_parameter

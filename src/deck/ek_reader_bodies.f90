@@ -1,0 +1,81 @@
+!> &point, &body and &mass.
+module ek_reader_bodies
+   use ek_kinds, only: wp
+   use ek_text, only: quoted
+   use ek_twin, only: single, left_twin, right_twin
+   use ek_builder, only: add_body
+   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, hardpoint, off_left, off_right, in_plane
+   use ek_design_vector, only: add_mass, plane
+   use ek_draft, only: draft_t, complain, where_of, has_key, text_of, number_of, slot, slots
+   use ek_reference, only: find_point, find_body, new_vector, vector_at
+   implicit none(type, external)
+   private
+   public :: read_point, read_body, read_mass
+
+contains
+
+   !> &point: a design position.
+   subroutine read_point(draft)
+      type(draft_t), intent(inout) :: draft
+      type(vector_t) :: vector
+      real(wp) :: at(3)
+      integer :: number
+
+      vector%kind = hardpoint
+      call slots(draft, 'at', 3, draft%units%length, vector%first, default=0.0_wp)
+      call new_vector(draft, vector, number)
+      draft%cards(draft%k)%index = number
+      at = vector_at(draft, number)
+      associate (stays => draft%plan%vectors(number)%stays)
+         select case (draft%records(draft%k)%twin)
+         case (left_twin)
+            stays = off_left
+         case (right_twin)
+            stays = off_right
+         case default
+            if (abs(at(2)) < plane .and. any(draft%records%twin /= single)) stays = in_plane
+         end select
+      end associate
+   end subroutine read_point
+
+   !> &body.
+   subroutine read_body(draft)
+      type(draft_t), intent(inout) :: draft
+      type(body_plan_t) :: plan
+      real(wp) :: mass
+      logical :: is_found, has_centre
+
+      call find_point(draft, 'origin', text_of(draft, 'origin'), plan%origin, is_found)
+      call find_point(draft, 'centre', text_of(draft, 'centre'), plan%centre, has_centre)
+      if (has_key(draft, 'mass') .neqv. has_key(draft, 'centre')) call complain(draft, &
+         trim(merge('mass  ', 'centre', has_key(draft, 'mass'))), 'give mass and centre (of gravity) together')
+      call slot(draft, 'mass', 1.0_wp, plan%mass)
+      mass = number_of(draft, 'mass', 0.0_wp)
+      draft%plan%bodies = [draft%plan%bodies, plan]
+      draft%cards(draft%k)%index = size(draft%plan%bodies)
+      if (plan%origin > 0) then
+         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), vector_at(draft, plan%origin), mass)
+      else
+         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), mass=mass)
+      end if
+   end subroutine read_body
+
+   !> &mass: a further mass of a body, in addition to that of &body.
+   subroutine read_mass(draft)
+      type(draft_t), intent(inout) :: draft
+      type(mass_plan_t) :: plan
+      logical :: has_body, has_place
+
+      call find_body(draft, 'body', text_of(draft, 'body'), plan%body, has_body)
+      call find_point(draft, 'at', text_of(draft, 'at'), plan%at, has_place)
+      if (has_body .and. plan%body == 0) &
+         call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
+      if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
+      call slot(draft, 'kg', 1.0_wp, plan%kg)
+      associate (body => draft%plan%prototype%bodies(plan%body))
+         call add_mass(number_of(draft, 'kg', 1.0_wp), vector_at(draft, plan%at), body%mass, body%centre)
+      end associate
+      draft%plan%masses = [draft%plan%masses, plan]
+   end subroutine read_mass
+
+end module ek_reader_bodies

@@ -1,0 +1,290 @@
+!> The records to which a record refers by name: points, bodies, directions, measures; or a message about an unknown name.
+!>
+!> If an entry was already rejected, the searches report nothing.
+module ek_reference
+   use ek_kinds, only: wp
+   use ek_text, only: lower, quoted
+   use ek_rotation, only: unit_vector
+   use ek_twin, only: has_side, single, left_twin
+   use ek_record, only: element, own_name
+   use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
+   use ek_blueprint, only: vector_t, add_vector, along, given
+   use ek_design_vector, only: find_vectors
+   use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, slots
+   implicit none(type, external)
+   private
+   public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_curve
+   public :: find_driver, find_wheel, new_vector, vector_at
+
+contains
+
+   !> The record of this group with this name; 0 if there is none.
+   pure integer function find_card(draft, group, name)
+      type(draft_t), intent(in) :: draft
+      integer, intent(in) :: group
+      character(*), intent(in) :: name
+
+      do find_card = 1, size(draft%cards)
+         if (draft%cards(find_card)%group /= group) cycle
+         if (draft%cards(find_card)%name == name) return
+      end do
+      find_card = 0
+   end function find_card
+
+   !> The names of a group suggested for an unknown name. A record duplicated by &mirror is
+   !> suggested under its name in the deck, unless the unknown name has the prefix of a side.
+   function names_of(draft, group, wrong) result(names)
+      type(draft_t), intent(in) :: draft
+      integer, intent(in) :: group
+      character(*), intent(in) :: wrong
+      character(word_length), allocatable :: names(:)
+      logical :: is_sided
+      integer :: j
+
+      is_sided = draft%records(draft%k)%twin == single .and. (group == wheel_group .or. has_side(wrong))
+      allocate (names(size(draft%cards)))
+      names = ''
+      do j = 1, size(draft%cards)
+         if (draft%cards(j)%group /= group) cycle
+         if (is_sided .or. draft%records(j)%twin == single) then
+            names(j) = draft%cards(j)%name
+         else if (draft%records(j)%twin == left_twin) then
+            names(j) = own_name(draft%records(j))
+         end if
+      end do
+   end function names_of
+
+   !> The record to which a key refers; 0, with a message, if there is none.
+   subroutine look_up(draft, key, group, name, found)
+      type(draft_t), intent(inout) :: draft
+      integer, intent(in) :: group
+      character(*), intent(in) :: key, name
+      integer, intent(out) :: found
+
+      found = 0
+      if (name == '') return
+      found = find_card(draft, group, name)
+      if (found > 0) return
+      draft%cards(draft%k)%is_good = .false.
+      if (may_be_meant(draft, group, name)) return
+      if (group == body_group) then
+         call complain(draft, key, key//': there is no body '//quoted(name)// &
+            did_you_mean(name, [names_of(draft, group, name), [character(word_length) :: 'chassis']]))
+      else
+         call complain(draft, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
+            did_you_mean(name, names_of(draft, group, name)))
+      end if
+   end subroutine look_up
+
+   !> Whether an unknown name may belong to a record whose own name or group was already rejected:
+   !> then only that is reported, not the references to it.
+   pure logical function may_be_meant(draft, group, name)
+      type(draft_t), intent(in) :: draft
+      integer, intent(in) :: group
+      character(*), intent(in) :: name
+      may_be_meant = any(draft%cards%group == group .and. draft%cards%name == '') .or. &
+         any(draft%cards%group == 0 .and. (draft%cards%name == name .or. draft%cards%name == ''))
+   end function may_be_meant
+
+   !> Adds a vector to the blueprint and computes its present value.
+   subroutine new_vector(draft, vector, number)
+      type(draft_t), intent(inout) :: draft
+      type(vector_t), intent(in) :: vector
+      integer, intent(out) :: number
+      real(wp), allocatable :: grown(:, :)
+      logical :: is_good
+
+      call add_vector(draft%plan, vector, number)
+      if (number > ubound(draft%vectors, 2)) then
+         allocate (grown(3, 0:2*number), source=0.0_wp)
+         grown(:, 0:number - 1) = draft%vectors(:, 0:number - 1)
+         call move_alloc(grown, draft%vectors)
+      end if
+      call find_vectors(draft%plan, draft%parameters%x, draft%vectors, is_good, number)
+   end subroutine new_vector
+
+   !> The present value of a vector [m, -]; zero for number 0.
+   pure function vector_at(draft, number) result(value)
+      type(draft_t), intent(in) :: draft
+      integer, intent(in) :: number
+      real(wp) :: value(3)
+      value = draft%vectors(:, number)
+   end function vector_at
+
+   !> The vector of a named point; is_found is .false. if the point is unknown or was rejected.
+   subroutine find_point(draft, key, name, vector, is_found)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: key, name
+      integer, intent(out) :: vector
+      logical, intent(out) :: is_found
+      integer :: found
+
+      vector = 0
+      call look_up(draft, key, point_group, name, found)
+      is_found = .false.
+      if (found == 0) return
+      draft%cards(found)%is_used = .true.
+      vector = draft%cards(found)%index
+      is_found = draft%cards(found)%is_good
+   end subroutine find_point
+
+   !> The number of a named body, 0 for the chassis.
+   subroutine find_body(draft, key, name, body, is_found)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: key, name
+      integer, intent(out) :: body
+      logical, intent(out) :: is_found
+      integer :: found
+
+      body = 0
+      is_found = lower(name) == 'chassis' .or. lower(name) == 'ground'
+      if (is_found) return
+      call look_up(draft, key, body_group, name, found)
+      is_found = found > 0
+      if (is_found) body = draft%cards(found)%index
+   end subroutine find_body
+
+   !> Both bodies of an element (key `bodies`); they must differ. Marks them as attached.
+   subroutine find_bodies(draft, bodies, is_found)
+      type(draft_t), intent(inout) :: draft
+      integer, intent(out) :: bodies(2)
+      logical, intent(out) :: is_found
+      character(word_length) :: names(2)
+      logical :: is_there(2)
+      integer :: j, held
+
+      names = texts_of(draft, 'bodies', 2)
+      do j = 1, 2
+         call find_body(draft, 'bodies', trim(names(j)), bodies(j), is_there(j))
+         held = find_card(draft, body_group, names(j))
+         if (held > 0 .and. names(j) /= '') draft%cards(held)%is_used = .true.
+      end do
+      is_found = all(is_there)
+      if (.not. is_found) return
+      if (bodies(1) == bodies(2)) then
+         call complain(draft, 'bodies', 'bodies must be two different ones, found '//quoted(names(1))//' twice')
+         is_found = .false.
+      end if
+   end subroutine find_bodies
+
+   !> Two distinct points (key `at`); with one point allowed, the second equals the first.
+   subroutine find_ends(draft, may_be_one, ends, is_found)
+      type(draft_t), intent(inout) :: draft
+      logical, intent(in) :: may_be_one
+      integer, intent(out) :: ends(2)      !! vectors
+      logical, intent(out) :: is_found
+      character(word_length) :: at(2)
+      logical :: is_there
+
+      at = texts_of(draft, 'at', 2)
+      call find_point(draft, 'at', trim(at(1)), ends(1), is_found)
+      ends(2) = ends(1)
+      if (at(2) == '' .and. may_be_one) return
+      call find_point(draft, 'at', trim(at(2)), ends(2), is_there)
+      is_found = is_found .and. is_there
+      if (may_be_one .or. .not. is_found) return
+      if (.not. norm2(vector_at(draft, ends(2)) - vector_at(draft, ends(1))) > 0.0_wp) &
+         call complain(draft, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+   end subroutine find_ends
+
+   !> A direction given by two points or by a vector.
+   subroutine find_direction(draft, points_key, vector_key, direction, is_given, is_good)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: points_key, vector_key
+      integer, intent(out) :: direction          !! vector: a unit vector; 0 if not is_good
+      logical, intent(out) :: is_given           !! either key is present
+      logical, intent(out) :: is_good
+      character(word_length) :: points(2)
+      type(vector_t) :: vector
+      logical :: is_there(2), has_points, has_vector
+
+      direction = 0
+      is_good = .false.
+      has_points = has_key(draft, points_key)
+      has_vector = has_key(draft, vector_key)
+      is_given = has_points .or. has_vector
+      if (has_points) then
+         points = texts_of(draft, points_key, 2)
+         call find_point(draft, points_key, trim(points(1)), vector%a, is_there(1))
+         call find_point(draft, points_key, trim(points(2)), vector%b, is_there(2))
+         if (.not. all(is_there)) return
+         vector%kind = along
+         if (.not. norm2(vector_at(draft, vector%b) - vector_at(draft, vector%a)) > 0.0_wp) then
+            call complain(draft, points_key, points_key//': the points '//quoted(points(1))//' and '// &
+               quoted(points(2))//' coincide and give no direction')
+            return
+         end if
+      end if
+      if (has_points .and. has_vector) then
+         call complain(draft, vector_key, 'give either '//points_key//' or '//vector_key//', not both')
+         return
+      end if
+      if (has_vector) then
+         vector%kind = given
+         if (.not. norm2(numbers_of(draft, vector_key, 3)) > 0.0_wp) then
+            if (draft%cards(draft%k)%is_good) call complain(draft, vector_key, vector_key//' has zero length')
+            return
+         end if
+         call slots(draft, vector_key, 3, 1.0_wp, vector%first)
+      end if
+      if (.not. is_given) return
+      call new_vector(draft, vector, direction)
+      is_good = .true.
+   end subroutine find_direction
+
+   !> The curve named by a key; 0 if there is none or it was rejected.
+   subroutine find_curve(draft, key, name, curve)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: key, name
+      integer, intent(out) :: curve
+      integer :: found
+
+      curve = 0
+      call look_up(draft, key, curve_group, name, found)
+      if (found == 0) return
+      if (draft%cards(found)%is_good) curve = draft%cards(found)%index
+   end subroutine find_curve
+
+   !> The driver joint named by a case; reports a mistake if there is none.
+   subroutine find_driver(draft, name, others, unit)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
+      real(wp), intent(inout) :: unit                 !! deck unit of the driven value → SI; unchanged if not found
+      character(word_length), allocatable :: names(:)
+      integer :: j, found, n
+
+      found = find_card(draft, joint_group, name)
+      if (found > 0) then
+         unit = draft%cards(found)%factor
+         if (lower(element(draft%records(found), 'type', 1)) /= 'driver') call complain(draft, 'drive', &
+            'drive: the joint '//quoted(name)//' in '//line_of(draft, found)//' is not a driver')
+         return
+      end if
+      n = size(draft%cards)
+      allocate (names(n + size(others)))
+      names = ''
+      do j = 1, size(others)
+         names(n + j) = others(j)
+      end do
+      do j = 1, n
+         if (draft%cards(j)%group /= joint_group) cycle
+         if (lower(element(draft%records(j), 'type', 1)) == 'driver') names(j) = draft%cards(j)%name
+      end do
+      call complain(draft, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, names))
+   end subroutine find_driver
+
+   !> The wheel named by a case, if it names one; reports a mistake if there is none, or if the case takes no wheel.
+   subroutine find_wheel(draft, may_have_one, which, wheel)
+      type(draft_t), intent(inout) :: draft
+      logical, intent(in) :: may_have_one
+      character(*), intent(in) :: which      !! the cases that take the key `wheel`, for the message
+      integer, intent(inout) :: wheel        !! its number
+      integer :: found
+
+      if (text_of(draft, 'wheel') == '') return
+      call look_up(draft, 'wheel', wheel_group, text_of(draft, 'wheel'), found)
+      if (found > 0) wheel = draft%cards(found)%index
+      if (.not. may_have_one) call complain(draft, 'wheel', 'wheel: only a case '//which//' takes this key')
+   end subroutine find_wheel
+
+end module ek_reference

@@ -1,0 +1,62 @@
+!> A cheap proof that a model has no defect which the diagnosis would name: one factorisation instead of its decompositions.
+!>
+!> With v a motion that counts as a mechanism, or a row of forces y that counts as redundant, the scaled KKT matrix S gives
+!> |S z| ≤ s |z| for z = (v, μ) or (0, y), where s is the limit below which `diagnose` takes a stiffness or a singular value for
+!> zero. So |S⁻¹| ≥ 1/s, and a condition number that is small enough excludes both:
+!>
+!>     1/|S⁻¹|₁ > s,   s = max(stiffness that counts as zero, rank_tolerance |S|₁)
+!>
+!> The reverse is not true: a model without this proof may be sound. Only the full diagnosis decides.
+module ek_soundness
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, demand_t
+   use ek_kkt, only: kkt_t, condition
+   use ek_diagnosis, only: softest_rate, rank_tolerance, no_stiffness, rounding
+   implicit none(type, external)
+   private
+   public :: is_surely_sound
+
+   real(wp), parameter :: doubt = 10.0_wp     !! dsycon estimates |S⁻¹| from below, seldom by more than a factor of 3
+
+contains
+
+   !> Whether a state certainly has neither mechanisms nor redundant constraints, and has the expected inertia.
+   !>
+   !> Factorises the matrix of the state; kkt%negative and kkt%pivot_ratio are set. False if a number is not finite.
+   logical function is_surely_sound(suspension, state, negative, kkt)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: negative            !! expected number of negative eigenvalues
+      type(kkt_t), intent(inout) :: kkt
+      real(wp) :: rcond, stiffness
+
+      call condition(suspension, state, demand_t(), kkt, rcond)
+      stiffness = max(no_stiffness*softest_rate(suspension, kkt), rounding*kkt%nq*(kkt%norm + driver_stiffness(suspension, kkt)))
+      is_surely_sound = .false.
+      if (kkt%is_singular .or. kkt%negative /= negative) return
+      is_surely_sound = rcond*kkt%norm > doubt*max(stiffness, rank_tolerance*kkt%norm)
+   end function is_surely_sound
+
+   !> A bound of the 1-norm of the stiffness of drivers with a compliance C: g gᵀ/C of each, scaled. It is not in S, where C is.
+   pure real(wp) function driver_stiffness(suspension, kkt) result(total)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(in) :: kkt             !! with the gradients of the last assembly
+      real(wp) :: size_of_g
+      integer :: k, t, at
+
+      total = 0.0_wp
+      do k = 1, size(suspension%rows)
+         if (.not. suspension%rows(k)%compliance > 0.0_wp) cycle
+         size_of_g = 0.0_wp
+         do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
+            at = 6*(suspension%terms(t)%measure%body_i - 1)
+            if (at >= 0) size_of_g = size_of_g + sum(abs(kkt%gradients(1:6, t)*kkt%scale(at + 1:at + 6)))
+            at = 6*(suspension%terms(t)%measure%body_j - 1)
+            if (at >= 0) size_of_g = size_of_g + sum(abs(kkt%gradients(7:12, t)*kkt%scale(at + 1:at + 6)))
+         end do
+         total = total + size_of_g**2/suspension%rows(k)%compliance
+      end do
+   end function driver_stiffness
+
+end module ek_soundness

@@ -1,0 +1,89 @@
+!> The singular value decomposition of a matrix (LAPACK dgesvd): its rank, its null spaces, and least-norm solutions for any
+!> number of right-hand sides.
+!>
+!>     A = U S Vᵀ,   x = V S⁺ Uᵀ b
+!>
+!> The columns of U after the rank span what A cannot produce: I − A A⁺ = U₀ U₀ᵀ. The columns of V after the rank span
+!> what A maps to zero.
+module ek_singular_values
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_lapack, only: dgesvd
+   implicit none(type, external)
+   private
+   public :: singular_values_t, decompose, least_norm
+
+   type :: singular_values_t
+      logical :: is_found = .false.          !! false: A has elements that are not finite, or LAPACK did not converge
+      integer :: rank = 0                    !! number of singular values that count as nonzero
+      real(wp), allocatable :: values(:)     !! largest first; min(rows, columns) of them
+      real(wp), allocatable :: left(:, :)    !! U (rows, rows)
+      real(wp), allocatable :: right(:, :)   !! V (columns, columns); without its null space: (columns, min(rows, columns))
+   end type singular_values_t
+
+contains
+
+   !> Decomposes a matrix. If it fails, U and V are unit matrices and the rank is 0, so that an index stays in its bounds.
+   pure subroutine decompose(a, share, parts, whole, wants_null_space)
+      real(wp), intent(in) :: a(:, :)
+      real(wp), intent(in) :: share          !! singular values up to this share of the largest count as zero
+      type(singular_values_t), intent(out) :: parts
+      real(wp), intent(in), optional :: whole    !! … or of this number, if it is larger: the norm of a matrix that A is a part of
+      logical, intent(in), optional :: wants_null_space      !! all columns of V; default .false.
+      real(wp), allocatable :: copy(:, :), transposed(:, :), work(:)
+      real(wp) :: query(1), most
+      integer :: m, n, kept, info
+      character :: job
+
+      m = size(a, 1)
+      n = size(a, 2)
+      job = 'S'
+      if (present(wants_null_space)) job = merge('A', 'S', wants_null_space)
+      kept = merge(n, min(m, n), job == 'A')
+      allocate (parts%values(min(m, n)), source=0.0_wp)
+      call set_unit(m, m, parts%left)
+      call set_unit(n, kept, parts%right)
+      parts%is_found = all(ieee_is_finite(a))
+      if (size(a) == 0 .or. .not. parts%is_found) return
+      allocate (copy, source=a)
+      allocate (transposed(kept, n))
+      call dgesvd('A', job, m, n, copy, m, parts%values, parts%left, m, transposed, kept, query, -1, info)
+      allocate (work(max(1, int(query(1)))))
+      call dgesvd('A', job, m, n, copy, m, parts%values, parts%left, m, transposed, kept, work, size(work), info)
+      parts%is_found = info == 0
+      if (.not. parts%is_found) then
+         call set_unit(m, m, parts%left)
+         return
+      end if
+      parts%right = transpose(transposed)
+      most = parts%values(1)
+      if (present(whole)) most = max(most, whole)
+      parts%rank = count(parts%values > share*most)
+   end subroutine decompose
+
+   !> The shortest x of those with the smallest |A x − b|.
+   pure subroutine least_norm(parts, b, x)
+      type(singular_values_t), intent(in) :: parts       !! of A
+      real(wp), intent(in) :: b(:)
+      real(wp), intent(out) :: x(:)
+      integer :: k
+
+      x = 0.0_wp
+      do k = 1, parts%rank
+         x = x + parts%right(:, k)*(dot_product(parts%left(:, k), b)/parts%values(k))
+      end do
+   end subroutine least_norm
+
+   !> A matrix with ones on its diagonal.
+   pure subroutine set_unit(rows, columns, matrix)
+      integer, intent(in) :: rows, columns
+      real(wp), allocatable, intent(out) :: matrix(:, :)
+      integer :: k
+
+      allocate (matrix(rows, columns), source=0.0_wp)
+      do k = 1, min(rows, columns)
+         matrix(k, k) = 1.0_wp
+      end do
+   end subroutine set_unit
+
+end module ek_singular_values

@@ -1,0 +1,165 @@
+!> The blueprint of a suspension: what is connected to what, and which numbers it takes from the parameters.
+!>
+!> The numbers of a design are the vector x [SI, axes of the deck]; everything here is an index into it, or the number of another
+!> part. `realise` of ek_realise computes the suspension from (blueprint, x). A point stays a point: everything placed
+!> on it refers to its number in `vectors`.
+!>
+!> 0 as the number of a parameter means that the deck does not give it, and 0 as the number of a vector that there is none.
+module ek_blueprint
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   implicit none(type, external)
+   private
+   public :: blueprint_t, vector_t, body_plan_t, mass_plan_t, readout_plan_t, joint_plan_t, element_plan_t, bushing_plan_t
+   public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t
+   public :: hardpoint, along, given, fixed, chosen, chosen_right, across
+   public :: new_blueprint, add_vector, inward, number_at
+
+   ! kinds of vector
+   integer, parameter :: fixed = 0         !! `value`
+   integer, parameter :: hardpoint = 1     !! a point: three parameters
+   integer, parameter :: along = 2         !! unit vector from vector a to vector b
+   integer, parameter :: given = 3         !! unit vector along three parameters
+   integer, parameter :: chosen = 4        !! perpendicular to the direction a, the same choice in either frame of a deck
+   integer, parameter :: chosen_right = 5  !! the mirror image of the choice for the mirror image of a
+   integer, parameter :: across = 6        !! horizontal and perpendicular to the direction a: symmetric on a mirrored axle
+
+   ! where a hardpoint must stay, or the deck has another topology
+   integer, parameter, public :: anywhere = 0, in_plane = 1, off_left = 2, off_right = 3   !! of the plane of &mirror
+
+   integer, parameter, public :: upright = 1   !! number of the vector z, the first of every blueprint
+
+   !> A point [m] or a unit vector at design, x rearward.
+   type :: vector_t
+      integer :: kind = fixed
+      integer :: first = 0              !! number of the first of three parameters
+      integer :: a = 0, b = 0           !! other vectors, with smaller numbers
+      integer :: stays = anywhere       !! of a hardpoint
+      real(wp) :: value(3) = 0.0_wp
+   end type vector_t
+
+   type :: body_plan_t
+      integer :: origin = 0, centre = 0     !! vectors
+      integer :: mass = 0                   !! parameter
+   end type body_plan_t
+
+   !> A further mass of a body.
+   type :: mass_plan_t
+      integer :: body = 0
+      integer :: kg = 0                     !! parameter
+      integer :: at = 0                     !! vector
+   end type mass_plan_t
+
+   type :: readout_plan_t
+      integer :: ends(2) = 0                !! vectors: points
+      integer :: u = 0, v = 0               !! vectors: directions
+   end type readout_plan_t
+
+   !> A joint: of geometry (ends, axes), or of measures (driver, coupler).
+   type :: joint_plan_t
+      integer :: ends(2) = 0, axes(2) = 0   !! vectors
+      integer, allocatable :: readouts(:)   !! measures of a driver or coupler
+      integer, allocatable :: ratios(:)     !! parameters of a coupler
+      real(wp), allocatable :: units(:)     !! SI value of the deck unit of each measure
+      integer :: stiffness = 0              !! parameter of a driver [N, or N m, per deck unit of the measure]
+   end type joint_plan_t
+
+   !> A spring, damper, stop or torsion spring; numbers are parameters.
+   type :: element_plan_t
+      integer :: ends(2) = 0, axis = 0      !! vectors
+      integer :: readout = 0                !! measure of a spring on a measure
+      integer :: rate = 0, preload = 0, free_length = 0, clearance = 0, rounding = 0
+      integer :: curve = 0                  !! number of the curve
+      real(wp) :: value_unit = 1.0_wp, force_unit = 1.0_wp   !! SI per deck unit, of the curve
+   end type element_plan_t
+
+   type :: bushing_plan_t
+      integer :: ends(2) = 0, z = 0, x = 0  !! vectors
+      integer :: kt = 0, kr = 0, preload_force = 0, preload_moment = 0   !! the first of three parameters
+      integer :: curves(6) = 0              !! numbers of curves
+   end type bushing_plan_t
+
+   type :: wheel_plan_t
+      integer :: centre = 0, contact = 0, spin = 0, steer_axis(2) = 0   !! vectors
+      integer :: toe = 0, camber = 0, radius = 0, tyre_rate = 0, tyre_width = 0, sprung_mass = 0   !! parameters
+   end type wheel_plan_t
+
+   type :: load_plan_t
+      integer :: at = 0                     !! vector
+      integer :: force = 0, moment = 0      !! the first of three parameters
+   end type load_plan_t
+
+   !> A curve, in deck units: those of the element that uses it.
+   type :: curve_plan_t
+      integer :: points = 0                 !! their number
+      integer :: x = 0, y = 0               !! the first of the parameters, one per point
+      character(:), allocatable :: kind, name
+   end type curve_plan_t
+
+   !> The numbers of a case: parameters.
+   type :: case_plan_t
+      integer :: from = 0, to = 0, offset = 0
+   end type case_plan_t
+
+   type :: blueprint_t
+      type(suspension_t) :: prototype       !! names, connections, and the numbers of the deck
+      logical :: is_iso = .false.           !! the axes of the deck are ISO 8855
+      real(wp) :: force_unit = 1.0_wp, length_unit = 1.0_wp, angle_unit = 1.0_wp   !! SI per deck unit
+      integer :: gravity = 0                !! parameter
+      integer, allocatable :: points(:)     !! vector of each point of the prototype
+      type(vector_t), allocatable :: vectors(:)
+      type(body_plan_t), allocatable :: bodies(:)
+      type(mass_plan_t), allocatable :: masses(:)
+      type(readout_plan_t), allocatable :: readouts(:)
+      type(joint_plan_t), allocatable :: joints(:)
+      type(element_plan_t), allocatable :: elements(:)
+      type(bushing_plan_t), allocatable :: bushings(:)
+      type(wheel_plan_t), allocatable :: wheels(:)
+      type(load_plan_t), allocatable :: loads(:)
+      type(curve_plan_t), allocatable :: curves(:)
+      type(case_plan_t), allocatable :: cases(:)
+      ! &axle: wheelbase, cg_height, mass, brake_share, drive_share, front_overhang, front_width; &steering: ratio, travel
+      integer :: axle(7) = 0, steering(2) = 0   !! parameters
+   end type blueprint_t
+
+contains
+
+   !> A blueprint without parts.
+   subroutine new_blueprint(self)
+      type(blueprint_t), intent(out) :: self
+      integer :: number
+
+      allocate (self%points(0), self%vectors(0), self%bodies(0), self%masses(0), self%readouts(0), self%joints(0))
+      allocate (self%elements(0), self%bushings(0), self%wheels(0), self%loads(0), self%curves(0), self%cases(0))
+      call add_vector(self, vector_t(value=[0.0_wp, 0.0_wp, 1.0_wp]), number)
+   end subroutine new_blueprint
+
+   !> Adds a vector; its number is the size of the list.
+   pure subroutine add_vector(self, vector, number)
+      type(blueprint_t), intent(inout) :: self
+      type(vector_t), intent(in) :: vector
+      integer, intent(out) :: number
+
+      self%vectors = [self%vectors, vector]
+      number = size(self%vectors)
+   end subroutine add_vector
+
+   !> A vector in the axes of the deck → x rearward, y right, z up.
+   pure function inward(self, vector) result(turned)
+      type(blueprint_t), intent(in) :: self
+      real(wp), intent(in) :: vector(3)
+      real(wp) :: turned(3)
+      turned = vector
+      if (self%is_iso) turned(1:2) = -vector(1:2)
+   end function inward
+
+   !> Parameter k, or the default if the deck does not give it.
+   pure real(wp) function number_at(x, k, default) result(value)
+      real(wp), intent(in) :: x(:)
+      integer, intent(in) :: k             !! 0: not given
+      real(wp), intent(in) :: default
+      value = default
+      if (k > 0) value = x(k)
+   end function number_at
+
+end module ek_blueprint

@@ -1,0 +1,344 @@
+!> realise: (blueprint, x) → suspension, for one design after the other.
+!>
+!> The suspension is a copy of the blueprint's prototype; all its numbers are computed anew in place, so that no memory is
+!> allocated and no name is looked up. Every number comes from the same formula as for a suspension built part by part:
+!> the rows of a joint from `joint_terms`, an element from `set_numbers`, arms and design values from `settle_design`.
+!>
+!> Where x is outside the range for which the blueprint is valid (an axis without length, a point that leaves its side), `is_good`
+!> is .false. and the suspension must not be used; the deck reader reports the reason.
+module ek_realise
+   use ek_kinds, only: wp
+   use ek_curve, only: curve_t, new_curve, scaled_curve, has_points, look_up_curve, least_step
+   use ek_measure, only: distance
+   use ek_joint, only: term_t, joint_geometry_t, joint_terms, axes_fit, max_terms
+   use ek_element, only: element_numbers_t, set_numbers, stop_spring
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_completion, only: settle_design
+   use ek_blueprint, only: blueprint_t, inward, number_at
+   use ek_design_vector, only: find_vectors, marker_axes, spin_of, add_mass
+   implicit none(type, external)
+   private
+   public :: new_design, realise, realise_cases
+
+   real(wp), parameter, public :: steepest_roll = 0.5_wp      !! rad: largest axle roll of a test
+
+contains
+
+   !> A suspension for `realise`: the only allocation.
+   subroutine new_design(plan, suspension)
+      type(blueprint_t), intent(in) :: plan
+      type(suspension_t), intent(out) :: suspension
+
+      suspension = plan%prototype
+      if (allocated(suspension%vectors)) deallocate (suspension%vectors)
+      allocate (suspension%vectors(3, 0:size(plan%vectors)), source=0.0_wp)
+   end subroutine new_design
+
+   !> All numbers of the suspension for the parameters x. Call `new_design` first, once.
+   subroutine realise(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)                        !! SI, axes of the deck
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(out) :: is_good
+      integer :: k
+
+      call find_vectors(plan, x, suspension%vectors, is_good)
+      do k = 1, size(plan%points)
+         suspension%points(k)%at = suspension%vectors(:, plan%points(k))
+      end do
+      call place_bodies(plan, x, suspension)
+      call place_readouts(plan, suspension)
+      call place_joints(plan, x, suspension, is_good)
+      call place_elements(plan, x, suspension, is_good)
+      call place_bushings(plan, x, suspension, is_good)
+      call place_loads(plan, x, suspension, is_good)
+      call place_wheels(plan, x, suspension, is_good)
+      call place_axle(plan, x, suspension)
+      call settle_design(suspension)
+   end subroutine realise
+
+   !> Reference points and masses; the centres of gravity still as points.
+   subroutine place_bodies(plan, x, suspension)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      integer :: k
+
+      do k = 1, size(plan%bodies)
+         associate (body => suspension%bodies(k), this => plan%bodies(k))
+            if (this%origin > 0) body%origin = suspension%vectors(:, this%origin)
+            body%mass = number_at(x, this%mass, 0.0_wp)
+            body%centre = suspension%vectors(:, this%centre)
+         end associate
+      end do
+      do k = 1, size(plan%masses)
+         associate (this => plan%masses(k))
+            call add_mass(x(this%kg), suspension%vectors(:, this%at), suspension%bodies(this%body)%mass, &
+               suspension%bodies(this%body)%centre)
+         end associate
+      end do
+   end subroutine place_bodies
+
+   subroutine place_readouts(plan, suspension)
+      type(blueprint_t), intent(in) :: plan
+      type(suspension_t), intent(inout) :: suspension
+      integer :: k
+
+      do k = 1, size(plan%readouts)
+         associate (measure => suspension%readouts(k)%measure, this => plan%readouts(k))
+            measure%arm_i = suspension%vectors(:, this%ends(1))
+            measure%arm_j = suspension%vectors(:, this%ends(2))
+            measure%u = suspension%vectors(:, this%u)
+            measure%v = suspension%vectors(:, this%v)
+         end associate
+      end do
+   end subroutine place_readouts
+
+   !> The terms of all joints, with design points instead of arms.
+   subroutine place_joints(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(inout) :: is_good
+      type(joint_geometry_t) :: geometry
+      type(term_t) :: terms(max_terms)
+      integer :: terms_of_row(max_terms), rows, k, t, first
+
+      do k = 1, size(plan%joints)
+         associate (joint => suspension%joints(k), this => plan%joints(k))
+            first = suspension%rows(joint%first_row)%first
+            if (allocated(this%readouts)) then
+               do t = 1, size(this%readouts)
+                  suspension%terms(first + t - 1)%measure = suspension%readouts(this%readouts(t))%measure
+                  if (.not. allocated(this%ratios)) cycle
+                  if (.not. abs(x(this%ratios(t))) > 0.0_wp) is_good = .false.
+                  suspension%terms(first + t - 1)%coefficient = x(this%ratios(t))*this%units(1)/this%units(t)
+               end do
+               if (this%stiffness > 0) suspension%rows(joint%first_row)%compliance = 1.0_wp/(x(this%stiffness)/this%units(1))
+               joint%arm_j = suspension%terms(first)%measure%arm_j
+               cycle
+            end if
+            geometry%body_i = joint%body_i
+            geometry%body_j = joint%body_j
+            geometry%point_i = suspension%vectors(:, this%ends(1))
+            geometry%point_j = suspension%vectors(:, this%ends(2))
+            geometry%axis_i = suspension%vectors(:, this%axes(1))
+            geometry%axis_j = suspension%vectors(:, this%axes(2))
+            is_good = is_good .and. axes_fit(joint%kind, geometry%axis_i, geometry%axis_j)
+            if (joint%kind == 'distance') is_good = is_good .and. norm2(geometry%point_j - geometry%point_i) > 0.0_wp
+            if (.not. is_good) return
+            call joint_terms(joint%kind, geometry, terms, terms_of_row, rows)
+            do t = 1, sum(terms_of_row(:rows))
+               suspension%terms(first + t - 1) = terms(t)
+            end do
+            joint%arm_j = geometry%point_j
+            joint%axis(:, 1) = geometry%axis_i
+            joint%axis(:, 2) = geometry%axis_j
+         end associate
+      end do
+   end subroutine place_joints
+
+   !> Springs, dampers, stops and torsion springs.
+   subroutine place_elements(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(inout) :: is_good
+      type(element_numbers_t) :: numbers
+      real(wp) :: force, slope
+      integer :: k
+
+      do k = 1, size(plan%elements)
+         associate (spring => suspension%elements(k), this => plan%elements(k))
+            if (this%readout > 0) then
+               numbers%measure = suspension%readouts(this%readout)%measure
+            else
+               numbers%measure = spring%measure
+               numbers%measure%arm_i = suspension%vectors(:, this%ends(1))
+               numbers%measure%arm_j = suspension%vectors(:, this%ends(2))
+               numbers%measure%u = suspension%vectors(:, this%axis)
+            end if
+            if (numbers%measure%kind == distance) &
+               is_good = is_good .and. norm2(numbers%measure%arm_j - numbers%measure%arm_i) > 0.0_wp
+            numbers%rate = number_at(x, this%rate, 0.0_wp)
+            numbers%preload = number_at(x, this%preload, 0.0_wp)
+            numbers%free_length = number_at(x, this%free_length, 0.0_wp)
+            numbers%clearance = number_at(x, this%clearance, 0.0_wp)
+            numbers%rounding = number_at(x, this%rounding, 0.0_wp)
+            if (this%curve > 0) then
+               call renew(plan, this%curve, x, this%value_unit, this%force_unit, spring%law%curve, is_good)
+               if (spring%kind == stop_spring) then      ! without contact it exerts no force
+                  call look_up_curve(spring%law%curve, 0.0_wp, force, slope)
+                  is_good = is_good .and. abs(force) <= 0.0_wp
+               end if
+            end if
+            call set_numbers(spring, numbers)
+         end associate
+      end do
+   end subroutine place_elements
+
+   !> Bushings, with design points instead of arms.
+   subroutine place_bushings(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(inout) :: is_good
+      integer :: k, c
+
+      do k = 1, size(plan%bushings)
+         associate (measure => suspension%elements(suspension%scalars + k)%measure, this => plan%bushings(k), &
+            bushing => suspension%elements(suspension%scalars + k)%bushing)
+            measure%arm_i = suspension%vectors(:, this%ends(1))
+            measure%arm_j = suspension%vectors(:, this%ends(2))
+            bushing%arm_i = suspension%vectors(:, this%ends(1))
+            bushing%arm_j = suspension%vectors(:, this%ends(2))
+            call marker_axes(plan, suspension%vectors(:, this%z), suspension%vectors(:, this%x), bushing%axes, is_good)
+            call take(this%kt, bushing%kt)
+            call take(this%kr, bushing%kr)
+            call take(this%preload_force, bushing%preload_force)
+            call take(this%preload_moment, bushing%preload_moment)
+            do c = 1, 3
+               if (this%curves(c) > 0) then
+                  call renew(plan, this%curves(c), x, plan%length_unit, plan%force_unit, bushing%laws(c)%curve, is_good)
+                  is_good = is_good .and. abs(bushing%kt(c)) <= 0.0_wp      ! a component has either a rate or a curve
+               end if
+               if (this%curves(c + 3) > 0) then
+                  call renew(plan, this%curves(c + 3), x, plan%angle_unit, plan%force_unit*plan%length_unit, &
+                     bushing%laws(c + 3)%curve, is_good)
+                  is_good = is_good .and. abs(bushing%kr(c)) <= 0.0_wp
+               end if
+            end do
+         end associate
+      end do
+
+   contains
+
+      subroutine take(first, values)
+         integer, intent(in) :: first
+         real(wp), intent(inout) :: values(3)
+         values = 0.0_wp
+         if (first > 0) values = x(first:first + 2)
+      end subroutine take
+
+   end subroutine place_bushings
+
+   !> A curve of an element, in SI; unchanged points keep it as it is.
+   subroutine renew(plan, number, x, x_unit, y_unit, curve, is_good)
+      type(blueprint_t), intent(in) :: plan
+      integer, intent(in) :: number
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(in) :: x_unit, y_unit      !! SI per deck unit
+      type(curve_t), intent(inout) :: curve
+      logical, intent(inout) :: is_good
+
+      associate (this => plan%curves(number))
+         associate (at => x(this%x:this%x + this%points - 1), values => x(this%y:this%y + this%points - 1))
+            if (has_points(curve, at, values, x_unit, y_unit)) return
+            if (.not. all(at(2:) - at(:this%points - 1) >= least_step)) then
+               is_good = .false.
+               return
+            end if
+            curve = scaled_curve(new_curve(at, values, this%kind), x_unit, y_unit)
+            curve%name = this%name
+         end associate
+      end associate
+   end subroutine renew
+
+   subroutine place_loads(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(inout) :: is_good
+      integer :: k, used
+
+      suspension%gravity = number_at(x, plan%gravity, 0.0_wp)
+      used = size(plan%loads)
+      do k = 1, used
+         associate (load => suspension%loads(k), this => plan%loads(k))
+            load%arm = suspension%vectors(:, this%at)
+            load%force = 0.0_wp
+            load%moment = 0.0_wp
+            if (this%force > 0) load%force = inward(plan, x(this%force:this%force + 2))
+            if (this%moment > 0) load%moment = inward(plan, x(this%moment:this%moment + 2))
+         end associate
+      end do
+      ! a weight for every body with a mass, or none
+      if ((suspension%gravity > 0.0_wp) .neqv. size(suspension%loads) > used) &
+         is_good = is_good .and. .not. any(suspension%bodies%mass > 0.0_wp)
+      do k = used + 1, size(suspension%loads)
+         associate (load => suspension%loads(k), body => suspension%bodies(suspension%loads(k)%body))
+            load%arm = body%centre
+            load%force = [0.0_wp, 0.0_wp, -body%mass*suspension%gravity]
+         end associate
+      end do
+   end subroutine place_loads
+
+   !> Wheels, with design points instead of arms.
+   subroutine place_wheels(plan, x, suspension, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+      logical, intent(inout) :: is_good
+      integer :: k, j
+
+      do k = 1, size(plan%wheels)
+         associate (wheel => suspension%wheels(k), this => plan%wheels(k))
+            wheel%centre = suspension%vectors(:, this%centre)
+            wheel%contact = suspension%vectors(:, this%contact)
+            wheel%radius = number_at(x, this%radius, wheel%centre(3) - wheel%contact(3))
+            wheel%tyre_rate = number_at(x, this%tyre_rate, 0.0_wp)
+            wheel%tyre_width = number_at(x, this%tyre_width, 0.0_wp)
+            wheel%sprung_mass = number_at(x, this%sprung_mass, 0.0_wp)
+            call spin_of(wheel%side, number_at(x, this%toe, 0.0_wp), number_at(x, this%camber, 0.0_wp), &
+               suspension%vectors(:, this%spin), wheel)
+            do j = 1, 2
+               wheel%steer_axis(:, j) = suspension%vectors(:, this%steer_axis(j))
+            end do
+            is_good = is_good .and. wheel%side*wheel%centre(2) >= 0.0_wp .and. wheel%centre(3) > wheel%contact(3) &
+               .and. wheel%side*wheel%spin(2) > 0.0_wp
+            if (wheel%has_steer_axis) &
+               is_good = is_good .and. norm2(wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)) > 0.0_wp
+         end associate
+      end do
+   end subroutine place_wheels
+
+   subroutine place_axle(plan, x, suspension)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(suspension_t), intent(inout) :: suspension
+
+      associate (axle => suspension%axle, steering => suspension%steering)
+         axle%wheelbase = number_at(x, plan%axle(1), 0.0_wp)
+         axle%cg_height = number_at(x, plan%axle(2), 0.0_wp)
+         axle%mass = number_at(x, plan%axle(3), 0.0_wp)
+         axle%brake_share = number_at(x, plan%axle(4), 0.0_wp)
+         axle%drive_share = number_at(x, plan%axle(5), 1.0_wp)
+         axle%front_overhang = number_at(x, plan%axle(6), 0.0_wp)
+         axle%front_width = number_at(x, plan%axle(7), 0.0_wp)
+         steering%ratio = number_at(x, plan%steering(1), 0.0_wp)
+         steering%travel = number_at(x, plan%steering(2), 0.0_wp)
+      end associate
+   end subroutine place_axle
+
+   !> The numbers of the cases for the parameters x.
+   subroutine realise_cases(plan, x, cases, is_good)
+      type(blueprint_t), intent(in) :: plan
+      real(wp), intent(in) :: x(:)
+      type(case_t), intent(inout) :: cases(:)
+      logical, intent(inout) :: is_good
+      integer :: k
+
+      do k = 1, size(cases)
+         associate (this => plan%cases(k))
+            cases(k)%offset = number_at(x, this%offset, 0.0_wp)
+            if (cases(k)%test == 'table') cycle
+            cases(k)%from = number_at(x, this%from, 0.0_wp)
+            cases(k)%to = number_at(x, this%to, 0.0_wp)
+            is_good = is_good .and. abs(cases(k)%to - cases(k)%from) > 0.0_wp
+            if (cases(k)%test == 'roll') is_good = is_good .and. max(abs(cases(k)%from), abs(cases(k)%to)) <= steepest_roll
+         end associate
+      end do
+   end subroutine realise_cases
+
+end module ek_realise
