@@ -18,10 +18,7 @@ contains
 
     character(len=40) :: buffer
 
-    ! not g0, whose digits are the compiler's choice, as is the length of Inf
-    write (buffer, '(g26.17e3)') x
-    if (x > huge(x)) buffer = 'Inf'
-    if (x < -huge(x)) buffer = '-Inf'
+    write (buffer, '(g26.17e3)') x       ! not g0, whose digits are the compiler's choice
     text = trim(adjustl(buffer))
     if (index(text, 'Inf') > 0) text = text(:index(text, 'Inf') + 2)      ! or 'Infinity', likewise
   end function text_of_real
