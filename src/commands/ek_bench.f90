@@ -5,12 +5,12 @@
 !> speed or load of the machine. The minimum time of several rounds is reported for each.
 module ek_bench
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model, exit_convergence
+   use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
    use ek_text, only: str, quoted
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, method_names
+   use ek_case, only: case_t, is_mountable, method_names
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent
@@ -39,30 +39,15 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:), chosen(:)
       type(case_t) :: case
       type(kkt_t) :: kkt
-      type(examination_t) :: found
       type(path_t) :: path, exact
       real(wp), allocatable :: matrices(:, :, :)
       real(wp) :: unit, together, copying, best(3), start
-      character(:), allocatable :: checksum
       character(200) :: line
       integer :: k, m
 
-      call load_deck(arguments, suspension, cases, checksum, error)
-      if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
-      case = chosen(1)
-      call examine_cases(suspension, [case], found)
-      if (found%none_solvable()) then
-         call fail(error, exit_model, unsolvable_words(arguments%file, found))
-         return
-      end if
-      call balance(suspension, case%tolerance, error)
-      if (allocated(error)) return
-      call mount(suspension, case, error)
+      call load_case(arguments, suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
       case%method = 'equilibrium'
@@ -110,6 +95,35 @@ contains
       if (arguments%quiet .or. allocated(error)) return
       call whole_way(arguments, error)
    end subroutine bench
+
+   !> The first chosen case of a deck on the rig, examined and balanced.
+   subroutine load_case(arguments, suspension, case, error)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), intent(out) :: case
+      type(error_t), allocatable, intent(out) :: error
+      type(suspension_t) :: base
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(examination_t) :: found
+      character(:), allocatable :: checksum
+
+      call load_deck(arguments, base, cases, checksum, error)
+      if (allocated(error)) return
+      call chosen_cases(arguments, cases, chosen, error)
+      if (allocated(error)) return
+      call examine_cases(base, chosen(1:1), found)
+      if (found%none_solvable()) then
+         call fail(error, exit_model, unsolvable_words(arguments%file, found))
+         return
+      end if
+      call balance(base, chosen(1)%tolerance, error)
+      if (allocated(error)) return
+      if (.not. is_mountable(chosen(1))) then
+         call fail(error, exit_file, chosen(1)%table%fault)
+         return
+      end if
+      call mount(base, chosen(1), suspension, case)
+   end subroutine load_case
 
    !> Prints one line to standard output; after a failure nothing.
    subroutine put(line, error)
@@ -215,28 +229,22 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:), chosen(:)
+      type(case_t) :: case
       type(kkt_t) :: kkt
       type(path_t) :: path
       type(table_t) :: table
-      character(:), allocatable :: checksum, text
+      character(:), allocatable :: text
       character(200) :: line
       real(wp) :: marks(5)
 
       marks(1) = seconds()
-      call load_deck(arguments, suspension, cases, checksum, error)
-      if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
-      call balance(suspension, chosen(1)%tolerance, error)
-      if (allocated(error)) return
-      call mount(suspension, chosen(1), error)
+      call load_case(arguments, suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
       marks(2) = seconds()
-      call sweep(suspension, chosen(1), path, kkt)
+      call sweep(suspension, case, path, kkt)
       marks(3) = seconds()
-      call sweep_table(suspension, chosen(1), path, kkt, table)
+      call sweep_table(suspension, case, path, kkt, table)
       marks(4) = seconds()
       text = csv_text(table)
       marks(5) = seconds()

@@ -41,6 +41,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
+      type(case_t) :: case
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
@@ -60,9 +61,8 @@ contains
       call diagnose(base, design_state(base), kkt, diagnosis)
       call tell_model(base, diagnosis, checksum, words)
       do k = 1, size(chosen)
-         call examine_case(base, chosen(k), diagnosis, error=error)
-         if (allocated(error)) return
-         call tell_case(chosen(k), diagnosis, words)
+         call examine_case(base, chosen(k), diagnosis, on_rig=case)
+         call tell_case(case, diagnosis, words)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
          call add_distinct(found, diagnosis%words())

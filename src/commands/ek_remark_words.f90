@@ -1,4 +1,4 @@
-!> Messages of run and report on a deck before they run it: implausible values, a model that cannot be solved.
+!> Messages of run and report on a deck before they run it (implausible values, a model that cannot be solved), and on its cases.
 module ek_remark_words
    use ek_error, only: message_list_t
    use ek_text, only: plural
@@ -7,26 +7,51 @@ module ek_remark_words
    use ek_balance, only: balance_words
    use ek_plausibility, only: doubt
    use ek_examination, only: examination_t
-   use ek_words, only: warn
+   use ek_model_remarks, only: patch_words, spring_words, preload_words
+   use ek_remark, only: remark_t, remark_list_t, note, warning
+   use ek_words, only: say, warn
    implicit none(type, external)
    private
-   public :: warn_of_balance, warn_of_remarks, unsolvable_words
+   public :: print_model_words, print_remarks, unsolvable_words
 
 contains
 
-   !> Warnings on springs that balance has left out or could not determine.
-   subroutine warn_of_balance(suspension, page)
-      type(suspension_t), intent(in) :: suspension
+   !> Prints the messages on a balanced model before its cases are run; `page` collects the warnings, and every remark.
+   subroutine print_model_words(quiet, suspension, cases, chosen, page)
+      logical, intent(in) :: quiet
+      type(suspension_t), intent(in) :: suspension      !! balanced
+      type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
       type(message_list_t), intent(inout), optional :: page
-      type(message_list_t) :: words
+      type(message_list_t) :: notes, warnings
       integer :: k
 
-      call balance_words(suspension, words)
-      do k = 1, words%count()
-         call warn(words%line(k))
-         if (present(page)) call page%add(words%line(k))
+      call preload_words(suspension, notes)
+      do k = 1, notes%count()
+         call say(quiet, notes%line(k))
       end do
-   end subroutine warn_of_balance
+      call patch_words(suspension, warnings)
+      call spring_words(suspension, chosen, warnings)
+      call balance_words(suspension, warnings)
+      do k = 1, warnings%count()
+         call warn(warnings%line(k))
+         if (present(page)) call page%add(warnings%line(k))
+      end do
+      call warn_of_remarks(suspension, cases, page)
+   end subroutine print_model_words
+
+   !> Prints the notes and warnings on a case; its failures become an error.
+   subroutine print_remarks(quiet, remarks)
+      logical, intent(in) :: quiet
+      type(remark_list_t), intent(in) :: remarks
+      type(remark_t) :: remark
+      integer :: k
+
+      do k = 1, remarks%count()
+         remark = remarks%item(k)
+         if (remark%severity == note) call say(quiet, remark%whole())
+         if (remark%severity == warning) call warn(remark%whole())
+      end do
+   end subroutine print_remarks
 
    !> One warning for all remarks of ek_plausibility: the first, and a reference to the others. The page lists them all.
    subroutine warn_of_remarks(suspension, cases, page)

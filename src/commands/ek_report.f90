@@ -25,9 +25,8 @@ module ek_report
    use ek_report_page, only: report_page
    use ek_window_option, only: chosen_windows
    use ek_examination, only: examination_t, examine_cases
-   use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
-   use ek_run_words, only: say_preloads, patch_words, spring_words
-   use ek_words, only: say, warn, complain, tell_path
+   use ek_remark_words, only: print_model_words, unsolvable_words
+   use ek_words, only: say, complain, tell_path
    implicit none(type, external)
    private
    public :: report
@@ -60,9 +59,8 @@ contains
       if (allocated(error)) return
       call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
-      call say_preloads(arguments, suspension)
       call planned_tests(suspension, chosen, planned)
-      call warn_of_all(suspension, cases, planned, warnings)
+      call print_model_words(arguments%quiet, suspension, cases, planned%case, warnings)
       call remove_file(join_path(folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(folder, contents_file))
 
@@ -164,23 +162,6 @@ contains
       if (allocated(error)) return
       call make_folder(join_path(folder, 'figures'), error)
    end subroutine begin_report
-
-   !> Warnings on a model before any test is run, to standard error and for the page.
-   subroutine warn_of_all(suspension, cases, planned, warnings)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)
-      type(planned_test_t), intent(in) :: planned(:)
-      type(message_list_t), intent(inout) :: warnings
-      integer :: k
-
-      call patch_words(suspension, warnings)
-      call spring_words(suspension, planned%case, warnings)
-      do k = 1, warnings%count()
-         call warn(warnings%line(k))
-      end do
-      call warn_of_balance(suspension, warnings)
-      call warn_of_remarks(suspension, cases, warnings)
-   end subroutine warn_of_all
 
    !> compliance.csv: the compliance matrix at every state of a test.
    subroutine write_matrix(table, folder, unheard, error)

@@ -1,24 +1,17 @@
 !> The tests of a report: their selection, and the run of one test.
 module ek_report_tests
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
-   use ek_text, only: str, quoted, plural
+   use ek_error, only: error_t
    use ek_suspension, only: suspension_t, load_number
-   use ek_rig, only: mount
    use ek_standard_tests, only: standard_tests, test_title
    use ek_case, only: case_t
-   use ek_kkt, only: kkt_t, new_kkt
-   use ek_path, only: path_t, sweep
-   use ek_curve_reach, only: curve_reach_words
-   use ek_sweep_table, only: sweep_table, sweep_bytes, factor_unit
-   use ek_memory, only: ask_memory
+   use ek_path, only: path_t
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
+   use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
    use ek_compliance_table, only: compliance_table
    use ek_table, only: table_t, new_table
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
-   use ek_run, only: add_header
    use ek_report_files, only: test_line, table_file
-   use ek_failure_words, only: failure_words, stability_words
-   use ek_run_words, only: settled_words, rack_words, open_words, add_line
    implicit none(type, external)
    private
    public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
@@ -150,13 +143,11 @@ contains
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
       type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
-      real(wp), parameter :: seen_on_a_rig = 1.0e-5_wp     ! m: the design state should be in equilibrium
-      type(suspension_t) :: suspension
-      type(case_t) :: case
-      type(kkt_t) :: kkt
-      type(message_list_t) :: settled
-      character(:), allocatable :: words, gaping
-      integer :: side, k
+      integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
+      type(remark_t) :: remark
+      integer :: topic, k
 
       test%name = planned%name
       test%kind = planned%kind
@@ -165,56 +156,35 @@ contains
       test%factor_size = planned%factor_size
       test%is_anti = planned%is_anti
       test%is_iso = base%is_iso
-      test%is_run = .false.
-      test%table = new_table([character(1) ::], 0)
       allocate (test%prefixes(0), test%sides(0))
-      suspension = base
-      case = planned%case
-      if (len(fault) > 0) then
-         call fail(error, exit_model, fault)
-         call test%remarks%add(fault)
-         return
-      end if
-      call mount(suspension, case, error)
-      if (allocated(error)) then
-         call test%remarks%add(error%message)
-         return
-      end if
-      kkt = new_kkt(suspension)
-      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(planned%name)//' with '// &
-         plural(case%increments, 'increment', 'increments'), error)
-      if (allocated(error)) then
-         call test%remarks%add(error%message)
-         return
-      end if
-      call sweep(suspension, case, path, kkt)
-      test%is_run = .true.
-      words = ''
-      do side = 1, 2
-         if (path%failure(side)%state == 0) cycle
-         call add_line(words, failure_words(suspension, case, path, path%failure(side), kkt))
-         call test%remarks%add(failure_words(suspension, case, path, path%failure(side), kkt))
+      options%fault = fault
+      options%checksum = checksum
+      options%is_compared = .false.
+      options%least_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
+      call solve_case(base, planned%case, options, result)
+      call failure_of(result, error)
+      do topic = 1, size(topics)
+         do k = 1, result%remarks%count()
+            remark = result%remarks%item(k)
+            if (remark%topic /= topics(topic)) cycle
+            if (remark%severity == failure) then
+               call test%remarks%add(remark%whole())
+            else
+               call test%remarks%add(remark%text)
+            end if
+         end do
       end do
-      call stability_words(suspension, case, path, test%remarks)
-      call settled_words(suspension, case, path, seen_on_a_rig, settled)
-      do k = 1, settled%count()
-         call test%remarks%add(settled%line(k))
-      end do
-      call rack_words(suspension, case, test%remarks)
-      call curve_reach_words(suspension, case, path, test%remarks)
-      call sweep_table(suspension, case, path, kkt, test%table)
-      gaping = open_words(case, test%table)
-      if (len(gaping) > 0) then
-         call test%remarks%add(gaping)
-         call add_line(words, gaping)
+      test%is_run = result%is_run()
+      if (.not. test%is_run) then
+         test%table = new_table([character(1) ::], 0)
+         return
       end if
-      if (len(words) > 0) call fail(error, exit_convergence, words)
-
       if (present(compliance)) then
-         call compliance_table(suspension, case, path, kkt, compliance)
-         call add_header(compliance, suspension, case, checksum)
+         call compliance_table(result%suspension, result%case, result%path, result%kkt, compliance)
+         call add_header(compliance, result%suspension, result%case, checksum)
       end if
-      call add_header(test%table, suspension, case, checksum)
+      test%table = result%table
+      path = result%path
       call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
       if (.not. allocated(test%prefixes)) call find_wheels(test)

@@ -1,24 +1,15 @@
 !> elastokin run: deck → model → sweep → table → CSV and figures, case by case.
 module ek_run
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model, exit_convergence
-   use ek_units, only: millimetre
+   use ek_error, only: error_t, fail, exit_usage, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
-   use ek_version, only: version
    use ek_file, only: make_folder, join_path, base_name
-   use ek_memory, only: ask_memory
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
-   use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
    use ek_examination, only: examination_t, examine_cases
-   use ek_path, only: path_t, sweep
-   use ek_rig, only: mount
-   use ek_wheel_side, only: single_side
-   use ek_sweep_table, only: sweep_table, sweep_bytes
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_compliance_table, only: compliance_table
-   use ek_test_result, only: frame_line
-   use ek_curve_reach, only: curve_reach_words
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: write_csv, tell_csv
@@ -27,14 +18,11 @@ module ek_run
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases
-   use ek_remark_words, only: warn_of_balance, warn_of_remarks, unsolvable_words
-   use ek_failure_words, only: failure_words, stability_words
-   use ek_run_words, only: say_settled, say_preloads, patch_words, spring_words, rack_words, warn_of_drift, &
-      warn_of_travel, open_words, add_line
-   use ek_words, only: say, warn, complain, tell_path, show_progress, clear_progress
+   use ek_remark_words, only: print_model_words, print_remarks, unsolvable_words
+   use ek_words, only: say, complain, tell_path, show_progress, clear_progress
    implicit none(type, external)
    private
-   public :: run, add_header
+   public :: run
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
 
@@ -48,7 +36,6 @@ contains
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unheard
-      type(message_list_t) :: doubts
       type(examination_t) :: found
       character(:), allocatable :: checksum, folder, words
       integer :: k, failed, code
@@ -79,23 +66,12 @@ contains
       end if
       call balance(suspension, chosen(1)%tolerance, error)
       if (allocated(error)) return
-      call say_preloads(arguments, suspension)
-      call patch_words(suspension, doubts)
-      call spring_words(suspension, chosen, doubts)
-      do k = 1, doubts%count()
-         call warn(doubts%line(k))
-      end do
-      call warn_of_balance(suspension)
-      call warn_of_remarks(suspension, cases)
+      call print_model_words(arguments%quiet, suspension, cases, chosen)
 
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
-         if (found%is_solvable(k)) then
-            call run_case(arguments, suspension, chosen(k), folder, checksum, unheard, trouble)
-         else
-            call fail(trouble, exit_model, found%faults%line(k))
-         end if
+         call run_case(arguments, suspension, chosen(k), found%faults%line(k), folder, checksum, unheard, trouble)
          if (.not. allocated(trouble)) cycle
          if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
             call move_alloc(trouble, error)
@@ -133,154 +109,119 @@ contains
       end do
    end subroutine refuse_double_files
 
-   !> One case: sweep, report, write, draw.
-   subroutine run_case(arguments, base, wanted, folder, checksum, unheard, error)
+   !> One case: solve, report, write, draw.
+   subroutine run_case(arguments, base, wanted, fault, folder, checksum, unheard, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
+      character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
       character(*), intent(in) :: folder, checksum
       type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
-      type(suspension_t) :: suspension
-      type(case_t) :: case
-      type(kkt_t) :: kkt
-      type(path_t) :: path
-      type(table_t) :: table
-      type(message_list_t) :: doubts
-      character(:), allocatable :: name, words, lost
-      integer :: side
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
+      character(:), allocatable :: name
 
-      suspension = base
-      case = wanted
-      call mount(suspension, case, error)
-      if (allocated(error)) return
-      kkt = new_kkt(suspension)
-      call ask_memory(sweep_bytes(suspension, case), 'case '//quoted(case%name)//' with '// &
-         plural(case%increments, 'increment', 'increments'), error)
-      if (allocated(error)) return
-      call sweep(suspension, case, path, kkt, show_progress)
-      if (path%states > 1000) call clear_progress()
-      words = ''
-      do side = 1, 2
-         if (path%failure(side)%state == 0) cycle
-         call add_line(words, failure_words(suspension, case, path, path%failure(side), kkt))
-      end do
-      call say_settled(arguments, suspension, case, path)
-      call warn_of_drift(suspension, case, path, kkt, lost)
-      call warn_of_travel(suspension, case, path)
-      call stability_words(suspension, case, path, doubts)
-      call rack_words(suspension, case, doubts)
-      call curve_reach_words(suspension, case, path, doubts)
-      do side = 1, doubts%count()
-         call warn('case '//quoted(case%name)//': '//doubts%line(side))
-      end do
-      call sweep_table(suspension, case, path, kkt, table)
-      call add_line(words, lost)
-      call add_line(words, open_words(case, table))
-      if (len(words) > 0) call fail(error, exit_convergence, words)
-
-      call add_header(table, suspension, case, checksum)
+      options%fault = fault
+      options%checksum = checksum
+      call solve_case(base, wanted, options, result, show_progress)
+      if (result%path%states > 1000) call clear_progress()
+      call print_remarks(arguments%quiet, result%remarks)
+      call failure_of(result, error)
+      if (.not. result%is_run()) return
+      name = join_path(folder, result%suspension%name//'_'//wanted%name)
       if (folder == '-') then
-         call tell_csv(table, trouble)
+         call tell_csv(result%table, trouble)
       else
-         name = join_path(folder, suspension%name//'_'//case%name//'.csv')
-         call write_csv(table, name, trouble)
+         call write_csv(result%table, name//'.csv', trouble)
          if (.not. allocated(trouble)) then
-            call tell_path(name, unheard)
-            if (arguments%plot) call draw(arguments, suspension, case, table, folder, name, undrawn)
-            if (arguments%compliance) call write_compliance(suspension, case, path, checksum, folder, kkt, unheard, trouble)
+            call tell_path(name//'.csv', unheard)
+            if (arguments%plot) call draw(arguments, result, folder, name, undrawn)
+            if (arguments%compliance) call write_compliance(result, checksum, name//compliance_ending, unheard, trouble)
          end if
       end if
-      if (.not. allocated(trouble) .and. len(case%target) > 0) &
-         call aim(arguments, suspension, case, path, table, checksum, folder, kkt, unheard, trouble)
+      if (.not. allocated(trouble) .and. len(wanted%target) > 0) &
+         call aim(arguments, result, checksum, folder, name//'_target.csv', unheard, trouble)
       if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
       if (.not. allocated(trouble)) return
-      call add_line(words, trouble%message)
-      call fail(error, trouble%code, words)
+      if (allocated(error)) trouble%message = error%message//new_line('a')//trouble%message
+      call move_alloc(trouble, error)
    end subroutine run_case
 
    !> Writes the compliance matrix at every converged state to a separate file.
-   subroutine write_compliance(suspension, case, path, checksum, folder, kkt, unheard, error)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      character(*), intent(in) :: checksum, folder
-      type(kkt_t), intent(inout) :: kkt
+   subroutine write_compliance(result, checksum, path, unheard, error)
+      type(case_result_t), intent(inout) :: result
+      character(*), intent(in) :: checksum, path
       type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: table
-      character(:), allocatable :: name
 
-      call compliance_table(suspension, case, path, kkt, table)
-      call add_header(table, suspension, case, checksum)
-      name = join_path(folder, suspension%name//'_'//case%name//compliance_ending)
-      call write_csv(table, name, error)
-      if (.not. allocated(error)) call tell_path(name, unheard)
+      call compliance_table(result%suspension, result%case, result%path, result%kkt, table)
+      call add_header(table, result%suspension, result%case, checksum)
+      call write_csv(table, path, error)
+      if (.not. allocated(error)) call tell_path(path, unheard)
    end subroutine write_compliance
 
    !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
    !> results go to standard output). Not for the linear methods, whose states are not equilibria.
-   subroutine aim(arguments, suspension, case, path, table, checksum, folder, kkt, unheard, error)
+   subroutine aim(arguments, result, checksum, folder, path, unheard, error)
       type(arguments_t), intent(in) :: arguments
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: checksum, folder
-      type(kkt_t), intent(inout) :: kkt
+      type(case_result_t), intent(inout) :: result
+      character(*), intent(in) :: checksum, folder, path
       type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
-      character(:), allocatable :: name, words
+      character(:), allocatable :: words
 
-      if (case%method /= 'equilibrium') then
-         call say(arguments%quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
-         return
-      end if
-      call find_target(suspension, case, path, table, kkt, found, error)
-      if (allocated(error)) return
-      if (folder /= '-') then
-         call add_header(found%table, suspension, case, checksum)
-         call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
-         name = join_path(folder, suspension%name//'_'//case%name//'_target.csv')
-         call write_csv(found%table, name, error)
+      associate (case => result%case)
+         if (case%method /= 'equilibrium') then
+            call say(arguments%quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
+            return
+         end if
+         call find_target(result%suspension, case, result%path, result%table, result%kkt, found, error)
          if (allocated(error)) return
-         call tell_path(name, unheard)
-      end if
-      words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
-         str(found%place/case%unit, 9)//' '//case%unit_name
-      if (found%crossings > 1) words = words//' (of '//str(found%crossings)//' solutions the nearest to design)'
-      call say(arguments%quiet, words)
+         if (folder /= '-') then
+            call add_header(found%table, result%suspension, case, checksum)
+            call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
+            call write_csv(found%table, path, error)
+            if (allocated(error)) return
+            call tell_path(path, unheard)
+         end if
+         words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
+            str(found%place/case%unit, 9)//' '//case%unit_name
+         if (found%crossings > 1) words = words//' (of '//str(found%crossings)//' solutions the nearest to design)'
+         call say(arguments%quiet, words)
+      end associate
    end subroutine aim
 
    !> Figures of a case.
-   subroutine draw(arguments, suspension, case, table, folder, csv, error)
+   subroutine draw(arguments, result, folder, name, error)
       type(arguments_t), intent(in) :: arguments
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: folder, csv
+      type(case_result_t), intent(in) :: result
+      character(*), intent(in) :: folder, name      !! name: path of the table without its ending
       type(error_t), allocatable, intent(out) :: error
       type(figure_t), allocatable :: figures(:)
       character(64), allocatable :: elements(:)
       character(:), allocatable :: model, message, label
       integer :: k
 
-      allocate (elements(size(suspension%elements) - suspension%scalars))
-      do k = 1, size(elements)
-         elements(k) = suspension%elements(suspension%scalars + k)%name
-      end do
-      model = suspension%title
-      if (len(model) == 0) model = suspension%name
-      if (is_vertical(suspension, case)) then
-         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, elements=elements)
-      else
-         label = case%place_name
-         if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
-         call run_figures(table, model, case%name, base_name(csv)//'.csv', figures, 'factor', label, elements, &
-            case%test == 'table')
-      end if
+      associate (suspension => result%suspension, case => result%case)
+         allocate (elements(size(suspension%elements) - suspension%scalars))
+         do k = 1, size(elements)
+            elements(k) = suspension%elements(suspension%scalars + k)%name
+         end do
+         model = suspension%title
+         if (len(model) == 0) model = suspension%name
+         if (is_vertical(suspension, case)) then
+            call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, elements=elements)
+         else
+            label = case%place_name
+            if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
+            call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, 'factor', label, &
+               elements, case%test == 'table')
+         end if
+      end associate
       do k = 1, size(figures)
          call write_figure(figures(k), folder, error)
          if (allocated(error)) return
@@ -290,7 +231,7 @@ contains
       if (len(message) > 0) then
          call say(arguments%quiet, message)
       else
-         call say(arguments%quiet, 'case '//quoted(case%name)//': '//str(size(figures))//' figures in '//folder// &
+         call say(arguments%quiet, 'case '//quoted(result%case%name)//': '//str(size(figures))//' figures in '//folder// &
             ' ('//figures(1)%name//'.png …)')
       end if
    end subroutine draw
@@ -308,27 +249,5 @@ contains
       is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &
          .and. norm2(suspension%loads(k)%moment) <= 0.0_wp
    end function is_vertical
-
-   !> The header lines above the table.
-   subroutine add_header(table, suspension, case, checksum)
-      type(table_t), intent(inout) :: table
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      character(*), intent(in) :: checksum
-
-      call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
-         trim(merge(', follow arc', '            ', case%follows_arc))//', tolerance '//str(case%tolerance/millimetre)//' mm')
-      if (len(case%test) > 0) then
-         call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
-      else if (len(case%load) > 0) then
-         call table%header%add('factor: multiplier of load '//quoted(case%load))
-      else
-         call table%header%add('factor: '//case%place_name//' ['//case%unit_name//']')
-      end if
-      call table%header%add(frame_line(suspension%is_iso, single_side(suspension)))
-      call table%header%add('elastokin '//version//', deck checksum '//checksum)
-      call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &
-         'marker. Joint force and moment: on its second body, at its point, frame of the deck')
-   end subroutine add_header
 
 end module ek_run

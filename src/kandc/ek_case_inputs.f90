@@ -4,9 +4,9 @@ module ek_case_inputs
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
+   use ek_case, only: case_t, load_table_t, is_mountable
    use ek_rig, only: mount
-   use ek_load_table, only: check_table
+   use ek_load_table, only: read_table, has_table, note_unread
    use ek_sweep_table, only: sweep_columns
    use ek_target, only: find_column
    use ek_table, only: name_length
@@ -16,14 +16,14 @@ module ek_case_inputs
 
 contains
 
-   !> Reads every table, finds the column of every target, compares all heads of the results.
+   !> Reads every table into its cases, finds the column of every target, compares all heads of the results.
    !>
    !> A message on a table gives the line in the file and the line of the case in the deck:
    !> `loads.csv:7: column 'fz_n': expected a number, found 'two'; in case 'bench' (front.nml:41)`.
    !> In a deck with other errors the cases are checked as far as possible.
    subroutine check_inputs(suspension, cases, error, is_whole)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)
+      type(case_t), intent(inout) :: cases(:)              !! a case whose table cannot be read keeps the reason
       type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file if only files are at fault
       logical, intent(in), optional :: is_whole            !! the suspension is complete; default .true.
       type(message_list_t) :: mistakes
@@ -35,7 +35,7 @@ contains
       unread = 0
       if (has_model) call compare_heads(suspension, cases, mistakes)
       do k = 1, size(cases)
-         call read_table(suspension, has_model, cases, k, mistakes, unread)
+         call take_tables(suspension, has_model, cases, k, mistakes, unread)
          if (has_model) call look_up_target(suspension, cases(k), mistakes)
       end do
       if (mistakes%count() == 0) return
@@ -46,33 +46,40 @@ contains
       end if
    end subroutine check_inputs
 
-   !> Checks the table of case k, unless an earlier case reads the same one.
-   subroutine read_table(suspension, has_model, cases, k, mistakes, unread)
+   !> Reads the table of case k for all cases that name it, unless an earlier case names the same one.
+   subroutine take_tables(suspension, has_model, cases, k, mistakes, unread)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: has_model
-      type(case_t), intent(in) :: cases(:)
+      type(case_t), intent(inout) :: cases(:)
       integer, intent(in) :: k
       type(message_list_t), intent(inout) :: mistakes
       integer, intent(inout) :: unread            !! files that cannot be read
       type(error_t), allocatable :: error
+      type(load_table_t) :: table
       type(message_list_t) :: found
       character(:), allocatable :: users
       integer :: j
 
-      if (.not. reads_table(cases(k))) return
+      if (.not. has_table(cases(k))) return
       users = ''
       do j = 1, size(cases)
-         if (.not. reads_table(cases(j))) cycle
+         if (.not. has_table(cases(j))) cycle
          if (cases(j)%file /= cases(k)%file) cycle
          if (j < k) return
          if (users /= '') users = users//', '
          users = users//'in case '//quoted(cases(j)%name)//' ('//cases(j)%where//')'
       end do
       if (has_model) then
-         call check_table(cases(k)%file, found, error, suspension)
+         call read_table(cases(k)%file, table, found, error, suspension)
       else
-         call check_table(cases(k)%file, found, error)
+         call read_table(cases(k)%file, table, found, error)
       end if
+      do j = k, size(cases)
+         if (.not. has_table(cases(j))) cycle
+         if (cases(j)%file /= cases(k)%file) cycle
+         cases(j)%table = table
+         if (allocated(error)) call note_unread(cases(j), error%message)
+      end do
       if (allocated(error)) then
          unread = unread + 1
          call mistakes%add(error%message//'; '//users)
@@ -81,16 +88,7 @@ contains
       do j = 1, found%count()
          call mistakes%add(found%line(j)//'; '//users)
       end do
-   end subroutine read_table
-
-   !> Whether a case names a table.
-   pure logical function reads_table(case)
-      type(case_t), intent(in) :: case
-
-      reads_table = .false.
-      if (.not. allocated(case%test) .or. .not. allocated(case%file)) return
-      reads_table = case%test == 'table' .and. case%file /= '' .and. index(case%file, '/', back=.true.) /= len(case%file)
-   end function reads_table
+   end subroutine take_tables
 
    !> Checks that the results of a case have the column of its target.
    subroutine look_up_target(suspension, case, mistakes)
@@ -108,11 +106,13 @@ contains
       if (mark < 2) return
       if (case%target(:mark - 1) == '') return
       if (.not. case%is_good .and. index(adjustl(case%target), 'rig_') == 1) return     ! the case cannot be mounted on the rig
-      mounted = suspension
-      this = case
-      if (case%is_good) call mount(mounted, this, error)
-      if (allocated(error)) return
-      call sweep_columns(mounted, this, columns)
+      if (case%is_good .and. .not. is_mountable(case)) return
+      if (case%is_good) then
+         call mount(suspension, case, mounted, this)
+         call sweep_columns(mounted, this, columns)
+      else
+         call sweep_columns(suspension, case, columns)
+      end if
       call find_column(columns, trim(adjustl(case%target(:mark - 1))), place, error)
       if (allocated(error)) call mistakes%add(case%where//': case '//quoted(case%name)//': target: '//error%message)
    end subroutine look_up_target

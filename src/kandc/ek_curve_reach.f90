@@ -2,7 +2,6 @@
 !> rest on a number of the deck.
 module ek_curve_reach
    use ek_kinds, only: wp
-   use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_units, only: millimetre, degree
    use ek_curve, only: curve_t
@@ -14,9 +13,10 @@ module ek_curve_reach
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
+   use ek_remark, only: remark_list_t, warning, on_curve
    implicit none(type, external)
    private
-   public :: curve_reach_words
+   public :: curve_reach_remarks
 
    !> The range of one curve that was used, and the states at its ends.
    type :: reach_t
@@ -28,11 +28,11 @@ contains
 
    !> One message for each end of a curve that was exceeded by more than a thousandth of its span. Elements from one line of
    !> the deck (the two sides of a mirrored one) with the same curve give one message, for the largest excess.
-   subroutine curve_reach_words(suspension, case, path, words)
+   subroutine curve_reach_remarks(suspension, case, path, remarks)
       type(suspension_t), intent(in) :: suspension       !! on the rig
       type(case_t), intent(in) :: case                   !! on the rig
       type(path_t), intent(in) :: path
-      type(message_list_t), intent(inout) :: words
+      type(remark_list_t), intent(inout) :: remarks
       type(reach_t) :: reach(6, size(suspension%elements))      ! of an element of one measure: the first
       type(state_t) :: state
       type(bushing_view_t) :: view
@@ -72,14 +72,14 @@ contains
             associate (element => suspension%elements(k))
                if (element%has_law) then
                   call tell(case, path, element%law%curve, reach(c, k), element_label(element), &
-                     element%measure%kind == rotation, is_told, words)
+                     element%measure%kind == rotation, is_told, remarks)
                else
-                  call tell(case, path, element%bushing%laws(c)%curve, reach(c, k), element_label(element), c > 3, is_told, words)
+                  call tell(case, path, element%bushing%laws(c)%curve, reach(c, k), element_label(element), c > 3, is_told, remarks)
                end if
             end associate
          end do
       end do
-   end subroutine curve_reach_words
+   end subroutine curve_reach_remarks
 
    !> Whether any element has a curve.
    pure logical function has_curves(suspension)
@@ -120,7 +120,7 @@ contains
    end function further
 
    !> The messages on one curve.
-   subroutine tell(case, path, curve, reach, thing, is_angle, is_told, words)
+   subroutine tell(case, path, curve, reach, thing, is_angle, is_told, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(curve_t), intent(in) :: curve
@@ -128,7 +128,7 @@ contains
       character(*), intent(in) :: thing
       logical, intent(in) :: is_angle
       logical, intent(in) :: is_told(2)           !! below the first point, beyond the last: reported for another element
-      type(message_list_t), intent(inout) :: words
+      type(remark_list_t), intent(inout) :: remarks
       character(:), allocatable :: head, unit_name
       real(wp) :: unit, slack
       integer :: n
@@ -144,12 +144,12 @@ contains
       head = 'curve'
       if (allocated(curve%name)) head = head//' '//quoted(curve%name)
       head = head//' of '//thing
-      if (reach%least < curve%breaks(1) - slack .and. .not. is_told(1)) call words%add(head//' begins at '// &
-         str(curve%breaks(1)/unit, 4)//unit_name//' and was used to '//str(reach%least/unit, 4)//unit_name// &
-         at_place(reach%at_least)//'; before its first point it is extrapolated linearly')
-      if (reach%most > curve%breaks(n) + slack .and. .not. is_told(2)) call words%add(head//' ends at '// &
-         str(curve%breaks(n)/unit, 4)//unit_name//' and was used to '//str(reach%most/unit, 4)//unit_name// &
-         at_place(reach%at_most)//'; beyond its last point it is extrapolated linearly')
+      if (reach%least < curve%breaks(1) - slack .and. .not. is_told(1)) call remarks%add(warning, on_curve, case, &
+         head//' begins at '//str(curve%breaks(1)/unit, 4)//unit_name//' and was used to '//str(reach%least/unit, 4)//unit_name// &
+         at_place(reach%at_least)//'; before its first point it is extrapolated linearly', path%value(reach%at_least))
+      if (reach%most > curve%breaks(n) + slack .and. .not. is_told(2)) call remarks%add(warning, on_curve, case, &
+         head//' ends at '//str(curve%breaks(n)/unit, 4)//unit_name//' and was used to '//str(reach%most/unit, 4)//unit_name// &
+         at_place(reach%at_most)//'; beyond its last point it is extrapolated linearly', path%value(reach%at_most))
 
    contains
 

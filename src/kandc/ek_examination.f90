@@ -4,10 +4,10 @@
 !> The full diagnosis is made once per topology and case; a further design of the same case costs one factorisation, unless that
 !> leaves a doubt (ek_soundness).
 module ek_examination
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: message_list_t
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
+   use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -98,26 +98,21 @@ contains
    !>
    !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
    !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
-   !> has no defect here: `error` gives the reason, and the run reports it.
-   subroutine examine_case(base, case, diagnosis, known, error)
+   !> has no defect here: the run reports the reason.
+   subroutine examine_case(base, case, diagnosis, known, on_rig)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
-      type(error_t), allocatable, intent(out), optional :: error
+      type(case_t), intent(out), optional :: on_rig      !! the case with its actuations
       type(suspension_t) :: suspension
       type(case_t) :: mounted
-      type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
       logical :: is_sound
 
-      suspension = base
-      mounted = case
-      call mount(suspension, mounted, trouble)
-      if (allocated(trouble)) then
-         if (present(error)) call move_alloc(trouble, error)
-         return
-      end if
+      if (.not. is_mountable(case)) return
+      call mount(base, case, suspension, mounted)
+      if (present(on_rig)) on_rig = mounted
       kkt = new_kkt(suspension)
       if (.not. present(known)) then
          call diagnose(suspension, design_state(suspension), kkt, diagnosis)

@@ -37,6 +37,7 @@ module ek_geometry_columns
       integer :: used = 0
       character(name_length), allocatable :: names(:)
       real(wp), allocatable :: values(:)
+      logical, allocatable :: is_of_matrix(:)     !! the value comes from the compliance matrix
    end type column_list_t
 
 contains
@@ -62,7 +63,8 @@ contains
                call list_stop(suspension, compliance, state, k, list)
             case (measure_spring)
                if (is_of_angle(suspension%elements(k)%measure%kind)) cycle
-               call put(list, suspension%elements(k)%name//'_motion_ratio', length_ratio(suspension, compliance, state, k))
+               call put(list, suspension%elements(k)%name//'_motion_ratio', &
+                  length_ratio(suspension, compliance, state, k), .true.)
             end select
          end do
       end if
@@ -92,7 +94,7 @@ contains
          if (wheel%has_steer_axis) then
             is = axis_distances(wheel%side, pose%r + rotated(pose%a, wheel%steer_axis(:, 1)), &
                rotated(pose%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), centre, patch, spin)
-            call put_distances(list, prefix, is)
+            call put_distances(list, prefix, is, .false.)
          end if
 
          is = nothing()
@@ -101,7 +103,7 @@ contains
             if (norm2(twist(4:6)) > least_turn) is = axis_distances(wheel%side, &
                centre + cross(twist(4:6), twist(1:3))/dot_product(twist(4:6), twist(4:6)), twist(4:6), centre, patch, spin)
          end if
-         call put_distances(list, prefix//'instant_', is)
+         call put_distances(list, prefix//'instant_', is, .true.)
 
          ! a comparison with NaN would trap: such values are not computed
          column = 0.0_wp
@@ -113,14 +115,14 @@ contains
             twist = locked_twist(compliance, place, .true.)
             steer_camber = quotient(camber_rate(spin, twist(4:6)), steer_rate(spin, twist(4:6)), least_turn)
          end if
-         call put(list, prefix//'recession_gradient_mm_per_m', 1.0e3_wp*recession)
-         if (vehicle%steer_row > 0) call put(list, prefix//'steer_camber_deg_per_deg', steer_camber)
+         call put(list, prefix//'recession_gradient_mm_per_m', 1.0e3_wp*recession, .true.)
+         if (vehicle%steer_row > 0) call put(list, prefix//'steer_camber_deg_per_deg', steer_camber, .true.)
          mass = 0.0_wp
          if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, w)
          if (mass > 0.0_wp) then
             frequency = ieee_value(1.0_wp, ieee_quiet_nan)
             if (compliance%is_known) frequency = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
-            call put(list, prefix//'ride_frequency_hz', frequency)
+            call put(list, prefix//'ride_frequency_hz', frequency, .true.)
          end if
       end associate
    end subroutine list_wheel
@@ -178,7 +180,7 @@ contains
       associate (stop => suspension%elements(k), m => suspension%elements(k)%measure)
          gap = -deflection(stop%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)))
          if (compliance%is_known) left = gap_over(gap, length_ratio(suspension, compliance, state, k))
-         call put(list, stop%name//'_travel_left_mm', left/millimetre)
+         call put(list, stop%name//'_travel_left_mm', left/millimetre, .true.)
       end associate
    end subroutine list_stop
 
@@ -247,34 +249,41 @@ contains
       nothing%across = nothing%centre
    end function nothing
 
-   subroutine put_distances(list, stem, is)
+   subroutine put_distances(list, stem, is, is_of_matrix)
       type(column_list_t), intent(inout) :: list
       character(*), intent(in) :: stem
       type(axis_distances_t), intent(in) :: is
-      call put(list, stem//'centre_axis_distance_mm', is%centre/millimetre)
-      call put(list, stem//'patch_axis_distance_mm', is%patch/millimetre)
-      call put(list, stem//'along_spindle_length_mm', is%along/millimetre)
-      call put(list, stem//'across_spindle_offset_mm', is%across/millimetre)
+      logical, intent(in) :: is_of_matrix
+      call put(list, stem//'centre_axis_distance_mm', is%centre/millimetre, is_of_matrix)
+      call put(list, stem//'patch_axis_distance_mm', is%patch/millimetre, is_of_matrix)
+      call put(list, stem//'along_spindle_length_mm', is%along/millimetre, is_of_matrix)
+      call put(list, stem//'across_spindle_offset_mm', is%across/millimetre, is_of_matrix)
    end subroutine put_distances
 
-   subroutine put(list, name, value)
+   subroutine put(list, name, value, is_of_matrix)
       type(column_list_t), intent(inout) :: list
       character(*), intent(in) :: name
       real(wp), intent(in) :: value
+      logical, intent(in), optional :: is_of_matrix      !! default .false.
       character(name_length), allocatable :: names(:)
       real(wp), allocatable :: values(:)
+      logical, allocatable :: of_matrix(:)
 
-      if (.not. allocated(list%names)) allocate (list%names(64), list%values(64))
+      if (.not. allocated(list%names)) allocate (list%names(64), list%values(64), list%is_of_matrix(64))
       if (list%used == size(list%names)) then
-         allocate (names(2*list%used), values(2*list%used))
+         allocate (names(2*list%used), values(2*list%used), of_matrix(2*list%used))
          names(:list%used) = list%names
          values(:list%used) = list%values
          call move_alloc(names, list%names)
          call move_alloc(values, list%values)
+         of_matrix(:list%used) = list%is_of_matrix
+         call move_alloc(of_matrix, list%is_of_matrix)
       end if
       list%used = list%used + 1
       list%names(list%used) = name
       list%values(list%used) = value
+      list%is_of_matrix(list%used) = .false.
+      if (present(is_of_matrix)) list%is_of_matrix(list%used) = is_of_matrix
    end subroutine put
 
 end module ek_geometry_columns

@@ -19,7 +19,7 @@ module ek_kandc_columns
    use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, wheel_characteristics, &
       axle_characteristics, motion_ratio, quotient
    use ek_angle_rate, only: axes_of
-   use ek_kandc_row, only: kandc_t, put, put_known
+   use ek_kandc_row, only: kandc_t, put, put_known, choose, begin_block, end_block
    use ek_response_columns, only: put_rates, put_arms, put_forces
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
@@ -27,7 +27,7 @@ module ek_kandc_columns
    use ek_geometry_columns, only: geometry_columns
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, tell_kandc, rig_rows
+   public :: kandc_t, start_kandc, choose, tell_kandc, rig_rows
 
    real(wp), parameter :: nm_per_deg = 1.0_wp/degree               !! N m/deg
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
@@ -42,13 +42,13 @@ contains
 
       self%vehicle = vehicle
       self%compliance = new_compliance(suspension, vehicle%steer_row > 0)
-      allocate (self%names(128))
+      allocate (self%names(128), self%is_of_matrix(128), self%last(0), self%is_passed_over(0))
       call list(suspension, design_state(suspension), demand_t(), self)
       self%is_naming = .false.
       allocate (self%values(self%used), source=0.0_wp)
    end subroutine start_kandc
 
-   !> Fills self%values at an equilibrium.
+   !> Fills self%values at an equilibrium: all of them, or those of `choose`.
    subroutine tell_kandc(suspension, state, demand, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
@@ -56,7 +56,8 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(kandc_t), intent(inout) :: self
 
-      call wheel_compliance(suspension, state, demand, rig_rows(suspension), self%vehicle%steer_row, kkt, self%compliance)
+      if (self%is_matrix_wanted) &
+         call wheel_compliance(suspension, state, demand, rig_rows(suspension), self%vehicle%steer_row, kkt, self%compliance)
       call list(suspension, state, demand, self)
    end subroutine tell_kandc
 
@@ -79,9 +80,11 @@ contains
       real(wp) :: lift(size(suspension%wheels)), ratio
       type(stand_t) :: stand
       integer :: w, k, n
+      logical :: is_passed_over
 
       n = 6*size(suspension%wheels)
       self%used = 0
+      self%blocks = 0
       do k = 1, size(suspension%wheels)
          w = self%compliance%order(k)
          now(k) = wheel_attitude(suspension, state, w)
@@ -89,21 +92,35 @@ contains
       end do
       if (is_axle(suspension)) stand = stand_of(suspension, state, self)
       do k = 1, size(suspension%wheels)
+         call begin_block(self, is_passed_over)
+         if (is_passed_over) cycle
          call list_wheel(suspension, state, k, now(k), lift(k), stand, self)
+         call end_block(self)
       end do
-      if (is_axle(suspension)) call list_axle(suspension, now, lift, stand, self)
-      call list_steering(suspension, state, self)
-      call geometry_columns(suspension, self%vehicle, self%compliance, state, self%geometry)
-      do k = 1, self%geometry%used
-         call put(self, trim(self%geometry%names(k)), self%geometry%values(k))
-      end do
+      call begin_block(self, is_passed_over)
+      if (.not. is_passed_over) then
+         if (is_axle(suspension)) call list_axle(suspension, now, lift, stand, self)
+         call list_steering(suspension, state, self)
+         call end_block(self)
+      end if
+      call begin_block(self, is_passed_over)
+      if (.not. is_passed_over) then
+         call geometry_columns(suspension, self%vehicle, self%compliance, state, self%geometry)
+         do k = 1, self%geometry%used
+            call put(self, trim(self%geometry%names(k)), self%geometry%values(k), self%geometry%is_of_matrix(k))
+         end do
+         call end_block(self)
+      end if
       if (n == 0) return                                ! without a wheel there is no travel
+      call begin_block(self, is_passed_over)
+      if (is_passed_over) return
       do k = 1, self%compliance%springs
          ratio = 0.0_wp
          if (self%compliance%is_known) ratio = motion_ratio(self%compliance%response(:n, :n), &
             self%compliance%response(n + k, :n))
          call put_known(self, suspension%elements(self%compliance%spring(k))%name//'_motion_ratio', ratio)
       end do
+      call end_block(self)
    end subroutine list
 
    !> Positions of both wheels of an axle, in the order of the compliance matrix.
@@ -280,7 +297,8 @@ contains
       end if
       call put_known(self, 'steering_ratio', quotient(per_rack, abs(rate), least_rack_rate))
       ! positive to the left for either direction of the rack
-      call put(self, 'steering_wheel_deg', sign(per_rack, rate)*row_change(suspension, state, self%vehicle%steer_row)/degree)
+      call put(self, 'steering_wheel_deg', sign(per_rack, rate)*row_change(suspension, state, self%vehicle%steer_row)/degree, &
+         .true.)
    end subroutine list_steering
 
    !> Prescribed value of a driver's row at a state, from design [m, rad]: its measure less the deflection of its compliance.
@@ -309,12 +327,12 @@ contains
       values = ieee_value(1.0_wp, ieee_quiet_nan)
       if (axis%is_known) values = [axis%caster/degree, axis%kingpin_inclination/degree, axis%scrub_radius/millimetre, &
          axis%caster_trail/millimetre, axis%spindle_length/millimetre, axis%spindle_offset/millimetre]
-      call put(self, stem//'caster_deg', values(1))
-      call put(self, stem//'kingpin_inclination_deg', values(2))
-      call put(self, stem//'scrub_radius_mm', values(3))
-      call put(self, stem//'caster_trail_mm', values(4))
-      call put(self, stem//'spindle_length_mm', values(5))
-      call put(self, stem//'spindle_offset_mm', values(6))
+      call put(self, stem//'caster_deg', values(1), .true.)
+      call put(self, stem//'kingpin_inclination_deg', values(2), .true.)
+      call put(self, stem//'scrub_radius_mm', values(3), .true.)
+      call put(self, stem//'caster_trail_mm', values(4), .true.)
+      call put(self, stem//'spindle_length_mm', values(5), .true.)
+      call put(self, stem//'spindle_offset_mm', values(6), .true.)
    end subroutine put_axis
 
 end module ek_kandc_columns

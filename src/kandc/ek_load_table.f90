@@ -14,137 +14,127 @@ module ek_load_table
    use ek_error, only: error_t, message_list_t, fail, exit_deck
    use ek_text, only: str, quoted, nearest_name, plural
    use ek_units, only: degree, millimetre
-   use ek_case, only: case_t, append_course, follows_table
+   use ek_case, only: case_t, load_table_t, table_column_t
    use ek_measure, only: rotation
    use ek_state, only: most_driven
-   use ek_suspension, only: suspension_t, load_t, driver_row
-   use ek_builder, only: add_height_driver, add_load
+   use ek_suspension, only: suspension_t, driver_row
    use ek_table, only: name_length
    use ek_sheet, only: sheet_t, read_sheet, mistakes_of, head_place
-   use ek_wheel_side, only: prefix_of, height_name, left_and_right
+   use ek_wheel_side, only: prefix_of, left_and_right
    implicit none(type, external)
    private
-   public :: mount_table, check_table
+   public :: take_table, read_table, has_table, note_unread
 
    character(*), parameter :: load_columns(9) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
-      'centre_fx_n', 'centre_fy_n', 'centre_fz_n']
-
+      'centre_fx_n', 'centre_fy_n', 'centre_fz_n']      !! as component of table_column_t
+   character(*), parameter :: travel_column = 'travel_mm'
    character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! columns of result files reused as loads
 
 contains
 
-   !> Adds the loads and drivers of the table's columns, and makes its rows the path of the case.
-   subroutine mount_table(suspension, case, wheels, error)
-      type(suspension_t), intent(inout) :: suspension
+   !> Reads the table of a case, before the case is put on the rig; for any other case does nothing.
+   subroutine take_table(suspension, case, error)
+      type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: case
-      integer, intent(in) :: wheels(2)      !! left, right; 0: none
       type(error_t), allocatable, intent(out) :: error   !! exit_file: not readable; exit_deck: all errors in the table
-      type(sheet_t) :: sheet
       type(message_list_t) :: mistakes
-      integer :: k
 
-      call read_sheet(case%file, sheet, error)
+      if (.not. has_table(case)) return
+      call read_table(case%file, case%table, mistakes, error, suspension)
       if (allocated(error)) then
-         error%message = error%message//'; in case '//quoted(case%name)//' ('//case%where//')'
-         return
-      end if
-      call judge_columns(sheet, suspension, wheels)
-      call mistakes_of(sheet, mistakes)
-      if (mistakes%count() > 0) then
+         call note_unread(case, error%message)
+         error%message = case%table%fault
+      else if (mistakes%count() > 0) then
          call fail(error, exit_deck, mistakes%text())
-         return
       end if
-      do k = 1, size(sheet%heads)
-         if (sheet%heads(k) /= '') call take_column(trim(sheet%heads(k)), sheet%values(k, :))
-      end do
-      case%from = 1.0_wp
-      case%to = size(sheet%values, 2)
-      case%increments = size(sheet%values, 2) - 1
-      if (size(sheet%values, 2) == 1) then      ! from the design state, which is also reported
-         case%from = 0.0_wp
-         case%increments = 1
-      end if
+   end subroutine take_table
 
-   contains
+   !> Whether a case names a table.
+   pure logical function has_table(case)
+      type(case_t), intent(in) :: case
 
-      subroutine take_column(name, values)
-         character(*), intent(in) :: name
-         real(wp), intent(in) :: values(:)
-         character(:), allocatable :: prefix, stem
-         integer :: side, c, row
-         logical :: is_angle
+      has_table = .false.
+      if (.not. allocated(case%test) .or. .not. allocated(case%file)) return
+      has_table = case%test == 'table' .and. case%file /= '' .and. index(case%file, '/', back=.true.) /= len(case%file)
+   end function has_table
 
-         if (any(name == passed_over)) return
-         do side = 1, 2
-            if (wheels(side) == 0) cycle
-            prefix = prefix_of(suspension, wheels(side))
-            if (index(name, prefix) /= 1) cycle
-            stem = name(len(prefix) + 1:)
-            if (stem == 'travel_mm') then
-               if (driver_row(suspension, height_name(side)) == 0) call add_height_driver(suspension, height_name(side), &
-                  case%where, wheels(side:side), [1.0_wp], .false.)
-               call append_course(case%courses, '', height_name(side), 1.0_wp, follows_table, values*millimetre)
-               return
-            end if
-            do c = 1, size(load_columns)
-               if (load_columns(c) /= stem) cycle
-               call add_unit_load(name, wheels(side), c, values)
-               return
-            end do
-         end do
-         row = driver_of(name, suspension)
-         if (row == 0) return
-         is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
-         call append_course(case%courses, '', name(:index(name, '_', back=.true.) - 1), 1.0_wp, follows_table, &
-            values*merge(degree, millimetre, is_angle))
-      end subroutine take_column
+   !> Keeps the reason why the table of a case cannot be read, for the message when the case is run.
+   pure subroutine note_unread(case, message)
+      type(case_t), intent(inout) :: case
+      character(*), intent(in) :: message
 
-      !> A unit force or moment along an axis of the deck, scaled by a column.
-      subroutine add_unit_load(name, wheel, c, values)
-         character(*), intent(in) :: name
-         integer, intent(in) :: wheel, c      !! c: index in load_columns
-         real(wp), intent(in) :: values(:)
-         type(load_t) :: load
-         integer :: axis
-         real(wp) :: unit
+      case%table%fault = message//'; in case '//quoted(case%name)//' ('//case%where//')'
+   end subroutine note_unread
 
-         axis = mod(c - 1, 3) + 1
-         unit = 1.0_wp
-         if (suspension%is_iso .and. axis < 3) unit = -1.0_wp
-         load%name = 'rig_'//name
-         load%where = case%where
-         load%body = suspension%wheels(wheel)%body
-         load%arm = suspension%wheels(wheel)%contact
-         if (c > 6) load%arm = suspension%wheels(wheel)%centre
-         if (c >= 4 .and. c <= 6) then
-            load%moment(axis) = unit
-         else
-            load%force(axis) = unit
-         end if
-         load%is_case = .true.
-         call add_load(suspension, load)
-         call append_course(case%courses, load%name, '', 1.0_wp, follows_table, values)
-      end subroutine add_unit_load
-
-   end subroutine mount_table
-
-   !> All errors in the table of a case, in `mistakes`, as 'table.csv:7: error'.
-   subroutine check_table(file, mistakes, error, suspension)
+   !> Reads a table for a model; all errors in it, as 'table.csv:7: error', in `mistakes`.
+   subroutine read_table(file, table, mistakes, error, suspension)
       character(*), intent(in) :: file
+      type(load_table_t), intent(out) :: table
       type(message_list_t), intent(inout) :: mistakes
       type(error_t), allocatable, intent(out) :: error           !! exit_file: the file cannot be read
-      type(suspension_t), intent(in), optional :: suspension     !! absent: the heads are not compared with a model
+      type(suspension_t), intent(in), optional :: suspension     !! absent: the errors alone, not those of the heads
       type(sheet_t) :: sheet
-      integer :: wheels(2)
+      integer :: wheels(2), k, used
 
       call read_sheet(file, sheet, error)
       if (allocated(error)) return
+      wheels = 0
       if (present(suspension)) then
          call left_and_right(suspension, wheels)
          call judge_columns(sheet, suspension, wheels)
       end if
       call mistakes_of(sheet, mistakes)
-   end subroutine check_table
+      if (mistakes%count() > 0 .or. .not. present(suspension)) return
+      table%rows = size(sheet%values, 2)
+      allocate (table%columns(count([(is_kept(sheet, k), k=1, size(sheet%heads))])))
+      used = 0
+      do k = 1, size(sheet%heads)
+         if (.not. is_kept(sheet, k)) cycle
+         used = used + 1
+         call set_column(trim(sheet%heads(k)), sheet%values(k, :), suspension, wheels, table%columns(used))
+      end do
+   end subroutine read_table
+
+   !> Whether a column is used: it has a head, other than those passed over.
+   pure logical function is_kept(sheet, k)
+      type(sheet_t), intent(in) :: sheet
+      integer, intent(in) :: k
+
+      is_kept = sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over)
+   end function is_kept
+
+   !> What a column acts on, and its values in SI. Its head has a meaning.
+   pure subroutine set_column(head, values, suspension, wheels, column)
+      character(*), intent(in) :: head
+      real(wp), intent(in) :: values(:)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: wheels(2)      !! left, right; 0: none
+      type(table_column_t), intent(out) :: column
+      character(:), allocatable :: prefix
+      integer :: side
+
+      column%name = head
+      column%values = values
+      do side = 1, 2
+         if (wheels(side) == 0) cycle
+         prefix = prefix_of(suspension, wheels(side))
+         if (index(head, prefix) /= 1) cycle
+         column%component = findloc(load_columns, head(len(prefix) + 1:), dim=1)
+         if (column%component == 0 .and. head(len(prefix) + 1:) /= travel_column) cycle
+         column%wheel = wheels(side)
+         if (column%component == 0) column%values = values*millimetre
+         return
+      end do
+      column%name = head(:index(head, '_', back=.true.) - 1)
+      column%values = values*merge(degree, millimetre, is_angle_row(suspension, driver_of(head, suspension)))
+   end subroutine set_column
+
+   !> Whether the value of a driver's row is an angle.
+   pure logical function is_angle_row(suspension, row)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: row
+      is_angle_row = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
+   end function is_angle_row
 
    !> Adds errors to the sheet: heads unknown in a model, and too many columns.
    subroutine judge_columns(sheet, suspension, wheels)
@@ -180,7 +170,7 @@ contains
          if (wheels(side) == 0) cycle
          prefix = prefix_of(suspension, wheels(side))
          if (index(name, prefix) /= 1) cycle
-         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == [character(11) :: load_columns, 'travel_mm'])
+         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == [character(11) :: load_columns, travel_column])
       end do
    end function has_meaning
 
@@ -189,14 +179,12 @@ contains
       character(*), intent(in) :: name
       type(suspension_t), intent(in) :: suspension
       integer :: mark
-      logical :: is_angle
 
       row = 0
       mark = index(name, '_', back=.true.)
       if (mark > 1) row = driver_row(suspension, name(:mark - 1))
       if (row == 0) return
-      is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
-      if (name(mark:) /= trim(merge('_deg', '_mm ', is_angle))) row = 0
+      if (name(mark:) /= trim(merge('_deg', '_mm ', is_angle_row(suspension, row)))) row = 0
    end function driver_of
 
    !> Hint on the known columns.
@@ -217,7 +205,7 @@ contains
             known(used) = prefix_of(suspension, wheels(side))//load_columns(c)
          end do
          used = used + 1
-         known(used) = prefix_of(suspension, wheels(side))//'travel_mm'
+         known(used) = prefix_of(suspension, wheels(side))//travel_column
       end do
       words = nearest_name(name, known)
       if (words /= '') then

@@ -160,7 +160,7 @@ contains
          order = rank_of(m%body_j) - rank_of(m%body_i)
          if (order == 0 .or. m%kind /= distance) return
          up = place(suspension, m%body_j, m%arm_j) - place(suspension, m%body_i, m%arm_i)
-         if (order*up(3) > -0.7_wp*norm2(up)) return
+         if (sign(1, order)*up(3) > -0.7_wp*norm2(up)) return      ! within 45 deg of the vertical
          call doubts%add(spring%where, 'upside down', element_label(spring)// &
             ': its upper end is on '//quoted(body_name(suspension, merge(m%body_i, m%body_j, order > 0)))// &
             ', its lower end on '//quoted(body_name(suspension, merge(m%body_j, m%body_i, order > 0)))// &

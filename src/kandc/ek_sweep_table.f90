@@ -3,6 +3,7 @@
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
 module ek_sweep_table
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8
    use ek_suspension, only: suspension_t, driver_row
    use ek_case, only: case_t
@@ -12,7 +13,7 @@ module ek_sweep_table
    use ek_path, only: path_t
    use ek_vehicle, only: vehicle_of
    use ek_state_columns, only: state_columns, state_values, measure_unit
-   use ek_kandc_columns, only: kandc_t, start_kandc, tell_kandc
+   use ek_kandc_columns, only: kandc_t, start_kandc, choose, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
@@ -27,18 +28,22 @@ contains
    !> marked by converged = 0 and values that are not numbers.
    !>
    !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
-   !> at every state.
-   subroutine sweep_table(suspension, case, path, kkt, table)
+   !> at every state. With `wanted` the table has these quantities only, and the matrix is solved only if one of them needs it.
+   subroutine sweep_table(suspension, case, path, kkt, table, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(table_t), intent(out) :: table
+      character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
       type(state_t) :: state
       type(schedule_t) :: schedule
       type(demand_t) :: demand
       type(kandc_t) :: kandc
       character(name_length), allocatable :: columns(:)
+      logical, allocatable :: is_kept(:)
+      integer, allocatable :: kept(:)
+      real(wp), allocatable :: values(:)         ! all columns of a row
       real(wp) :: unit
       integer :: first, last, k, row, shown, told, ended
 
@@ -46,30 +51,39 @@ contains
       ended = size(columns)
       told = ended - ends_of(case)    ! the last column before the ending columns
       shown = told - kandc%used       ! the last column of the state itself
+      allocate (is_kept(ended), source=.true.)
+      if (present(wanted)) is_kept(3:told) = [(any(wanted == columns(k)), k=3, told)]
+      kept = pack([(k, k=1, ended)], is_kept)
+      if (kandc%used > 0) call choose(kandc, is_kept(shown + 1:told))
 
       call reached_rows(path, first, last)
-      table = new_table(columns, last - first + 1)
+      table = new_table(columns(kept), last - first + 1)
+      allocate (values(ended))
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
       unit = factor_unit(suspension, case)
       do k = first, last
          row = k - first + 1
          call demand_at(schedule, path%value(k), demand)
-         table%values(1, row) = k - 1
-         table%values(2, row) = path%value(k)/unit
-         table%values(told + 1, row) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
-         table%values(ended - 1, row) = path%iterations(k)
-         if (.not. path%is_reached(k)) cycle
-         if (knows_stability(case)) table%values(told + 2, row) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
-         table%values(ended - 2, row) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
-         call unpack_state(path%packed(:, k), state)
-         call assemble(suspension, state, demand, residual_only, kkt)
-         call state_values(suspension, state, kkt, table%values(3:shown, row))
-         table%values(ended, row) = norm2(kkt%values)
-         if (norm2(kkt%values) > open_joints) table%values(told + 1, row) = 0.0_wp
-         if (.not. case%has_all) cycle
-         call tell_kandc(suspension, state, demand, kkt, kandc)
-         table%values(shown + 1:told, row) = kandc%values
+         values = ieee_value(1.0_wp, ieee_quiet_nan)
+         values(1) = k - 1
+         values(2) = path%value(k)/unit
+         values(told + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
+         values(ended - 1) = path%iterations(k)
+         if (path%is_reached(k)) then
+            if (knows_stability(case)) values(told + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
+            values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
+            call unpack_state(path%packed(:, k), state)
+            call assemble(suspension, state, demand, residual_only, kkt)
+            if (any(is_kept(3:shown))) call state_values(suspension, state, kkt, values(3:shown))
+            values(ended) = norm2(kkt%values)
+            if (norm2(kkt%values) > open_joints) values(told + 1) = 0.0_wp
+            if (any(is_kept(shown + 1:told))) then
+               call tell_kandc(suspension, state, demand, kkt, kandc)
+               values(shown + 1:told) = kandc%values
+            end if
+         end if
+         table%values(:, row) = values(kept)
       end do
    end subroutine sweep_table
 
@@ -119,20 +133,21 @@ contains
    end function ends_of
 
    !> Memory for the sweep of a case and its table, with a margin [bytes].
-   integer(i8) function sweep_bytes(suspension, case) result(bytes)
+   integer(i8) function sweep_bytes(suspension, case, wanted) result(bytes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
+      character(*), intent(in), optional :: wanted(:)       !! as for sweep_table
       integer, parameter :: of_a_path = 6             ! numbers per state besides its coordinates
       integer(i8), parameter :: margin = 20000000_i8  ! bytes: all storage that does not grow with the states
       character(name_length), allocatable :: names(:)
       type(kandc_t) :: kandc
       integer :: columns
 
-      call state_columns(suspension, names)
-      columns = size(names) + 7
-      if (case%has_all) then
-         call start_kandc(suspension, vehicle_of(suspension), kandc)
-         columns = columns + kandc%used
+      if (present(wanted)) then
+         columns = size(wanted) + 7
+      else
+         call list_columns(suspension, case, names, kandc)
+         columns = size(names)
       end if
       ! the table twice: working copy and result
       bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*columns)

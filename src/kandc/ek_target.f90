@@ -13,7 +13,7 @@ module ek_target
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
    use ek_branch, only: branch_t, new_branch, leave
-   use ek_table, only: table_t, column_range, row_count
+   use ek_table, only: table_t, column, column_range, row_count
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
@@ -142,6 +142,7 @@ contains
       if (abs(f_low) <= 0.0_wp) then
          call look_at(low)
          found%place = low
+         call sweep_table(suspension, case, here, kkt, found%table)
          return
       end if
       high = path%value(second)
@@ -168,6 +169,7 @@ contains
       end do
       is_jump = abs(f) > jump*span
       found%place = middle
+      call sweep_table(suspension, case, here, kkt, found%table)
 
    contains
 
@@ -176,6 +178,7 @@ contains
          real(wp), intent(in) :: place
          type(state_t) :: state
          type(failure_t) :: failure
+         real(wp) :: value(1)
          integer :: from
 
          from = first
@@ -191,10 +194,11 @@ contains
          here%is_stable(1) = kkt%negative == kkt%nc
          here%pivot_ratio(1) = kkt%pivot_ratio
          call pack_state(state, here%packed(:, 1))
-         call sweep_table(suspension, case, here, kkt, found%table)
+         call sweep_table(suspension, case, here, kkt, found%table, wanted=table%columns(c:c))
+         value = column(found%table, found%column)
          f = 0.0_wp
-         if (ieee_is_finite(found%table%values(c, 1))) then
-            f = found%table%values(c, 1) - found%wanted
+         if (ieee_is_finite(value(1))) then
+            f = value(1) - found%wanted
          else
             call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
                ' has no value at '//case%place_name//' = '//str(place/case%unit, 9)//' '//case%unit_name)

@@ -3,7 +3,8 @@ module ek_case
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: case_t, course_t, append_course, method_names, default_tolerance, most_increments
+   public :: case_t, course_t, table_column_t, load_table_t, append_course, is_mountable, method_names
+   public :: default_tolerance, most_increments
    public :: follow_names, follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
@@ -24,6 +25,21 @@ module ek_case
       real(wp), allocatable :: values(:)      !! of follows_table, SI
    end type course_t
 
+   !> A column of a load table: a load or a height of a wheel, or the value of a driver joint, in every row.
+   type :: table_column_t
+      character(:), allocatable :: name       !! its head; of a driver joint the name of the joint
+      integer :: wheel = 0                    !! number of the wheel; 0: a driver joint of the deck
+      integer :: component = 0                !! 1–3 force and 4–6 moment at the patch, 7–9 force at the centre; 0: a height
+      real(wp), allocatable :: values(:)      !! N, N m, m or rad
+   end type table_column_t
+
+   !> A load table as it was read; no rows: not read, or its file cannot be read.
+   type :: load_table_t
+      integer :: rows = 0
+      type(table_column_t), allocatable :: columns(:)
+      character(:), allocatable :: fault      !! why its file cannot be read
+   end type load_table_t
+
    !> A case as given in the deck, SI. Without a `test` either `load` or `drive` is not empty.
    type :: case_t
       character(:), allocatable :: name, where
@@ -41,6 +57,7 @@ module ek_case
       logical :: is_anti = .false.          !! opposed: the load on the right wheel is reversed
       real(wp) :: offset = 0.0_wp           !! trail of a lateral force behind the patch [m]
       character(:), allocatable :: file     !! name of a load table
+      type(load_table_t) :: table           !! its content
       character(:), allocatable :: target   !! 'column=value', '' for none
       logical :: is_good = .true.           !! .false.: the case has a mistake and cannot be mounted on the rig
       logical :: has_all = .false.          !! write the compliance matrix and the quantities derived from it at every state
@@ -51,6 +68,14 @@ module ek_case
    end type case_t
 
 contains
+
+   !> Whether a case can be put on the rig: the table that it names has been read.
+   pure logical function is_mountable(case)
+      type(case_t), intent(in) :: case
+
+      is_mountable = .true.
+      if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
+   end function is_mountable
 
    !> Add an actuation to a case: a load or a driver joint; the other name is empty.
    pure subroutine append_course(courses, load, drive, share, law, values)

@@ -1,20 +1,18 @@
 !> A sweep of one or two factors of a deck: a family of curves, and the responses of each design.
 module ek_factor_sweep
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8
    use ek_memory, only: ask_memory
    use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, set_value
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
-   use ek_kkt, only: kkt_t
-   use ek_path, only: path_t, sweep
-   use ek_sweep_table, only: sweep_table
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
+   use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, new_table, column_index, name_length
    use ek_study, only: study_t
-   use ek_response, only: reading_t, prepare_reading, read_response
-   use ek_examination, only: known_case_t
-   use ek_subject, only: make_subject
+   use ek_response, only: reading_t, needed_columns, prepare_reading, read_response
+   use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
+   use ek_parameter, only: find_parameters
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    implicit none(type, external)
@@ -38,9 +36,11 @@ contains
       type(table_t) :: table
       type(error_t), allocatable :: trouble
       type(reading_t), allocatable :: readings(:)
-      type(known_case_t) :: known
+      type(subject_t) :: subject
+      type(factor_paths_t), allocatable :: paths(:)
       real(wp), allocatable :: values(:), rows(:, :)
       character(:), allocatable :: label, unit
+      character(name_length), allocatable :: wanted(:), heads(:)
       integer :: design, designs, first, second, i, j, f, n, used, before
 
       n = size(study%factors)
@@ -49,6 +49,11 @@ contains
       if (n == 2) second = size(study%factors(2)%values)
       designs = first*second
       allocate (values(n), rows(0, 0))
+      allocate (wanted(size(study%columns)))
+      wanted(:) = study%columns
+      do f = 1, size(study%responses)
+         call needed_columns(study%responses(f), wanted)
+      end do
       used = 0
       design = 0
       do i = 1, first
@@ -60,10 +65,10 @@ contains
             do f = 1, n
                label = label//study%factors(f)%path//'='//shortest(values(f))//' '
             end do
-            call run_design(study, deck, values, known, table, unit, trouble, error)
+            call run_design(study, deck, values, subject, paths, wanted, table, heads, unit, trouble, error)
             if (allocated(error)) return
             if (design == 1) then
-               if (.not. allocated(trouble)) call check_columns(study, table, unit, readings, error)
+               if (.not. allocated(trouble)) call check_columns(study, table, heads, unit, readings, error)
                if (allocated(trouble)) call fail(error, trouble%code, 'the first design of the study failed: '// &
                   trim(label)//': '//trouble%message)
                if (allocated(error)) return
@@ -104,23 +109,56 @@ contains
    end subroutine sweep_factors
 
    !> Runs one design: its table, or the reason for its failure. `error`: a path that is invalid for every design.
-   subroutine run_design(study, deck, values, known, table, unit, trouble, error)
+   subroutine run_design(study, deck, values, subject, paths, wanted, table, heads, unit, trouble, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       real(wp), intent(in) :: values(:)
-      type(known_case_t), intent(inout) :: known         !! from the designs before
-      type(table_t), intent(out) :: table
+      type(subject_t), intent(inout) :: subject          !! from the designs before
+      type(factor_paths_t), allocatable, intent(inout) :: paths(:)   !! of the factors, set by the first design
+      character(name_length), intent(in) :: wanted(:)    !! columns that are computed
+      type(table_t), intent(out) :: table                !! those that the model defines
+      character(name_length), allocatable, intent(inout) :: heads(:)   !! all columns of the results, set by the first design
       character(:), allocatable, intent(out) :: unit     !! of the column `factor`: 'mm', 'N', …
       type(error_t), allocatable, intent(out) :: trouble, error
-      type(deck_t) :: changed
-      type(suspension_t) :: suspension
-      type(case_t) :: case
-      type(kkt_t) :: kkt
-      type(path_t) :: path
-      character(*), parameter :: given = '--set '
-      integer :: f, k
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
+      logical :: is_made
+      integer :: k
 
       unit = ''
+      is_made = .false.
+      if (allocated(paths)) call change_subject(deck%file, paths, values, subject, is_made, trouble)
+      if (.not. is_made) call read_again(study, deck, values, subject, paths, trouble, error)
+      if (allocated(error) .or. allocated(trouble)) return
+      options%has_remarks = .false.
+      options%columns = wanted
+      call solve_case(subject%suspension, subject%case, options, result)
+      if (.not. result%is_run()) call failure_of(result, trouble)
+      if (allocated(trouble)) return
+      unit = result%case%unit_name
+      table = result%table
+      if (.not. allocated(heads)) call sweep_columns(result%suspension, result%case, heads)
+      associate (path => result%path)
+         do k = 1, 2
+            if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &
+               str(path%value(path%failure(k)%state)))
+         end do
+      end associate
+   end subroutine run_design
+
+   !> Reads a design from the deck with the factors as settings.
+   subroutine read_again(study, deck, values, subject, paths, trouble, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      real(wp), intent(in) :: values(:)
+      type(subject_t), intent(inout) :: subject
+      type(factor_paths_t), allocatable, intent(inout) :: paths(:)
+      type(error_t), allocatable, intent(out) :: trouble, error
+      type(deck_t) :: changed
+      character(*), parameter :: given = '--set '
+      integer :: f
+
+      if (allocated(paths)) deallocate (paths)
       changed = deck
       do f = 1, size(values)
          call set_value(changed, study%factors(f)%path, shortest(values(f)), error)
@@ -131,7 +169,7 @@ contains
             quoted(study%factors(f)%name)//': '//error%message(len(given) + 1:)
          return
       end do
-      call make_subject(changed, study%case, suspension, case, kkt, trouble, known)
+      call make_subject(changed, study%case, subject, trouble)
       if (allocated(trouble)) then
          do f = 1, size(values)
             call replace(trouble%message, given//study%factors(f)%path//'='//shortest(values(f)), &
@@ -139,14 +177,11 @@ contains
          end do
          return
       end if
-      unit = case%unit_name
-      call sweep(suspension, case, path, kkt)
-      call sweep_table(suspension, case, path, kkt, table)
-      do k = 1, 2
-         if (path%failure(k)%state > 0) call fail(trouble, exit_convergence, 'no equilibrium at factor '// &
-            str(path%value(path%failure(k)%state)))
+      allocate (paths(size(values)))
+      do f = 1, size(values)
+         call find_parameters(subject%design%parameters, subject%design%records, study%factors(f)%path, paths(f)%found)
       end do
-   end subroutine run_design
+   end subroutine read_again
 
    !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
    function shortest(value) result(text)
@@ -179,9 +214,10 @@ contains
    end subroutine replace
 
    !> Checks that all columns named by the study are in the table and that its responses can be read.
-   subroutine check_columns(study, table, unit, readings, error)
+   subroutine check_columns(study, table, heads, unit, readings, error)
       type(study_t), intent(in) :: study
       type(table_t), intent(in) :: table
+      character(*), intent(in) :: heads(:)               !! all columns of the results
       character(*), intent(in) :: unit                   !! of the column `factor`
       type(reading_t), allocatable, intent(out) :: readings(:)
       type(error_t), allocatable, intent(out) :: error   !! exit_deck, every mistake
@@ -191,13 +227,13 @@ contains
       text = ''
       do k = 1, size(study%columns)
          if (column_index(table, trim(study%columns(k))) > 0) cycle
-         hint = nearest_name(trim(study%columns(k)), table%columns)
+         hint = nearest_name(trim(study%columns(k)), heads)
          if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
          text = text//study%where//': columns: the results have no column '//quoted(study%columns(k))//hint//new_line('a')
       end do
       allocate (readings(size(study%responses)))
       do k = 1, size(study%responses)
-         call prepare_reading(study%responses(k), table, unit, readings(k), hint)
+         call prepare_reading(study%responses(k), table, unit, readings(k), hint, heads)
          if (hint /= '') text = text//hint//new_line('a')
          do j = 1, k - 1
             if (readings(j)%head == readings(k)%head) text = text//readings(k)%asked%where//': response '// &
@@ -252,16 +288,20 @@ contains
       real(wp), intent(in) :: values(:)
       real(wp), intent(inout) :: rows(:, :)
       integer, intent(inout) :: used
-      integer :: k, r, n
+      integer :: place(size(study%columns)), k, r, n
 
       n = size(values)
+      do k = 1, size(place)
+         place(k) = column_index(table, trim(study%columns(k)))
+      end do
       do r = 1, size(table%values, 2)
          used = used + 1
          rows(1, used) = design
          rows(2:n + 1, used) = values
          rows(n + 2, used) = table%values(2, r)
          do k = 1, size(study%columns)
-            rows(n + 2 + k, used) = table%values(column_index(table, trim(study%columns(k))), r)
+            rows(n + 2 + k, used) = ieee_value(1.0_wp, ieee_quiet_nan)      ! the model of this design does not define it
+            if (place(k) > 0) rows(n + 2 + k, used) = table%values(place(k), r)
          end do
       end do
    end subroutine take_curves

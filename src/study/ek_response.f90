@@ -10,7 +10,7 @@ module ek_response
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, prepare_reading, read_response
+   public :: reading_t, needed_columns, prepare_reading, read_response
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -24,13 +24,44 @@ module ek_response
 
 contains
 
+   !> The columns from which a response may be read.
+   pure subroutine needed_columns(asked, names)
+      type(response_t), intent(in) :: asked
+      character(*), intent(inout), allocatable :: names(:)      !! those that are needed are added
+      integer :: mark
+
+      call add(asked%column)
+      if (asked%of /= 'slope') return
+      call add(asked%over)
+      if (asked%over /= '') return
+      call add(travel)                                          ! as in usual_over
+      call add('left_'//travel)
+      mark = index(asked%column, '_')
+      call add(asked%column(:mark)//travel)
+
+   contains
+
+      pure subroutine add(name)
+         character(*), intent(in) :: name
+         character(len(names)), allocatable :: more(:)
+
+         if (any(names == name)) return
+         allocate (more(size(names) + 1))
+         more(:size(names)) = names
+         more(size(more)) = name
+         call move_alloc(more, names)
+      end subroutine add
+
+   end subroutine needed_columns
+
    !> Checks a response against the table of the first design; `message` gives the reason if it cannot be read, else ''.
-   subroutine prepare_reading(asked, table, factor_unit, reading, message)
+   subroutine prepare_reading(asked, table, factor_unit, reading, message, heads)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
       type(reading_t), intent(out) :: reading
       character(:), allocatable, intent(out) :: message
+      character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default those of the table
       character(:), allocatable :: unit
       real(wp) :: value
 
@@ -38,11 +69,11 @@ contains
       reading%over = asked%over
       reading%head = asked%name
       message = ''
-      if (column_index(table, asked%column) == 0) message = no_column(asked%column, table)
+      if (column_index(table, asked%column) == 0) message = no_column(asked%column, table, heads)
       if (asked%of == 'slope') then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          if (message == '' .and. column_index(table, reading%over) == 0) then
-            message = no_column(reading%over, table)
+            message = no_column(reading%over, table, heads)
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
          call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
@@ -67,6 +98,11 @@ contains
 
       message = ''
       value = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (column_index(table, reading%asked%column) == 0) message = no_column(reading%asked%column, table)
+      if (allocated(reading%over) .and. reading%asked%of == 'slope') then
+         if (column_index(table, reading%over) == 0) message = no_column(reading%over, table)
+      end if
+      if (message /= '') return                  ! the model of this design does not define it
       y = table%values(column_index(table, reading%asked%column), :)
       if (reading%asked%of == 'span') then
          value = maxval(y) - minval(y)
@@ -92,7 +128,7 @@ contains
       if (.not. ieee_is_finite(centre)) return          ! the state did not converge, or the column is undefined there
       is_near = .false.
       do k = 1, size(x)
-         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window
+         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
       end do
       if (count(is_near) < 2) then
          message = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
@@ -123,8 +159,16 @@ contains
       is_left(minloc(distance, dim=1, mask=is_left)) = .false.
       second = minval(distance, mask=is_left)
       words = 'use at least '//str(ceiling(second/window))//' times as many increments in the case, or a window of '// &
-         str(second*(1.0_wp + 1.0e-3_wp), 3)//' or more in the response'
+         str(rounded_up(second), 3)//' or more in the response'
    end function remedy
+
+   !> A number above 0 rounded up to three digits.
+   pure real(wp) function rounded_up(value) result(rounded)
+      real(wp), intent(in) :: value
+      real(wp) :: unit
+      unit = 10.0_wp**(floor(log10(value)) - 2)
+      rounded = ceiling(value/unit*(1.0_wp - 1.0e-9_wp))*unit
+   end function rounded_up
 
    !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, that on the side of the
    !> column, or else of the left wheel.
@@ -209,12 +253,17 @@ contains
    end function ends_with
 
    !> The message about a missing column, with a suggestion.
-   function no_column(name, table) result(words)
+   function no_column(name, table, heads) result(words)
       character(*), intent(in) :: name
       type(table_t), intent(in) :: table
+      character(*), intent(in), optional :: heads(:)
       character(:), allocatable :: words
 
-      words = nearest_name(name, table%columns)
+      if (present(heads)) then
+         words = nearest_name(name, heads)
+      else
+         words = nearest_name(name, table%columns)
+      end if
       if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
       words = 'the results have no column '//quoted(name)//words
    end function no_column

@@ -14,14 +14,15 @@ module ek_step_size
    use ek_schedule, only: new_schedule, demand_at
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
-   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_kkt, only: kkt_t, new_kkt, assemble, residual_only
    use ek_path, only: path_t, new_path, walk
+   use ek_rig, only: mount
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_table, only: table_t, new_table
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
-   use ek_subject, only: make_subject
+   use ek_subject, only: subject_t, make_subject
    implicit none(type, external)
    private
    public :: step_size_text
@@ -40,6 +41,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
+      type(subject_t) :: subject
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -49,8 +51,10 @@ contains
       logical :: is_reached
       integer :: m, k
 
-      call make_subject(deck, study%case, suspension, case, kkt, error)
+      call make_subject(deck, study%case, subject, error)
       if (allocated(error)) return
+      call mount(subject%suspension, subject%case, suspension, case)
+      kkt = new_kkt(suspension)
       if (size(suspension%wheels) == 0) then
          call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')
          return

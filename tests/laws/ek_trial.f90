@@ -19,6 +19,7 @@ module ek_trial
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
    use ek_path, only: path_t, sweep
+   use ek_load_table, only: take_table
    use ek_rig, only: mount
    use ek_reading, only: state_of
    use ek_sweep_table, only: sweep_table
@@ -26,7 +27,7 @@ module ek_trial
    use ek_wheel_force, only: vertical_force
    implicit none(type, external)
    private
-   public :: trial_t, try, go_through, values, elastic_energy, chassis_lift, wheel_force
+   public :: trial_t, try, go_through, put_on_rig, values, elastic_energy, chassis_lift, wheel_force
 
    type :: trial_t
       type(suspension_t) :: suspension      !! on the rig
@@ -76,7 +77,7 @@ contains
          trial%case = cases(k)
          call balance(trial%suspension, trial%case%tolerance, error)
       end if
-      if (.not. allocated(error)) call mount(trial%suspension, trial%case, error)
+      if (.not. allocated(error)) call put_on_rig(trial%suspension, trial%case, error)
       if (allocated(error)) then
          trial%trouble = error%message
          trial%code = error%code
@@ -87,6 +88,20 @@ contains
       call sweep_table(trial%suspension, trial%case, trial%path, trial%kkt, trial%table)
       if (.not. all(trial%path%is_reached)) trial%trouble = 'not all states were reached'
    end subroutine go_through
+
+   !> Puts a suspension on the rig for a case, whose table is read first, and keeps the case with its actuations.
+   subroutine put_on_rig(suspension, case, error)
+      type(suspension_t), intent(inout) :: suspension
+      type(case_t), intent(inout) :: case
+      type(error_t), allocatable, intent(out) :: error      !! of the table
+      type(suspension_t) :: base
+      type(case_t) :: given
+
+      base = suspension
+      given = case
+      call take_table(base, given, error)
+      if (.not. allocated(error)) call mount(base, given, suspension, case)
+   end subroutine put_on_rig
 
    !> A column; one value that is not a number, which equals nothing, when it is not there.
    function values(trial, name) result(list)

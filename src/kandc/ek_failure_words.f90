@@ -1,7 +1,6 @@
 !> Messages: why a path ended, and which of its states are unstable.
 module ek_failure_words
    use ek_kinds, only: wp
-   use ek_error, only: message_list_t
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_measure, only: measure_value
@@ -19,10 +18,11 @@ module ek_failure_words
    use ek_reach, only: failure_t
    use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
    use ek_sweep_table, only: factor_unit, nearly_singular
-   use ek_run_words, only: has_spring
+   use ek_model_remarks, only: has_spring
+   use ek_remark, only: remark_list_t, warning, on_stability
    implicit none(type, external)
    private
-   public :: failure_words, stability_words
+   public :: failure_words, stability_remarks
 
    integer, parameter :: digits = 10      !! printed of the swept value at the end of a path, which is known to 1e-9 of the range
 
@@ -37,7 +37,7 @@ contains
       type(kkt_t), intent(inout) :: kkt                !! work space
       character(:), allocatable :: text
 
-      text = 'case '//quoted(case%name)//': '
+      text = ''
       if (.not. path%is_settled) then
          text = text//'no equilibrium under the constant loads'
       else if (path%is_table) then
@@ -224,34 +224,42 @@ contains
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_words
 
-   !> One message each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
-   subroutine stability_words(suspension, case, path, words)
+   !> One warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
+   subroutine stability_remarks(suspension, case, path, remarks)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
-      type(message_list_t), intent(inout) :: words
+      type(remark_list_t), intent(inout) :: remarks
       integer :: unstable, first, k
 
       first = minloc(path%pivot_ratio, dim=1, mask=path%is_reached)
       if (first > 0) then
-         if (path%pivot_ratio(first) < nearly_singular) call words%add('the matrix is nearly singular (smallest over largest '// &
-            'pivot '//str(path%pivot_ratio(first), 2)//') at '//place_words(suspension, case, path%value(first))// &
-            ' (column near_singular); see elastokin check')
+         if (path%pivot_ratio(first) < nearly_singular) call tell('the matrix is nearly singular (smallest over largest '// &
+            'pivot '//str(path%pivot_ratio(first), 2)//') at ', path%value(first), ' (column near_singular); see elastokin check')
       end if
       if (case%method == 'recursive') return     ! its matrix has no geometric stiffness and shows no instability
       do k = 1, path%limits
-         if (path%limit_state(k) > 0) call words%add('limit point at '//place_words(suspension, case, path%limit_place(k))// &
-            ' (near state '//str(path%limit_state(k) - 1)//'): the path turns back there')
+         if (path%limit_state(k) > 0) call tell('limit point at ', path%limit_place(k), ' (near state '// &
+            str(path%limit_state(k) - 1)//'): the path turns back there')
       end do
       do k = 1, path%crossings
-         call words%add('bifurcation at '//place_words(suspension, case, path%crossing_place(k))// &
+         call tell('bifurcation at ', path%crossing_place(k), &
             ': another branch of equilibria begins there; the results follow the one whose tangent is continuous')
       end do
       unstable = count(path%is_reached .and. .not. path%is_stable)
       if (unstable == 0) return
       first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
-      call words%add(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or buckled; '// &
-         'column stable), the first at '//place_words(suspension, case, path%value(first)))
-   end subroutine stability_words
+      call tell(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or buckled; '// &
+         'column stable), the first at ', path%value(first), '')
+
+   contains
+
+      subroutine tell(before, place, after)
+         character(*), intent(in) :: before, after
+         real(wp), intent(in) :: place
+         call remarks%add(warning, on_stability, case, before//place_words(suspension, case, place)//after, place)
+      end subroutine tell
+
+   end subroutine stability_remarks
 
 end module ek_failure_words

@@ -1,0 +1,163 @@
+!> Remarks on the results of a case: settling, drift, large travel, the rack, open joints.
+module ek_case_remarks
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   use ek_text, only: str, quoted, plural
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_state, only: state_t, design_state, unpack_state
+   use ek_kkt, only: kkt_t
+   use ek_path, only: path_t
+   use ek_table, only: table_t, column, row_count
+   use ek_attitude, only: attitude_t, wheel_attitude
+   use ek_sweep_table, only: factor_unit
+   use ek_drift, only: drift_t, drift_at
+   use ek_model_remarks, only: has_spring
+   use ek_remark, only: remark_list_t, note, warning, failure, on_settling, on_drift, on_travel, on_rack, on_closure
+   implicit none(type, external)
+   private
+   public :: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks
+
+contains
+
+   !> One note per wheel that the constant loads have displaced by more than `least`.
+   subroutine settling_remarks(suspension, case, path, least, remarks)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      real(wp), intent(in) :: least                      !! m
+      type(remark_list_t), intent(inout) :: remarks
+      type(state_t) :: state
+      type(attitude_t) :: attitude
+      integer :: k
+
+      if (case%method == 'recursive') return
+      if (count(path%is_reached) == 0) return
+      state = design_state(suspension)
+      call unpack_state(path%settled, state)
+      do k = 1, size(suspension%wheels)
+         attitude = wheel_attitude(suspension, state, k)
+         if (norm2(attitude%centre) <= least) cycle
+         call remarks%add(note, on_settling, case, 'under the constant loads wheel '// &
+            quoted(suspension%wheels(k)%name)//' settles by '// &
+            str(attitude%centre(3)/millimetre, 4)//' mm (toe '//str((attitude%toe)/degree, 4)//' deg, camber '// &
+            str(attitude%camber/degree, 4)//' deg there)', 0.0_wp)
+      end do
+   end subroutine settling_remarks
+
+   !> Warns of a steering test that exceeds the travel of the rack.
+   subroutine rack_remarks(suspension, case, remarks)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(remark_list_t), intent(inout) :: remarks
+      real(wp), parameter :: rim = 1.0_wp + 1.0e-9_wp
+      real(wp) :: furthest
+
+      if (case%test /= 'steering' .or. .not. suspension%steering%has_steering) return
+      if (len(case%drive) > 0 .and. case%drive /= suspension%steering%driver) return
+      furthest = merge(case%from, case%to, abs(case%from) > abs(case%to))
+      if (abs(furthest) <= suspension%steering%travel*rim) return
+      call remarks%add(warning, on_rack, case, 'the rack is moved to '//str(abs(furthest)/millimetre, 4)// &
+         ' mm, beyond its travel of '//str(suspension%steering%travel/millimetre, 4)//' mm in &steering', furthest)
+   end subroutine rack_remarks
+
+   !> Compares the linear methods with one equilibrium solution at each end of the sweep. An end without an equilibrium
+   !> nearby is a failure: the states before it are unreliable.
+   subroutine drift_remarks(suspension, case, path, kkt, remarks)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt
+      type(remark_list_t), intent(inout) :: remarks
+      type(drift_t) :: drift
+      real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
+      real(wp), parameter :: much_angle = 1.0e-3_wp*degree
+      character(:), allocatable :: place
+      integer :: k, ends(2), n
+
+      if (case%method == 'equilibrium' .or. size(suspension%wheels) == 0) return
+      ends = [1, path%states]
+      do n = 1, 2
+         k = ends(n)
+         if (.not. path%is_reached(k) .or. k == path%start) cycle
+         call drift_at(suspension, case, path, k, kkt, drift)
+         place = str(path%value(k)/factor_unit(suspension, case))
+         if (.not. drift%is_known) then
+            call remarks%add(failure, on_drift, case, 'no equilibrium was found near the state at factor '//place// &
+               '; the linear method has left the range that the suspension can reach', path%value(k), is_of_method=.true.)
+         else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
+            call remarks%add(warning, on_drift, case, 'at factor '//place//' the state is off equilibrium by '// &
+               str(drift%travel/millimetre, 3)//' mm travel, '//str(drift%toe/degree, 3)//' deg toe, '// &
+               str(drift%camber/degree, 3)//' deg camber'//advice(case), path%value(k), is_of_method=.true.)
+         end if
+      end do
+   end subroutine drift_remarks
+
+   !> States of a linear method that are marked converged = 0 because they violate the joint constraints.
+   subroutine closure_remarks(suspension, case, table, remarks)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(table_t), intent(in) :: table         !! of sweep_table
+      type(remark_list_t), intent(inout) :: remarks
+      real(wp) :: gap(row_count(table))
+      logical :: is_open(row_count(table))
+
+      gap = column(table, 'constraint_error')
+      is_open = ieee_is_finite(gap) .and. column(table, 'converged') < 0.5_wp
+      if (.not. any(is_open)) return
+      call remarks%add(failure, on_closure, case, plural(count(is_open), &
+         'state violates', 'states violate')//' the joint constraints (constraint_error up to '// &
+         str(maxval(gap, mask=is_open), 2)//' m or rad) and '// &
+         trim(merge('is ', 'are', count(is_open) == 1))//' marked converged = 0; use more increments, or method ''equilibrium''', &
+         table%values(2, findloc(is_open, .true., dim=1))*factor_unit(suspension, case), is_of_method=.true.)
+   end subroutine closure_remarks
+
+   !> Advice on drift.
+   pure function advice(case) result(text)
+      type(case_t), intent(in) :: case
+      character(:), allocatable :: text
+      text = '; more increments reduce it'
+      if (case%method == 'recursive') text = ' (the bias of this method; more increments do not remove it, '// &
+         'method = ''equilibrium'' has none)'
+   end function advice
+
+   !> Warns of a load that moves a wheel further than any suspension travels: a rate is missing or has the wrong unit.
+   subroutine travel_remarks(suspension, case, path, remarks)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(remark_list_t), intent(inout) :: remarks
+      type(state_t) :: state
+      type(attitude_t) :: attitude
+      character(:), allocatable :: advice
+      real(wp), parameter :: far = 0.25_wp      ! m: half as much again as the travel of an off-road car
+      integer :: k, w, ends(2), n
+
+      if (len(case%drive) > 0) return           ! the deck prescribes the travel of a driven wheel
+      if (allocated(case%courses)) then
+         do k = 1, size(case%courses)
+            if (len(case%courses(k)%load) > 0) exit
+         end do
+         if (k > size(case%courses)) return
+      end if
+      advice = '; check the rates and their units'
+      if (.not. has_spring(suspension)) advice = '; the deck has no spring'
+      ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
+      state = design_state(suspension)
+      do n = 1, 2
+         k = ends(n)
+         if (k == 0) return
+         call unpack_state(path%packed(:, k), state)
+         do w = 1, size(suspension%wheels)
+            attitude = wheel_attitude(suspension, state, w)
+            if (.not. norm2(attitude%centre) > far) cycle
+            call remarks%add(warning, on_travel, case, 'at factor '//str(path%value(k)/factor_unit(suspension, case))// &
+               ' wheel '//quoted(suspension%wheels(w)%name)//' has moved by '//str(norm2(attitude%centre)/millimetre, 3)// &
+               ' mm'//advice, path%value(k))
+            return
+         end do
+      end do
+   end subroutine travel_remarks
+
+end module ek_case_remarks

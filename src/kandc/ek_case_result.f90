@@ -1,0 +1,171 @@
+!> Solves one case of a deck: its path of states, their table, remarks, and how it ended.
+!>
+!> Every command and every study solves its cases here; they choose options and print or write the result.
+module ek_case_result
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
+   use ek_units, only: millimetre
+   use ek_text, only: str, quoted, plural
+   use ek_version, only: version
+   use ek_memory, only: ask_memory
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, is_mountable
+   use ek_kkt, only: kkt_t, new_kkt
+   use ek_path, only: path_t, sweep, progress_procedure
+   use ek_rig, only: mount
+   use ek_wheel_side, only: single_side
+   use ek_sweep_table, only: sweep_table, sweep_bytes
+   use ek_failure_words, only: failure_words, stability_remarks
+   use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks
+   use ek_curve_reach, only: curve_reach_remarks
+   use ek_remark, only: remark_list_t, failure, on_case, on_end
+   use ek_table, only: table_t, name_length
+   use ek_test_result, only: frame_line
+   implicit none(type, external)
+   private
+   public :: case_result_t, solve_options_t, solve_case, failure_of, add_header
+   public :: solved, partly_solved, not_solvable, not_mountable, out_of_memory
+
+   ! outcomes
+   integer, parameter :: solved = 0           !! all states converged
+   integer, parameter :: partly_solved = 1    !! some did not; the others are there
+   integer, parameter :: not_solvable = 2     !! the model is a mechanism, or over-constrained
+   integer, parameter :: not_mountable = 3    !! the load table of the case cannot be read
+   integer, parameter :: out_of_memory = 4    !! the states would not fit into memory
+
+   !> What is wanted of a solution.
+   type :: solve_options_t
+      character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
+      logical :: has_remarks = .true.              !! otherwise failures can be seen in the path only
+      logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
+      real(wp) :: least_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
+      character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
+      character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
+   end type solve_options_t
+
+   !> The solution of a case.
+   type :: case_result_t
+      integer :: outcome = solved                  !! one of those above
+      type(suspension_t) :: suspension             !! on the rig
+      type(case_t) :: case                         !! with its actuations, unit and name of the swept value
+      type(path_t) :: path                         !! its states
+      type(table_t) :: table                       !! observations: one row per state; only if the case was run
+      type(remark_list_t) :: remarks
+      type(kkt_t) :: kkt                           !! work space for further solutions at its states
+   contains
+      procedure :: is_run                          !! there are a path and a table
+   end type case_result_t
+
+contains
+
+   pure logical function is_run(self)
+      class(case_result_t), intent(in) :: self
+      is_run = self%outcome == solved .or. self%outcome == partly_solved
+   end function is_run
+
+   !> Puts a suspension on the rig for a case, solves its path and tabulates it.
+   subroutine solve_case(base, case, options, result, progress)
+      type(suspension_t), intent(in) :: base           !! balanced; it is not changed
+      type(case_t), intent(in) :: case                 !! of the deck; it is not changed
+      type(solve_options_t), intent(in) :: options
+      type(case_result_t), intent(out) :: result
+      procedure(progress_procedure), optional :: progress
+      type(error_t), allocatable :: error
+
+      if (allocated(options%fault)) then
+         if (len(options%fault) > 0) then
+            call give_up(not_solvable, options%fault)
+            return
+         end if
+      end if
+      if (.not. is_mountable(case)) then
+         call give_up(not_mountable, unread_words(case))
+         return
+      end if
+      call mount(base, case, result%suspension, result%case)
+      result%kkt = new_kkt(result%suspension)
+      call ask_memory(sweep_bytes(result%suspension, result%case, options%columns), 'case '//quoted(case%name)//' with '// &
+         plural(result%case%increments, 'increment', 'increments'), error)
+      if (allocated(error)) then
+         call give_up(out_of_memory, error%message)
+         return
+      end if
+      call sweep(result%suspension, result%case, result%path, result%kkt, progress)
+      if (options%has_remarks) call remark_on_path(options, result)
+      call sweep_table(result%suspension, result%case, result%path, result%kkt, result%table, options%columns)
+      if (options%has_remarks) call closure_remarks(result%suspension, result%case, result%table, result%remarks)
+      if (any(result%path%failure%state > 0) .or. len(result%remarks%failures()) > 0) result%outcome = partly_solved
+      if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
+
+   contains
+
+      subroutine give_up(outcome, words)
+         integer, intent(in) :: outcome
+         character(*), intent(in) :: words
+         result%outcome = outcome
+         call result%remarks%add(failure, on_case, case, words)
+      end subroutine give_up
+
+   end subroutine solve_case
+
+   !> Remarks on the states of a path.
+   subroutine remark_on_path(options, result)
+      type(solve_options_t), intent(in) :: options
+      type(case_result_t), intent(inout) :: result
+      integer :: side
+
+      associate (suspension => result%suspension, case => result%case, path => result%path, remarks => result%remarks)
+         do side = 1, 2
+            if (path%failure(side)%state > 0) call remarks%add(failure, on_end, case, &
+               failure_words(suspension, case, path, path%failure(side), result%kkt), path%failure(side)%reached)
+         end do
+         call settling_remarks(suspension, case, path, options%least_settling, remarks)
+         if (options%is_compared) call drift_remarks(suspension, case, path, result%kkt, remarks)
+         call travel_remarks(suspension, case, path, remarks)
+         call stability_remarks(suspension, case, path, remarks)
+         call rack_remarks(suspension, case, remarks)
+         call curve_reach_remarks(suspension, case, path, remarks)
+      end associate
+   end subroutine remark_on_path
+
+   !> Why a case cannot be put on the rig.
+   pure function unread_words(case) result(words)
+      type(case_t), intent(in) :: case
+      character(:), allocatable :: words
+
+      words = 'case '//quoted(case%name)//': its table was not read'
+      if (allocated(case%table%fault)) words = case%table%fault
+   end function unread_words
+
+   !> The failures of a result as an error; none if all states converged.
+   subroutine failure_of(result, error)
+      type(case_result_t), intent(in) :: result
+      type(error_t), allocatable, intent(out) :: error      !! exit_convergence, exit_model or exit_file
+      integer, parameter :: codes(partly_solved:out_of_memory) = [exit_convergence, exit_model, exit_file, exit_file]
+
+      if (result%outcome /= solved) call fail(error, codes(result%outcome), result%remarks%failures())
+   end subroutine failure_of
+
+   !> The header lines above a table of a case.
+   subroutine add_header(table, suspension, case, checksum)
+      type(table_t), intent(inout) :: table
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case              !! on the rig
+      character(*), intent(in) :: checksum          !! of the deck
+
+      call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
+         trim(merge(', follow arc', '            ', case%follows_arc))//', tolerance '//str(case%tolerance/millimetre)//' mm')
+      if (len(case%test) > 0) then
+         call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
+      else if (len(case%load) > 0) then
+         call table%header%add('factor: multiplier of load '//quoted(case%load))
+      else
+         call table%header%add('factor: '//case%place_name//' ['//case%unit_name//']')
+      end if
+      call table%header%add(frame_line(suspension%is_iso, single_side(suspension)))
+      call table%header%add('elastokin '//version//', deck checksum '//checksum)
+      call table%header%add('spring force > 0: compression. Bushing force and moment: on its second body, axes of its first '// &
+         'marker. Joint force and moment: on its second body, at its point, frame of the deck')
+   end subroutine add_header
+
+end module ek_case_result
