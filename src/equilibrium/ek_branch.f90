@@ -194,8 +194,8 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! factors at or near b
 
       call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
-      if (step%is_bent) call look_along_chord(self%chord, self%work, at_b, state_b, step%demand_b, step%rate, kkt, self%chord_b, &
-         step%is_regular(at_b))
+      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
+         self%chord_b, step%is_regular(at_b))
       if (self%negative >= 0 .and. self%factors%is_kept) then
          call exchange(self%factors, kkt)
          call look_at_beginning(self, step, suspension, kkt)
@@ -217,8 +217,8 @@ contains
       self%serial = kkt%factorisations
       self%missed = 0.0_wp
       call find_tangent(self%work, suspension, state_b, step%demand_b, step%rate, kkt, self%tangent_b)
-      if (step%is_bent) call look_along_chord(self%chord, self%work, at_b, state_b, step%demand_b, step%rate, kkt, self%chord_b, &
-         step%is_regular(at_b))
+      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
+         self%chord_b, step%is_regular(at_b))
       call decide(self, step, kkt%length)
    end subroutine look_closer
 
@@ -246,8 +246,8 @@ contains
 
       call find_tangent(self%work, suspension, self%before, step%demand_a, step%rate, kkt, self%tangent_a)
       self%has_tangent = .true.
-      if (step%is_bent) call look_along_chord(self%chord, self%work, at_a, self%before, step%demand_a, step%rate, kkt, &
-         self%chord_a, step%is_regular(at_a))
+      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_a, self%before, step%demand_a, step%rate, &
+         kkt, self%chord_a, step%is_regular(at_a))
    end subroutine look_at_beginning
 
    !> Whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.

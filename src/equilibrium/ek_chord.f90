@@ -15,7 +15,7 @@ module ek_chord
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_measure, only: measure_t, view_t, body_gap, rotation, measure_value, look
-   use ek_law, only: law_t, look_up_law, find_slopes, set_line
+   use ek_law, only: law_t, look_up_law, find_slopes
    use ek_element, only: bushing_element
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t
@@ -38,9 +38,8 @@ module ek_chord
       real(wp) :: offset = 0.0_wp               !! its argument is the measure minus this [m]
    end type place_t
 
-   !> The changed model; one column per law.
+   !> The laws in a step; one column per law.
    type :: chord_t
-      type(suspension_t) :: suspension
       type(place_t), allocatable :: place(:)
       real(wp), allocatable :: value(:, :), force(:, :)    !! (at_a or at_b, law): argument and force there [m, N; rad, N m]
       real(wp), allocatable :: own(:, :)                   !! (at_a or at_b, law): slope there [N/m, N m/rad]
@@ -53,7 +52,7 @@ module ek_chord
 
 contains
 
-   !> Copies a model and allocates the work space; without laws nothing is copied.
+   !> Finds the laws of a model and allocates the work space.
    function new_chord(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(chord_t) :: self
@@ -64,7 +63,6 @@ contains
       allocate (self%value(2, laws), self%force(2, laws), self%own(2, laws), self%slope(3, laws), self%change(laws), source=0.0_wp)
       self%bent_law = 0
       if (laws == 0) return
-      self%suspension = suspension
       self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
       call find_places(suspension, self%place)
    end function new_chord
@@ -165,8 +163,9 @@ contains
 
    !> The tangent of the changed model at one end, with the factors of N there, and whether N stays regular for all slopes.
    !> Equation (K.16) of docs/theory/kkt.md.
-   subroutine look_along_chord(self, work, end, state, demand, rate, kkt, tangent, is_regular)
+   subroutine look_along_chord(self, suspension, work, end, state, demand, rate, kkt, tangent, is_regular)
       type(chord_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
       type(tangent_t), intent(inout) :: work
       integer, intent(in) :: end                   !! at_a or at_b
       type(state_t), intent(in) :: state           !! there
@@ -195,26 +194,8 @@ contains
          is_regular = is_regular .and. self%dyads%negative == kkt%negative
          if (.not. is_regular) return
          if (slope /= mean) cycle
-         call tilt(self, end)
-         call find_tangent(work, self%suspension, state, demand, rate, kkt, tangent, self%dyads)
+         call find_tangent(work, suspension, state, demand, rate, kkt, tangent, self%dyads)
       end do
    end subroutine look_along_chord
-
-   !> Replaces every law by a straight line through its force at a or b.
-   pure subroutine tilt(self, end)
-      type(chord_t), intent(inout) :: self
-      integer, intent(in) :: end          !! at_a or at_b
-      integer :: k
-
-      do k = 1, size(self%place)
-         associate (place => self%place(k), element => self%suspension%elements(self%place(k)%element))
-            if (place%component == 0) then
-               call set_line(element%law, self%value(end, k), self%force(end, k), self%slope(mean, k))
-            else
-               call set_line(element%bushing%laws(place%component), self%value(end, k), self%force(end, k), self%slope(mean, k))
-            end if
-         end associate
-      end do
-   end subroutine tilt
 
 end module ek_chord

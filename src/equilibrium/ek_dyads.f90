@@ -17,7 +17,7 @@ module ek_dyads
    use ek_substitution, only: substitute
    implicit none(type, external)
    private
-   public :: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes, correct
+   public :: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes, correct, resist
 
    !> Gradients, N⁻¹ g, and the small matrix.
    type :: dyads_t
@@ -27,6 +27,7 @@ module ek_dyads
       real(wp), allocatable :: gradient(:, :)    !! (12, dyad): g
       real(wp), allocatable :: column(:, :)      !! (unknown, dyad): N⁻¹ g
       real(wp), allocatable :: product(:, :)     !! gᵀ N⁻¹ g
+      real(wp), allocatable :: change(:)    !! s
       real(wp), allocatable :: root(:)      !! √|s|
       real(wp), allocatable :: small(:)     !! W by columns, then its factors
       real(wp), allocatable :: part(:), work(:)
@@ -43,7 +44,7 @@ contains
 
       allocate (self%at(2, most), self%pivots(most), source=0)
       allocate (self%gradient(12, most), self%column(n, most), self%product(most, most), source=0.0_wp)
-      allocate (self%root(most), self%small(most**2), self%part(most), self%work(64*max(most, 1)), source=0.0_wp)
+      allocate (self%change(most), self%root(most), self%small(most**2), self%part(most), self%work(64*max(most, 1)), source=0.0_wp)
    end function new_dyads
 
    !> Removes all dyads.
@@ -94,6 +95,7 @@ contains
       integer :: k, n, info
 
       n = self%number
+      self%change(:n) = change(:n)
       self%root(:n) = sqrt(abs(change(:n)))
       do k = 1, n
          self%small((k - 1)*n + 1:k*n) = -self%root(:n)*self%product(:n, k)*self%root(k)
@@ -121,6 +123,23 @@ contains
          x = x + (self%root(k)*self%part(k))*self%column(:, k)
       end do
    end subroutine correct
+
+   !> Subtracts what the dyads add to N x: Σ s g gᵀ x.
+   pure subroutine resist(self, x, rhs)
+      type(dyads_t), intent(in) :: self
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(inout) :: rhs(:)
+      real(wp) :: pull
+      integer :: k, at
+
+      do k = 1, self%number
+         pull = self%change(k)*along(self, k, x)
+         at = self%at(1, k)
+         if (at >= 0) rhs(at + 1:at + 6) = rhs(at + 1:at + 6) - pull*self%gradient(1:6, k)
+         at = self%at(2, k)
+         if (at >= 0) rhs(at + 1:at + 6) = rhs(at + 1:at + 6) - pull*self%gradient(7:12, k)
+      end do
+   end subroutine resist
 
    !> gᵀ x
    pure real(wp) function along(self, number, x)

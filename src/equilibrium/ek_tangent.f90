@@ -4,7 +4,7 @@ module ek_tangent
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, solve, residual_only
-   use ek_dyads, only: dyads_t, correct
+   use ek_dyads, only: dyads_t, correct, resist
    implicit none(type, external)
    private
    public :: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
@@ -87,6 +87,7 @@ contains
          self%defect = kkt%rhs
          call shifted_residual(-step)
          self%defect = (self%defect - kkt%rhs)/(2.0_wp*step)
+         if (present(dyads)) call resist(dyads, self%whole, self%defect)
          call assemble_rate(suspension, state, rate, kkt)
          kkt%rhs = kkt%rhs + self%defect
          call solve(kkt)

@@ -11,7 +11,7 @@ module ek_law
    use ek_curve, only: curve_t, look_up_curve, slopes_between
    implicit none(type, external)
    private
-   public :: law_t, look_up_law, deflection, find_slopes, set_line
+   public :: law_t, look_up_law, deflection, find_slopes
 
    !> Units depend on the measure: m and N, or rad and N m.
    type :: law_t
@@ -22,8 +22,6 @@ module ek_law
       logical :: is_one_sided = .false.
       real(wp) :: rounding = 0.0_wp         !! r of a one-sided law, above 0
       type(curve_t) :: curve
-      logical :: is_line = .false.          !! a straight line replaces all of it (set_line)
-      real(wp) :: line_value = 0.0_wp, line_force = 0.0_wp, line_slope = 0.0_wp
    end type law_t
 
 contains
@@ -36,11 +34,6 @@ contains
       real(wp), intent(out) :: force, slope
       real(wp) :: p, share, y
 
-      if (law%is_line) then
-         slope = law%line_slope
-         force = law%line_force + slope*(value - law%line_value)
-         return
-      end if
       p = law%sign*(value - law%reference)
       share = 1.0_wp                       ! dp/de
       if (law%is_one_sided) then
@@ -92,16 +85,5 @@ contains
       least = min(curve(1)*share(1), curve(1)*share(2))
       most = max(curve(2)*share(1), curve(2)*share(2))
    end subroutine find_slopes
-
-   !> Makes a law a straight line: its force and slope at a value of the measure.
-   pure subroutine set_line(law, value, force, slope)
-      type(law_t), intent(inout) :: law
-      real(wp), intent(in) :: value, force, slope
-
-      law%is_line = .true.
-      law%line_value = value
-      law%line_force = force
-      law%line_slope = slope
-   end subroutine set_line
 
 end module ek_law
