@@ -110,7 +110,8 @@ contains
          call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
          if (allocated(error)) return
       end if
-      call draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, undrawn)
+      call draw_pictures(.not. arguments%no_plots, arguments%animate, suspension, tests, films, sets, folder, has_animation, &
+         message, undrawn)
       if (allocated(undrawn)) then
          call complain(undrawn%message)
          call warnings%add('The page lacks pictures: '//undrawn%message)
