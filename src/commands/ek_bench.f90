@@ -18,13 +18,12 @@ module ek_bench
    use ek_path, only: path_t, new_path, walk, sweep
    use ek_rig, only: mount
    use ek_examination, only: examination_t, examine_cases
-   use ek_remark_words, only: unsolvable_words
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t
    use ek_csv, only: csv_text
    use ek_arguments, only: arguments_t
-   use ek_load_deck, only: load_deck, chosen_cases
-   use ek_words, only: tell
+   use ek_load_deck, only: load_deck, chosen_cases, unsolvable_words
+   use ek_console, only: tell => print_text
    implicit none(type, external)
    private
    public :: bench
