@@ -161,7 +161,7 @@ contains
       end do
       call json%number_item('states_per_s', 1.0_wp/figures%increment(3))
       call json%number_item('factorisations_per_state', figures%factorisations)
-      call json%integer_item('most_factorisations', figures%most)
+      call json%integer_item('max_factorisations', figures%most)
       call json%number_item('distance_mm', figures%distance*1000.0_wp)
       if (figures%design > 0.0_wp) then
          call json%number_item('design_us', figures%design*1.0e6_wp)
