@@ -3,7 +3,7 @@
 !> They change places with those in kkt_t; nothing is copied or allocated after new_factors.
 module ek_factors
    use ek_kinds, only: wp
-   use ek_kkt, only: kkt_t
+   use ek_kkt, only: kkt_t, nothing
    implicit none(type, external)
    private
    public :: factors_t, new_factors, mark, forget, keep, exchange
@@ -13,6 +13,7 @@ module ek_factors
       logical :: is_kept = .false.          !! these are the factors of the state
       integer, private :: serial = -1       !! number of their factorisation; −1: the state has none
       integer, private :: negative = 0      !! negative eigenvalues
+      integer, private :: stage = nothing   !! what `matrix` holds, as in kkt_t
       real(wp), allocatable, private :: matrix(:, :)
       integer, allocatable, private :: pivots(:)
    end type factors_t
@@ -61,7 +62,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       real(wp), allocatable :: matrix(:, :)
       integer, allocatable :: pivots(:)
-      integer :: negative
+      integer :: number
 
       call move_alloc(self%matrix, matrix)
       call move_alloc(kkt%matrix, self%matrix)
@@ -69,9 +70,12 @@ contains
       call move_alloc(self%pivots, pivots)
       call move_alloc(kkt%pivots, self%pivots)
       call move_alloc(pivots, kkt%pivots)
-      negative = self%negative
+      number = self%negative
       self%negative = kkt%negative
-      kkt%negative = negative
+      kkt%negative = number
+      number = self%stage
+      self%stage = kkt%stage
+      kkt%stage = number
    end subroutine exchange
 
 end module ek_factors
