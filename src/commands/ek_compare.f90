@@ -15,7 +15,7 @@ module ek_compare
    use ek_report_files, only: results_t, read_results
    use ek_arguments, only: arguments_t
    use ek_console, only: print_note, print_text
-   use ek_compare_page, only: overlay, page_of, test_number
+   use ek_compare_page, only: overlay, page_of, test_number, letter_of
    implicit none(type, external)
    private
    public :: compare
@@ -56,13 +56,12 @@ contains
       end do
       folder = arguments%out
       call make_folder(folder, error)
-      if (allocated(error)) return
-      call make_folder(join_path(folder, 'figures'), error)
+      if (.not. allocated(error)) call make_folder(join_path(folder, 'figures'), error)
       if (allocated(error)) return
 
       call compare_gradients(sets, rows)
       call find_missing(results, rows, missing)
-      call print_text(words_of(results, rows), unprinted)                ! the files are written even if standard output is closed
+      call print_text(text_of(results, rows), unprinted)                ! the files are written even if standard output is closed
       do k = 1, missing%count()
          call print_note(arguments%quiet, missing%line(k))
       end do
@@ -171,7 +170,7 @@ contains
    end function some_of
 
    !> The table for standard output.
-   function words_of(results, rows) result(text)
+   function text_of(results, rows) result(text)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
       character(:), allocatable :: text
@@ -184,54 +183,52 @@ contains
          return
       end if
       do r = 1, size(results)
-         call out%line(achar(iachar('A') + modulo(r - 1, 26))//': '//results(r)%path)
+         call out%line(letter_of(r)//': '//results(r)%path)
       end do
       test = ''
       do k = 1, size(rows)
-         if (rows(k)%test /= test) then
-            test = rows(k)%test
-            call out%line('')
-            call out%add(left(test, 42)//right('A', 12))
+         associate (row => rows(k))
+            if (row%test /= test) then
+               test = row%test
+               call out%line('')
+               call out%add(padded(test, -42)//padded('A', 12))
+               do r = 2, size(results)
+                  call out%add(padded(letter_of(r), 12)//padded('difference', 12)//padded('percent', 9))
+               end do
+               call out%line('  unit')
+            end if
+            call out%add(padded(trim(row%quantity//' '//row%side), -42)//number_text(row%values(1), 6, 12))
             do r = 2, size(results)
-               call out%add(right(achar(iachar('A') + modulo(r - 1, 26)), 12)//right('difference', 12)//right('percent', 9))
+               call out%add(number_text(row%values(r), 6, 12)//number_text(difference(row%values(1), row%values(r)), 4, 12)// &
+                  number_text(percent(row%values(1), row%values(r)), 3, 9))
             end do
-            call out%line('  unit')
-         end if
-         call out%add(left(trim(rows(k)%quantity//' '//rows(k)%side), 42)//right(number_text(rows(k)%values(1), 6), 12))
-         do r = 2, size(results)
-            call out%add(right(number_text(rows(k)%values(r), 6), 12)// &
-               right(number_text(difference(rows(k)%values(1), rows(k)%values(r)), 4), 12)// &
-               right(number_text(percent(rows(k)%values(1), rows(k)%values(r)), 3), 9))
-         end do
-         call out%line('  '//rows(k)%unit)
+            call out%line('  '//row%unit)
+         end associate
       end do
       text = out%text()
-   end function words_of
+   end function text_of
 
    !> A number for the table on the terminal; '-' for a missing value.
-   pure function number_text(value, digits) result(text)
+   pure function number_text(value, digits, width) result(text)
       real(wp), intent(in) :: value
-      integer, intent(in) :: digits
+      integer, intent(in) :: digits, width
       character(:), allocatable :: text
 
       text = str(value, digits)
       if (text == 'not a number') text = '-'
+      text = padded(text, width)
    end function number_text
 
-   !> Padded with blanks to a width; aligned left or right.
-   pure function left(text, width) result(filled)
+   !> A text after blanks to fill a width; before them if the width is negative.
+   pure function padded(text, width) result(filled)
       character(*), intent(in) :: text
       integer, intent(in) :: width
-      character(:), allocatable :: filled
-      filled = text//repeat(' ', max(1, width - len(text)))
-   end function left
+      character(:), allocatable :: filled, blanks
 
-   pure function right(text, width) result(filled)
-      character(*), intent(in) :: text
-      integer, intent(in) :: width
-      character(:), allocatable :: filled
-      filled = repeat(' ', max(1, width - len(text)))//text
-   end function right
+      blanks = repeat(' ', max(1, abs(width) - len(text)))
+      filled = blanks//text
+      if (width < 0) filled = text//blanks
+   end function padded
 
    !> differences.csv: one row per gradient and per result compared with the first.
    subroutine write_differences(results, rows, path, error)

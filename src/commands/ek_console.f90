@@ -3,6 +3,8 @@ module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
    use ek_file, only: is_terminal, write_standard_output, write_standard_error
+   use ek_table, only: table_t
+   use ek_csv, only: write_csv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_balance, only: balance_words
@@ -12,7 +14,7 @@ module ek_console
    implicit none(type, external)
    private
    public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &
-      show_progress, clear_progress
+      write_table, show_progress, clear_progress
 
 contains
 
@@ -60,6 +62,17 @@ contains
       if (.not. allocated(error)) return
       if (len(error%message) > 0) call move_alloc(error, unprinted)
    end subroutine print_path
+
+   !> Writes a table as CSV and prints its path.
+   subroutine write_table(table, path, unprinted, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(inout) :: unprinted    !! as above
+      type(error_t), allocatable, intent(out) :: error          !! exit_file: the table is not written
+
+      call write_csv(table, path, error)
+      if (.not. allocated(error)) call print_path(path, unprinted)
+   end subroutine write_table
 
    !> Progress line, which overwrites itself; on a terminal only.
    subroutine show_progress(done, total)

@@ -15,7 +15,7 @@ module ek_compare_page
    use ek_report_page, only: add_chart_set
    implicit none(type, external)
    private
-   public :: overlay, page_of, test_number
+   public :: overlay, page_of, test_number, letter_of
 
 contains
 
@@ -100,7 +100,7 @@ contains
 
       do r = 1, size(results)
          labels(r) = results(r)%label
-         call names%add(achar(iachar('A') + modulo(r - 1, 26)))
+         call names%add(letter_of(r))
          call values%add(results(r)%path)
       end do
       call names%add('Program')
@@ -155,6 +155,12 @@ contains
       end do
       text = page_text(page)
    end function page_of
+
+   !> The letter of a result: A is the first.
+   pure character(1) function letter_of(result)
+      integer, intent(in) :: result
+      letter_of = achar(iachar('A') + modulo(result - 1, 26))
+   end function letter_of
 
    !> Room for every label and for 'difference'.
    pure integer function longest_label(results) result(longest)

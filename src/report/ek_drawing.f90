@@ -32,7 +32,7 @@ contains
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
       type(message_list_t) :: words
-      character(:), allocatable :: home, name, trouble
+      character(:), allocatable :: home, trouble
       integer :: k
 
       message = ''
@@ -44,23 +44,13 @@ contains
       end if
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
-      home = whole_path(folder)
+      home = join_path(working_folder(), folder)
       call begin_words(words, "set loadpath '..'; to = ''")
       do k = 1, scripts%count()
          call words%add(join_path(home, scripts%line(k)))
       end do
       call draw_in(scratch, words, trouble)
-      do k = 1, pictures%count()
-         if (len(trouble) > 0) exit
-         name = last_part(pictures%line(k))
-         if (.not. is_whole(join_path(scratch%path, name))) trouble = 'it has not completed '//name
-      end do
-      do k = 1, pictures%count()                          ! all or none: pictures of two runs are not mixed
-         if (len(trouble) > 0) exit
-         call move_file(join_path(scratch%path, last_part(pictures%line(k))), join_path(folder, pictures%line(k)), error)
-         if (allocated(error)) trouble = error%message
-      end do
-      call end_scratch(scratch)
+      call take_pictures(scratch, pictures, folder, trouble)
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trouble)
    end subroutine run_gnuplot
 
@@ -72,10 +62,10 @@ contains
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
-      type(message_list_t) :: words, names
+      type(message_list_t) :: words, names, pictures
       type(facts_t) :: facts
-      character(:), allocatable :: trouble, name
-      integer :: k, moved
+      character(:), allocatable :: trouble
+      integer :: k
 
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
@@ -86,32 +76,46 @@ contains
       end do
       if (len(trouble) == 0) then
          call begin_words(words, 'set loadpath '//gnuplot_text(working_folder())//'; out = '// &
-            gnuplot_text(whole_path(scratch%path)))
-         call words%add(whole_path(script))
+            gnuplot_text(join_path(working_folder(), scratch%path)))
+         call words%add(join_path(working_folder(), script))
          call draw_in(scratch, words, trouble)
       end if
       call folder_names(scratch%path, names)
-      moved = 0
       do k = 1, names%count()
-         if (len(trouble) > 0) exit
-         name = join_path(scratch%path, names%line(k))
-         facts = facts_of(name, follow=.false.)
+         facts = facts_of(join_path(scratch%path, names%line(k)), follow=.false.)
          if (names%line(k) == log_name .or. .not. (facts%kind == regular_file .or. facts%kind == unknown_file)) cycle
-         if (.not. is_whole(name)) trouble = 'it has not completed '//names%line(k)
+         call pictures%add(names%line(k))
       end do
-      do k = 1, names%count()
-         if (len(trouble) > 0) exit
-         name = join_path(scratch%path, names%line(k))
-         facts = facts_of(name, follow=.false.)
-         if (names%line(k) == log_name .or. .not. (facts%kind == regular_file .or. facts%kind == unknown_file)) cycle
-         call move_file(name, join_path(folder, names%line(k)), error)
-         if (allocated(error)) trouble = error%message
-         moved = moved + 1
-      end do
-      if (len(trouble) == 0 .and. moved == 0) trouble = 'it has drawn no picture'
-      call end_scratch(scratch)
+      if (len(trouble) == 0 .and. pictures%count() == 0) trouble = 'it has drawn no picture'
+      call take_pictures(scratch, pictures, folder, trouble)
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not run '''//script//''': '//trouble)
    end subroutine run_plot_script
+
+   !> Moves the pictures to their folder, all or none: pictures of two runs are not mixed.
+   subroutine take_pictures(scratch, pictures, folder, trouble)
+      type(scratch_t), intent(inout) :: scratch           !! it ends
+      type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
+      character(*), intent(in) :: folder
+      character(:), allocatable, intent(inout) :: trouble !! '' so far, or nothing is moved
+      type(error_t), allocatable :: error
+      character(:), allocatable :: name
+      integer :: k
+
+      do k = 1, pictures%count()
+         if (len(trouble) > 0) exit
+         name = pictures%line(k)
+         name = name(index(name, '/', back=.true.) + 1:)
+         if (.not. is_whole(join_path(scratch%path, name))) trouble = 'it has not completed '//name
+      end do
+      do k = 1, pictures%count()
+         if (len(trouble) > 0) exit
+         name = pictures%line(k)
+         name = name(index(name, '/', back=.true.) + 1:)
+         call move_file(join_path(scratch%path, name), join_path(folder, pictures%line(k)), error)
+         if (allocated(error)) trouble = error%message
+      end do
+      call end_scratch(scratch)
+   end subroutine take_pictures
 
    !> The command line of gnuplot, and the commands before any script. C.UTF-8: gnuplot rejects the degree sign in C, and
    !> other locales may write a decimal comma.
@@ -183,21 +187,5 @@ contains
          is_whole = .true.
       end select
    end function is_whole
-
-   !> The absolute path.
-   function whole_path(path) result(whole)
-      character(*), intent(in) :: path
-      character(:), allocatable :: whole
-
-      whole = join_path(working_folder(), path)
-   end function whole_path
-
-   !> 'c.svg' for '../c.svg'.
-   pure function last_part(path) result(name)
-      character(*), intent(in) :: path
-      character(:), allocatable :: name
-
-      name = path(index(path, '/', back=.true.) + 1:)
-   end function last_part
 
 end module ek_drawing

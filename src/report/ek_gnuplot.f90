@@ -183,11 +183,8 @@ contains
       integer :: gap
 
       gap = index(text, '    (')
-      if (is_folded .and. gap > 0) then
-         words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
-      else
-         words = gnuplot_text(text)
-      end if
+      words = gnuplot_text(text)
+      if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
    end function label
 
    !> The plot command.
@@ -195,7 +192,7 @@ contains
       type(message_list_t), intent(inout) :: script
       type(panel_t), intent(in) :: panel
       logical, intent(in) :: has_legend
-      character(:), allocatable :: line
+      character(:), allocatable :: line, title
       integer :: k, colour
 
       colour = 0
@@ -213,39 +210,26 @@ contains
             else
                colour = colour + 1
                if (curve%colour > 0) colour = curve%colour
-               line = line//' with '//drawn(curve%style)//' linestyle '//str(modulo(colour - 1, size(palette)) + 1)
+               line = line//' with '//trim(merge('points', 'lines ', curve%style == 'points'))//' linestyle '// &
+                  str(modulo(colour - 1, size(palette)) + 1)
                if (curve%style == 'dashed' .or. colour > size(palette)) line = line//' dashtype (12, 7)'
             end if
-            if (has_legend .and. len(curve%title) > 0) then
-               line = line//' title '//gnuplot_text(curve%title)
-            else
-               line = line//' notitle'
-            end if
+            title = ' notitle'
+            if (has_legend .and. len(curve%title) > 0) title = ' title '//gnuplot_text(curve%title)
+            line = line//title
          end associate
          if (k < size(panel%curves)) line = line//', \'
          call script%add(line)
       end do
    end subroutine add_plot
 
-   !> The gnuplot style of a curve.
-   pure function drawn(style) result(with)
-      character(*), intent(in) :: style
-      character(:), allocatable :: with
-
-      with = 'lines'
-      if (style == 'points') with = 'points'
-   end function drawn
-
    !> A column by its name, or an expression unchanged.
    pure function field(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
 
-      if (index(name, '(') == 1) then
-         text = name
-      else
-         text = gnuplot_name(trim(name))
-      end if
+      text = gnuplot_name(trim(name))
+      if (index(name, '(') == 1) text = name
    end function field
 
 end module ek_gnuplot

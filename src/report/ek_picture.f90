@@ -6,10 +6,10 @@ module ek_picture
    use ek_measure, only: distance
    use ek_element, only: element_kinds, stop_shape, damper_shape
    use ek_suspension, only: suspension_t
-   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides
+   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides
    use ek_part_shape, only: add_body, add_joints, add_elastic, add_wheel, add_tread
    use ek_state, only: state_t
-   use ek_scene, only: scene_t, add_face, add_line, add_words, part_ground, part_carrier, line_ground
+   use ek_scene, only: scene_t, add_face, add_line, add_label, part_ground, part_carrier, line_ground
    implicit none(type, external)
    private
    public :: add_solid, add_ghost, add_ground, add_names
@@ -52,9 +52,7 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          do k = 1, skeleton%count
-            line(:, 1) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
-            line(:, 2) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
-            call add_line(scene, kind, line)
+            call add_line(scene, kind, bar_of(suspension, state, body, skeleton, k))
          end do
       end do
       do k = 1, size(suspension%joints)
@@ -108,7 +106,7 @@ contains
       arrow(:, 2) = at + [0.0_wp, 0.045_wp, 0.0_wp]
       arrow(:, 3) = at + [0.0_wp, -0.045_wp, 0.0_wp]
       call add_face(scene, part_carrier, arrow)
-      call add_words(scene, at + [0.02_wp, 0.0_wp, 0.0_wp], 'front')
+      call add_label(scene, at + [0.02_wp, 0.0_wp, 0.0_wp], 'front')
    end subroutine add_ground
 
    !> Names of bodies, rods and springs, once for left and right.
@@ -117,7 +115,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(skeleton_t) :: skeleton
-      real(wp) :: a(3), b(3), length, longest, at(3)
+      real(wp) :: a(3), b(3), bar(3, 2), longest, at(3)
       integer :: body, k
 
       do body = 1, size(suspension%bodies)
@@ -133,12 +131,10 @@ contains
             cycle
          end if
          do k = 1, skeleton%count
-            a = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
-            b = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
-            length = norm2(b - a)
-            if (length <= longest) cycle
-            longest = length
-            at = (a + b)/2
+            bar = bar_of(suspension, state, body, skeleton, k)
+            if (norm2(bar(:, 2) - bar(:, 1)) <= longest) cycle
+            longest = norm2(bar(:, 2) - bar(:, 1))
+            at = (bar(:, 1) + bar(:, 2))/2
          end do
          if (longest > 0.0_wp .and. slides(suspension, body) .and. .not. carries_wheel(suspension, body)) then
             call name_at(suspension%bodies(body)%name, 5.0_wp)       ! name beside the coil around it
@@ -167,16 +163,16 @@ contains
       subroutine name_at(name, aside)
          character(*), intent(in) :: name
          real(wp), intent(in), optional :: aside
-         character(:), allocatable :: words
+         character(:), allocatable :: label
          integer :: letter
 
          if (index(name, 'right_') == 1) return
-         words = name
-         if (index(name, 'left_') == 1) words = name(6:)
-         do letter = 1, len(words)
-            if (words(letter:letter) == '_') words(letter:letter) = ' '
+         label = name
+         if (index(name, 'left_') == 1) label = name(6:)
+         do letter = 1, len(label)
+            if (label(letter:letter) == '_') label(letter:letter) = ' '
          end do
-         call add_words(scene, at, words, aside)
+         call add_label(scene, at, label, aside)
       end subroutine name_at
 
    end subroutine add_names

@@ -10,7 +10,7 @@ module ek_skeleton
    use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, same_point
+   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, same_point
 
    real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
    integer, parameter :: most_points = 64           !! of a body; further ones are omitted
@@ -140,6 +140,18 @@ contains
       if (body > 0 .and. body <= size(suspension%bodies)) &
          at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
    end function place_of
+
+   !> The ends of bar k of a body's skeleton, global [m].
+   pure function bar_of(suspension, state, body, skeleton, k) result(ends)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(skeleton_t), intent(in) :: skeleton
+      integer, intent(in) :: body, k
+      real(wp) :: ends(3, 2)
+
+      ends(:, 1) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
+      ends(:, 2) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
+   end function bar_of
 
    !> Whether a body carries a wheel.
    pure logical function carries_wheel(suspension, body)

@@ -19,7 +19,9 @@ contains
       character(:), allocatable :: svg
       type(buffer_t) :: out
       character(:), allocatable :: box
-      integer :: at, last, finish, head
+      character(*), parameter :: omitted(5) = [character(7) :: '<script', '<title', '<desc', '<filter', '<!--']
+      character(*), parameter :: ends(5) = [character(9) :: '</script>', '</title>', '</desc>', '</filter>', '-->']
+      integer :: at, last, finish, head, k
 
       svg = ''
       at = index(text, '<svg')
@@ -40,16 +42,11 @@ contains
          end if
          call add_words(out, text(at:at + last - 2))
          at = at + last - 1
-         if (begins(text, at, '<script')) then
-            at = past(text, at, '</script>')
-         else if (begins(text, at, '<title')) then
-            at = past(text, at, '</title>')
-         else if (begins(text, at, '<desc')) then
-            at = past(text, at, '</desc>')
-         else if (begins(text, at, '<filter')) then
-            at = past(text, at, '</filter>')
-         else if (begins(text, at, '<!--')) then
-            at = past(text, at, '-->')
+         do k = 1, size(omitted)
+            if (begins(text, at, trim(omitted(k)))) exit
+         end do
+         if (k <= size(omitted)) then
+            at = past(text, at, trim(ends(k)))
          else
             last = past(text, at, '>') - 1
             if (begins(text, at, '<g ')) then            ! gnuplot writes many empty groups
@@ -176,9 +173,9 @@ contains
    !> The leading digits of a text such as '460px'.
    pure function number_of(text) result(digits)
       character(*), intent(in) :: text
-      character(:), allocatable :: digits
+      character(verify(text//' ', '0123456789.') - 1) :: digits
 
-      digits = text(:verify(text//' ', '0123456789.') - 1)
+      digits = text
    end function number_of
 
    !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file
