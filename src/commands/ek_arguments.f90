@@ -20,6 +20,7 @@ module ek_arguments
       type(setting_t), allocatable :: settings(:)   !! path=value
       type(windows_t) :: windows                !! of gradients
       integer :: increments = 0                 !! 0: as in the deck
+      logical :: json = .false.                 !! print an object instead of lines
       logical :: compliance = .false.           !! also write the compliance matrix at every state
       logical :: plot = .false., no_plots = .false., animate = .false.
       logical :: quiet = .false., help = .false., version = .false.

@@ -55,8 +55,8 @@ module ek_command
       'installed, runs the study''s plot script there. --set changes the deck of the study.', ''), &
       command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
-      'on the same matrices in the same run, and all steps from deck to CSV.'//nl// &
-      '--quiet omits the latter.', '')]
+      'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
+      'relative to its states, and all steps from deck to CSV. --quiet omits the latter; --json prints one object.', '')]
 
    type :: option_t
       character(12) :: name
@@ -64,7 +64,8 @@ module ek_command
       logical :: is_repeatable = .false.
    end type option_t
 
-   type(option_t), parameter :: options(*) = [option_t('--compliance'), option_t('--out', 'DIR'), option_t('--method', 'M'), &
+   type(option_t), parameter :: options(*) = [option_t('--compliance'), option_t('--json'), option_t('--out', 'DIR'), &
+      option_t('--method', 'M'), &
       option_t('--increments', 'N'), option_t('--case', 'NAME'), option_t('--set', 'path=value', .true.), option_t('--plot'), &
       option_t('--no-plots'), option_t('--animate'), option_t('--window', 'what=half', .true.), option_t('--quiet'), &
       option_t('--help'), option_t('--version')]
@@ -102,7 +103,8 @@ module ek_command
       use_t('compare', '--no-plots', no_plots_help), &
       use_t('compare', '--quiet', quiet_help), &
       use_t('study', '--out', ''), use_t('study', '--set', ''), use_t('study', '--quiet', ''), &
-      use_t('bench', '--case', ''), use_t('bench', '--increments', ''), use_t('bench', '--set', ''), use_t('bench', '--quiet', '')]
+      use_t('bench', '--case', ''), use_t('bench', '--increments', ''), use_t('bench', '--set', ''), &
+      use_t('bench', '--json', ''), use_t('bench', '--quiet', '')]
 
 contains
 

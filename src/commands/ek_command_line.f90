@@ -48,6 +48,7 @@ contains
       arguments%version = has('--version')
       arguments%plot = has('--plot')
       arguments%compliance = has('--compliance')
+      arguments%json = has('--json')
       arguments%no_plots = has('--no-plots')
       arguments%animate = has('--animate')
       arguments%quiet = has('--quiet')
