@@ -15,7 +15,7 @@ module ek_compare
    use ek_report_files, only: results_t, read_results
    use ek_arguments, only: arguments_t
    use ek_console, only: print_note, print_text
-   use ek_compare_page, only: overlay, page_of, test_number, letter_of
+   use ek_compare_page, only: comparison_t, overlay, page_of, test_number, letter_of
    implicit none(type, external)
    private
    public :: compare
@@ -26,61 +26,57 @@ contains
    subroutine compare(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
-      type(results_t), allocatable :: results(:)
+      type(comparison_t) :: this
       type(gradient_set_t), allocatable :: sets(:)
-      type(difference_t), allocatable :: rows(:)
-      type(chart_set_t), allocatable :: charts(:)
-      type(message_list_t) :: missing
       type(error_t), allocatable :: undrawn, unprinted
-      character(:), allocatable :: folder, message, path
-      logical :: has_pictures
+      character(:), allocatable :: message, path
       integer :: k, l
 
-      allocate (results(size(arguments%files)), sets(size(arguments%files)))
-      do k = 1, size(results)
-         call read_results(arguments%files(k)%text, arguments%windows, results(k), error)
+      allocate (this%results(size(arguments%files)), sets(size(arguments%files)))
+      do k = 1, size(this%results)
+         call read_results(arguments%files(k)%text, arguments%windows, this%results(k), error)
          if (allocated(error)) return
-         if (results(k)%is_report .neqv. results(1)%is_report) then
-            call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(results(1)%path)// &
-               ' and '//quoted(results(k)%path))
+         if (this%results(k)%is_report .neqv. this%results(1)%is_report) then
+            call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(this%results(1)%path)// &
+               ' and '//quoted(this%results(k)%path))
             return
          end if
-         sets(k)%list = results(k)%gradients
+         sets(k)%list = this%results(k)%gradients
       end do
-      do k = 1, size(results)         ! equal names: the full paths distinguish them
-         do l = 1, size(results)
-            if (l == k .or. results(l)%label /= results(k)%label) cycle
-            results(k)%label = results(k)%path
-            results(l)%label = results(l)%path
+      do k = 1, size(this%results)         ! equal names: the full paths distinguish them
+         do l = 1, size(this%results)
+            if (l == k .or. this%results(l)%label /= this%results(k)%label) cycle
+            this%results(k)%label = this%results(k)%path
+            this%results(l)%label = this%results(l)%path
          end do
       end do
-      folder = arguments%out
-      call make_folder(folder, error)
-      if (.not. allocated(error)) call make_folder(join_path(folder, 'figures'), error)
+      this%folder = arguments%out
+      call make_folder(this%folder, error)
+      if (.not. allocated(error)) call make_folder(join_path(this%folder, 'figures'), error)
       if (allocated(error)) return
 
-      call compare_gradients(sets, rows)
-      call find_missing(results, rows, missing)
-      call print_text(text_of(results, rows), unprinted)                ! the files are written even if standard output is closed
-      do k = 1, missing%count()
-         call print_note(arguments%quiet, missing%line(k))
+      call compare_gradients(sets, this%rows)
+      call find_missing(this%results, this%rows, this%missing)
+      call print_text(text_of(this%results, this%rows), unprinted)     ! the files are written even if it is closed
+      do k = 1, this%missing%count()
+         call print_note(arguments%quiet, this%missing%line(k))
       end do
-      call write_differences(results, rows, join_path(folder, 'differences.csv'), error)
+      call write_differences(this%results, this%rows, join_path(this%folder, 'differences.csv'), error)
       if (allocated(error)) return
 
-      call overlay(results, charts)
+      call overlay(this%results, this%sets)
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
-      path = join_path(folder, 'compare.html')
+      path = join_path(this%folder, 'compare.html')
       message = ''
       if (.not. arguments%no_plots) message = 'gnuplot has not finished'
-      call write_whole(path, page_of(results, rows, charts, missing, folder, .false., message), error)
+      call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call draw(arguments, charts, folder, message, has_pictures, undrawn)
+      call draw(arguments, this%sets, this%folder, message, this%has_pictures, undrawn)
       if (len(message) > 0) call print_note(arguments%quiet, message)
       if (allocated(undrawn)) message = undrawn%message
-      call write_whole(path, page_of(results, rows, charts, missing, folder, has_pictures, message), error)
+      call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call print_note(arguments%quiet, join_path(folder, 'differences.csv')//', '//path)
+      call print_note(arguments%quiet, join_path(this%folder, 'differences.csv')//', '//path)
       if (allocated(undrawn)) then
          call move_alloc(undrawn, error)
       else if (allocated(unprinted)) then

@@ -85,13 +85,15 @@ contains
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
-   !> Prints the messages on a balanced model before its cases are run; `page` collects the warnings, and every remark.
+   !> Prints the messages on a balanced model before its cases are run: of the remarks on implausible values the first, and a
+   !> reference to the others. `page` collects the warnings, and every remark.
    subroutine print_model_remarks(quiet, suspension, cases, chosen, page)
       logical, intent(in) :: quiet
       type(suspension_t), intent(in) :: suspension      !! balanced
       type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
       type(message_list_t), intent(inout), optional :: page
-      type(message_list_t) :: notes, warnings
+      type(message_list_t) :: notes, warnings, remarks
+      character(:), allocatable :: more
       integer :: k
 
       call preload_words(suspension, notes)
@@ -105,7 +107,15 @@ contains
          call print_warning(warnings%line(k))
          if (present(page)) call page%add(warnings%line(k))
       end do
-      call warn_of_remarks(suspension, cases, page)
+      call doubt(suspension, cases, remarks)
+      if (remarks%count() == 0) return
+      more = ''
+      if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
+      call print_warning('plausible? '//remarks%line(1)//more)
+      if (.not. present(page)) return
+      do k = 1, remarks%count()
+         call page%add('plausible? '//remarks%line(k))
+      end do
    end subroutine print_model_remarks
 
    !> Prints the notes and warnings on a case; its failures become an error.
@@ -121,25 +131,5 @@ contains
          if (remark%severity == warning) call print_warning(remark%whole())
       end do
    end subroutine print_remarks
-
-   !> One warning for all remarks of ek_plausibility: the first, and a reference to the others. The page lists them all.
-   subroutine warn_of_remarks(suspension, cases, page)
-      type(suspension_t), intent(in) :: suspension      !! balanced
-      type(case_t), intent(in) :: cases(:)              !! of the deck
-      type(message_list_t), intent(inout), optional :: page
-      type(message_list_t) :: remarks
-      character(:), allocatable :: more
-      integer :: k
-
-      call doubt(suspension, cases, remarks)
-      if (remarks%count() == 0) return
-      more = ''
-      if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
-      call print_warning('plausible? '//remarks%line(1)//more)
-      if (.not. present(page)) return
-      do k = 1, remarks%count()
-         call page%add('plausible? '//remarks%line(k))
-      end do
-   end subroutine warn_of_remarks
 
 end module ek_console

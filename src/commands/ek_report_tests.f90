@@ -2,6 +2,7 @@
 module ek_report_tests
    use ek_kinds, only: wp
    use ek_error, only: error_t
+   use ek_text, only: spaced
    use ek_suspension, only: suspension_t, load_number
    use ek_standard_tests, only: standard_tests, test_title
    use ek_case, only: case_t
@@ -114,12 +115,8 @@ contains
    pure function title_of(name) result(title)
       character(*), intent(in) :: name
       character(:), allocatable :: title
-      integer :: k
 
-      title = name
-      do k = 1, len(title)
-         if (title(k:k) == '_') title(k:k) = ' '
-      end do
+      title = spaced(name)
       if (len(title) == 0) return
       if (title(1:1) >= 'a' .and. title(1:1) <= 'z') title(1:1) = achar(iachar(title(1:1)) - 32)
    end function title_of

@@ -8,7 +8,7 @@ module ek_chart
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
-   use ek_gnuplot, only: palette
+   use ek_gnuplot, only: palette, axes_look
    use ek_gnuplot_text, only: gnuplot_text, file_letters
    implicit none(type, external)
    private
@@ -87,10 +87,7 @@ contains
       call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
          " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
       call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'")
-      call script%line("set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1")
-      call script%line("set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
-      call script%line("set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
+      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//new_line('a')//axes_look)
       call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
       call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)

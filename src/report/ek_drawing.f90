@@ -17,7 +17,7 @@ module ek_drawing
    public :: run_gnuplot, run_plot_script
 
    integer, parameter :: time_limit = 300             !! s for one run; the largest report takes a tenth of it
-   integer, parameter :: most_said = 2000             !! characters of gnuplot's own message
+   integer, parameter :: longest_log = 2000           !! characters of gnuplot's own message
    character(*), parameter :: log_name = 'gnuplot.log'
 
 contains
@@ -31,9 +31,7 @@ contains
       character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn, otherwise the reason
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
-      type(message_list_t) :: words
-      character(:), allocatable :: home, trouble
-      integer :: k
+      character(:), allocatable :: trouble
 
       message = ''
       if (scripts%count() == 0) return
@@ -44,12 +42,7 @@ contains
       end if
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
-      home = join_path(working_folder(), folder)
-      call begin_words(words, "set loadpath '..'; to = ''")
-      do k = 1, scripts%count()
-         call words%add(join_path(home, scripts%line(k)))
-      end do
-      call draw_in(scratch, words, trouble)
+      call draw_in(scratch, "set loadpath '..'; to = ''", scripts, join_path(working_folder(), folder), trouble)
       call take_pictures(scratch, pictures, folder, trouble)
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trouble)
    end subroutine run_gnuplot
@@ -62,7 +55,7 @@ contains
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
-      type(message_list_t) :: words, names, pictures
+      type(message_list_t) :: scripts, names, pictures
       type(facts_t) :: facts
       character(:), allocatable :: trouble
       integer :: k
@@ -75,10 +68,9 @@ contains
             join_path(scratch%path, tables%line(k))//c_null_char) /= 0) trouble = 'no link to a table: '//system_reason()
       end do
       if (len(trouble) == 0) then
-         call begin_words(words, 'set loadpath '//gnuplot_text(working_folder())//'; out = '// &
-            gnuplot_text(join_path(working_folder(), scratch%path)))
-         call words%add(join_path(working_folder(), script))
-         call draw_in(scratch, words, trouble)
+         call scripts%add(script)
+         call draw_in(scratch, 'set loadpath '//gnuplot_text(working_folder())//'; out = '// &
+            gnuplot_text(join_path(working_folder(), scratch%path)), scripts, working_folder(), trouble)
       end if
       call folder_names(scratch%path, names)
       do k = 1, names%count()
@@ -117,33 +109,32 @@ contains
       call end_scratch(scratch)
    end subroutine take_pictures
 
-   !> The command line of gnuplot, and the commands before any script. C.UTF-8: gnuplot rejects the degree sign in C, and
-   !> other locales may write a decimal comma.
-   subroutine begin_words(words, before)
-      type(message_list_t), intent(out) :: words
-      character(*), intent(in) :: before                  !! commands
-
-      call words%add('env')
-      call words%add('LC_ALL=C.UTF-8')
-      call words%add('gnuplot')
-      call words%add('-d')
-      call words%add('-e')
-      call words%add(before)
-   end subroutine begin_words
-
-   !> Runs gnuplot in a scratch folder.
-   subroutine draw_in(scratch, words, trouble)
+   !> Runs gnuplot on scripts in a scratch folder. C.UTF-8: gnuplot rejects the degree sign in C, and other locales may write a
+   !> decimal comma.
+   subroutine draw_in(scratch, before, scripts, folder, trouble)
       type(scratch_t), intent(in) :: scratch
-      type(message_list_t), intent(in) :: words
+      character(*), intent(in) :: before                  !! commands before any script
+      type(message_list_t), intent(in) :: scripts         !! paths relative to the folder
+      character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: trouble   !! '' if gnuplot succeeded
+      type(message_list_t) :: command
       type(error_t), allocatable :: unread
-      character(:), allocatable :: said
-      integer :: status
+      character(:), allocatable :: log
+      integer :: k, status
 
-      call run_program(words, scratch%path, join_path(scratch%path, log_name), seconds_allowed(), status, trouble)
+      call command%add('env')
+      call command%add('LC_ALL=C.UTF-8')
+      call command%add('gnuplot')
+      call command%add('-d')
+      call command%add('-e')
+      call command%add(before)
+      do k = 1, scripts%count()
+         call command%add(join_path(folder, scripts%line(k)))
+      end do
+      call run_program(command, scratch%path, join_path(scratch%path, log_name), seconds_allowed(), status, trouble)
       if (len(trouble) > 0 .or. status == 0) return
-      call read_whole(join_path(scratch%path, log_name), said, unread)
-      trouble = printable(trim(said(:min(len(said), most_said))))
+      call read_whole(join_path(scratch%path, log_name), log, unread)
+      trouble = printable(trim(log(:min(len(log), longest_log))))
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
    end subroutine draw_in
 

@@ -10,7 +10,7 @@ module ek_gnuplot
    use ek_drawing, only: run_gnuplot
    implicit none(type, external)
    private
-   public :: figure_script, write_figure, render_figures, gnuplot_text, palette
+   public :: figure_script, write_figure, render_figures, gnuplot_text, palette, axes_look
 
    !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
@@ -19,6 +19,10 @@ module ek_gnuplot
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
 
+   character(*), parameter :: nl = new_line('a')
+   character(*), parameter :: axes_look = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
+      "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
+      "set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"
    character(*), parameter :: label_look = " textcolor rgb '#202020'"
 
 contains
@@ -60,7 +64,12 @@ contains
       logical :: is_single
 
       is_single = size(figure%panels) == 1
-      call measure_legend(figure, entries, longest)
+      entries = 0                            ! of the legend; all panels share that of the first
+      longest = 0                            ! characters
+      do k = 1, size(figure%panels(1)%curves)
+         if (len(figure%panels(1)%curves(k)%title) > 0) entries = entries + 1
+         longest = max(longest, len(figure%panels(1)%curves(k)%title))
+      end do
       right = 0.97_wp
       if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
 
@@ -114,37 +123,14 @@ contains
       text = script%text()//new_line('a')
    end function figure_script
 
-   !> Size of the legend. All panels of a figure share that of the first.
-   pure subroutine measure_legend(figure, entries, longest)
-      type(figure_t), intent(in) :: figure
-      integer, intent(out) :: entries, longest   !! number of titles; characters of the longest
-      integer :: k
-
-      entries = 0
-      longest = 0
-      if (size(figure%panels) == 0) return
-      do k = 1, size(figure%panels(1)%curves)
-         if (len(figure%panels(1)%curves(k)%title) == 0) cycle
-         entries = entries + 1
-         longest = max(longest, len(figure%panels(1)%curves(k)%title))
-      end do
-   end subroutine measure_legend
-
    !> Settings shared by all figures: data format, grid, zero lines, line styles.
    pure subroutine add_look(script)
       type(message_list_t), intent(inout) :: script
       integer :: k
 
-      call script%add('reset')
-      call script%add('set encoding utf8')
-      call script%add('set datafile separator comma')
-      call script%add('set datafile columnheaders')
-      call script%add("set datafile missing 'nan'")
-      call script%add("set border 3 linecolor rgb '#808080'")
-      call script%add("set tics out nomirror textcolor rgb '#404040'")
-      call script%add("set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1")
-      call script%add("set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
-      call script%add("set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
+      call script%add('reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl//'set datafile columnheaders')
+      call script%add("set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'")
+      call script%add("set tics out nomirror textcolor rgb '#404040'"//nl//axes_look)
       do k = 1, size(palette)
          call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)// &
             "' linewidth 2.6 pointtype 7 pointsize 0.7")

@@ -56,15 +56,10 @@ contains
       integer, intent(in) :: body
       type(skeleton_t), intent(in) :: skeleton
       real(wp) :: face(3, 3), reach, most
-      integer :: held(2), n, k, tip
+      integer :: held(2), k, tip
 
-      n = 0
-      do k = 1, skeleton%used
-         if (.not. skeleton%nodes(k)%is_held) cycle
-         n = n + 1
-         if (n <= 2) held(n) = k
-      end do
-      if (n /= 2) return
+      if (count(skeleton%nodes(:skeleton%used)%is_held) /= 2) return
+      held = pack([(k, k=1, skeleton%used)], skeleton%nodes(:skeleton%used)%is_held)
       tip = 0
       most = 0.05_wp
       do k = 1, skeleton%used

@@ -4,6 +4,7 @@ module ek_plot
    use ek_kinds, only: wp
    use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
    use ek_test_result, only: wheel_word, least_stroke, travel => travel_column
+   use ek_quantity, only: quantity_t
    use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
    use ek_file, only: base_name
    implicit none(type, external)
@@ -12,14 +13,7 @@ module ek_plot
 
    integer, parameter :: most_curves = 8          !! in one panel, for legibility
 
-   !> A quantity drawn for every wheel: column without the wheel's name, title, label with its sign.
-   type :: quantity_t
-      character(24) :: column
-      character(28) :: title
-      character(56) :: label
-      real(wp) :: noise                           !! in units of the column; a smaller span is drawn flat
-   end type quantity_t
-
+   ! Drawn for every wheel; the label has unit and sign
    type(quantity_t), parameter :: wheel_quantities(8) = [ &
       quantity_t('toe_deg', 'Toe', 'toe [deg]    (+ front edge inward)', 0.01_wp), &
       quantity_t('camber_deg', 'Camber', 'camber [deg]    (+ top outward)', 0.01_wp), &
@@ -55,44 +49,11 @@ contains
       character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all with _fx_n, _fy_n, _fz_n
       logical, intent(in), optional :: has_points           !! the states are independent: points without a line
       type(view_t) :: view
-      integer :: f, p, k
-
-      allocate (figures(0))
-      call set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
-      call add_quantities(figures, table, view, 'overview', 'Overview', wheel_quantities(:4))
-      call add_quantities(figures, table, view, 'toe', 'Toe', wheel_quantities(1:1))
-      call add_quantities(figures, table, view, 'camber', 'Camber', wheel_quantities(2:2))
-      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', &
-         wheel_quantities(3:3))
-      call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
-         wheel_quantities(4:4))
-      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', wheel_quantities(5:))
-      call add_springs(figures, table, view)
-      call add_bushings(figures, table, view, elements)
-      if (present(has_points)) then
-         if (.not. has_points) return
-         do f = 1, size(figures)
-            do p = 1, size(figures(f)%panels)
-               associate (curves => figures(f)%panels(p)%curves)
-                  do k = 1, size(curves)
-                     if (curves(k)%style /= 'mark') curves(k)%style = 'points'
-                  end do
-               end associate
-            end do
-         end do
-      end if
-   end subroutine run_figures
-
-   !> Finds the wheels and the abscissa.
-   pure subroutine set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: model, case_name, csv_name
-      type(view_t), intent(out) :: view
-      character(*), intent(in), optional :: abscissa, abscissa_label
       real(wp), allocatable :: factors(:)
       real(wp) :: range(2)
-      integer :: k, place
+      integer :: f, p, k, place
 
+      allocate (figures(0))
       view%file = csv_name
       view%stem = base_name(csv_name)
       view%subtitle = trim(model)//', '//trim(case_name)
@@ -119,7 +80,29 @@ contains
          view%label = 'load factor'
       end if
       if (present(abscissa_label)) view%label = abscissa_label
-   end subroutine set_view
+      call add_quantities(figures, table, view, 'overview', 'Overview', wheel_quantities(:4))
+      call add_quantities(figures, table, view, 'toe', 'Toe', wheel_quantities(1:1))
+      call add_quantities(figures, table, view, 'camber', 'Camber', wheel_quantities(2:2))
+      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', &
+         wheel_quantities(3:3))
+      call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
+         wheel_quantities(4:4))
+      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', wheel_quantities(5:))
+      call add_springs(figures, table, view)
+      call add_bushings(figures, table, view, elements)
+      if (present(has_points)) then
+         if (.not. has_points) return
+         do f = 1, size(figures)
+            do p = 1, size(figures(f)%panels)
+               associate (curves => figures(f)%panels(p)%curves)
+                  do k = 1, size(curves)
+                     if (curves(k)%style /= 'mark') curves(k)%style = 'points'
+                  end do
+               end associate
+            end do
+         end do
+      end if
+   end subroutine run_figures
 
    !> One figure with a panel for every quantity that has a column.
    pure subroutine add_quantities(figures, table, view, name, title, quantities)

@@ -162,12 +162,7 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: label
 
-      label = path
-      do while (len(label) > 1)
-         if (label(len(label):) /= '/') exit
-         label = label(:len(label) - 1)
-      end do
-      label = base_name(label)
+      label = base_name(path(:min(len(path), max(1, verify(path, '/', back=.true.)))))
    end function label_of
 
 end module ek_report_files

@@ -230,10 +230,7 @@ contains
       integer :: k, n
 
       n = size(list)
-      is_first_note = .true.
-      do k = 1, n - 1
-         if (list(k)%side == list(n)%side .and. list(k)%note == list(n)%note) is_first_note = .false.
-      end do
+      is_first_note = .not. any([(list(k)%side == list(n)%side .and. list(k)%note == list(n)%note, k=1, n - 1)])
    end function is_first_note
 
    !> 'right bump toe, bump camber': all gradients of a list with the note and side of the first.

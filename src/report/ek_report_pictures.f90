@@ -80,8 +80,8 @@ contains
 
       camera = view_of(suspension)
       state = design_state(suspension)
-      call add_solid(scenes(1), suspension, state)
-      call add_ground(scenes(1), suspension, state)
+      call add_solid(scenes(1), suspension, state, is_plain=.false.)
+      call add_ground(scenes(1), suspension, state, is_plain=.false.)
       call add_names(scenes(1), suspension, state)
       test = moving_test(report, vertical_kinds)
       if (test > 0) then

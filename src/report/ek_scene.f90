@@ -158,7 +158,7 @@ contains
       integer, intent(in) :: coils, per_coil
       integer, parameter :: sides = 4
       real(wp) :: axis(3), u(3), v(3), length, angle, share, out(3), centre(3), ring(3, sides), before(3, sides), face(3, 4)
-      integer :: k, n, l
+      integer :: k, n, l, next
 
       length = norm2(b - a)
       if (length < 1.0e-3_wp) return
@@ -175,10 +175,8 @@ contains
          end do
          if (k > 0) then
             do l = 1, sides
-               face(:, 1) = before(:, l)
-               face(:, 2) = before(:, modulo(l, sides) + 1)
-               face(:, 3) = ring(:, modulo(l, sides) + 1)
-               face(:, 4) = ring(:, l)
+               next = modulo(l, sides) + 1
+               face = reshape([before(:, l), before(:, next), ring(:, next), ring(:, l)], [3, 4])
                call add_face(scene, kind, face)
             end do
          end if

@@ -262,25 +262,25 @@ contains
    pure subroutine add_legend(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
-      integer, parameter :: in_a_row = 6
       integer :: kind, used
 
       used = 0
       do kind = 1, parts
          if (has_kind(scene%faces, kind) .and. len_trim(part_names(kind)) > 0) &
-            call add_entry(script, used, trim(part_names(kind)), key_colour(kind), 0.012_wp, in_a_row)
+            call add_entry(script, used, trim(part_names(kind)), &
+            merge('#CCCCCC', part_colours(kind), kind == part_tyre), 0.012_wp)     ! a tyre is transparent
       end do
-      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp, in_a_row)
-      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp, in_a_row)
+      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp)
+      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp)
    end subroutine add_legend
 
    !> One swatch and its label.
-   pure subroutine add_entry(script, used, name, colour, height, in_a_row)
+   pure subroutine add_entry(script, used, name, colour, height)
       type(buffer_t), intent(inout) :: script
       integer, intent(inout) :: used
       character(*), intent(in) :: name, colour
       real(wp), intent(in) :: height              !! of the swatch, share of the picture
-      integer, intent(in) :: in_a_row
+      integer, parameter :: in_a_row = 6
       character(:), allocatable :: x, y
 
       x = str(0.045_wp + 0.158_wp*modulo(used, in_a_row), 4)
@@ -292,25 +292,14 @@ contains
          " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
    end subroutine add_entry
 
-   !> The colour of a part on white.
-   pure function key_colour(kind) result(colour)
-      integer, intent(in) :: kind
-      character(7) :: colour
-      colour = part_colours(kind)
-      if (kind == part_tyre) colour = '#CCCCCC'
-   end function key_colour
-
    !> The gnuplot fill style for the faces of a kind.
-   pure function fill(kind) result(words)
+   pure function fill(kind) result(style)
       integer, intent(in) :: kind
-      character(:), allocatable :: words
+      character(:), allocatable :: style
 
-      if (part_solidity(kind) < 1.0_wp) then
-         words = 'fillstyle transparent solid '//str(part_solidity(kind), 2)//' noborder'
-      else
-         words = 'fillstyle solid noborder'
-      end if
-      words = words//" fillcolor rgb '"//part_colours(kind)//"'"
+      style = 'solid'
+      if (part_solidity(kind) < 1.0_wp) style = 'transparent solid '//str(part_solidity(kind), 2)
+      style = 'fillstyle '//style//" noborder fillcolor rgb '"//part_colours(kind)//"'"
    end function fill
 
 end module ek_scene_script

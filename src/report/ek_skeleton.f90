@@ -37,9 +37,9 @@ contains
       integer, intent(in) :: body
       type(skeleton_t) :: skeleton
       type(measure_t) :: measure
-      logical :: is_in(most_points), is_rigid
+      logical :: is_in(most_points), is_rigid, is_spring
       real(wp) :: best, cost
-      integer :: k, from, to, best_from, best_to
+      integer :: k, n, from, to, best_from, best_to
 
       do k = 1, size(suspension%joints)
          select case (suspension%joints(k)%kind)
@@ -51,16 +51,13 @@ contains
          if (measure%body_i == body) call add_node(measure%arm_i, is_rigid .and. measure%body_j == 0, .false.)
          if (measure%body_j == body) call add_node(measure%arm_j, is_rigid .and. measure%body_i == 0, .false.)
       end do
-      do k = suspension%scalars + 1, size(suspension%elements)
+      do n = 1, size(suspension%elements)             ! those of one measure, springs and stops, last
+         k = modulo(n - 1 + suspension%scalars, size(suspension%elements)) + 1
          measure = suspension%elements(k)%measure
-         if (measure%body_i == body) call add_node(measure%arm_i, measure%body_j == 0, .false.)
-         if (measure%body_j == body) call add_node(measure%arm_j, measure%body_i == 0, .false.)
-      end do
-      do k = 1, suspension%scalars
-         measure = suspension%elements(k)%measure
-         if (measure%kind /= distance) cycle           ! it has no attachment point
-         if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
-         if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)
+         is_spring = k <= suspension%scalars
+         if (is_spring .and. measure%kind /= distance) cycle           ! it has no attachment point
+         if (measure%body_i == body) call add_node(measure%arm_i, .not. is_spring .and. measure%body_j == 0, is_spring)
+         if (measure%body_j == body) call add_node(measure%arm_j, .not. is_spring .and. measure%body_i == 0, is_spring)
       end do
       do k = 1, size(suspension%wheels)
          if (suspension%wheels(k)%body == body) call add_node(suspension%wheels(k)%centre, .false., .false.)
@@ -157,12 +154,8 @@ contains
    pure logical function carries_wheel(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
-      integer :: k
 
-      carries_wheel = .false.
-      do k = 1, size(suspension%wheels)
-         carries_wheel = carries_wheel .or. suspension%wheels(k)%body == body
-      end do
+      carries_wheel = any(suspension%wheels%body == body)
    end function carries_wheel
 
    !> Whether a body slides along another moving body: the rod of a damper.

@@ -91,7 +91,8 @@ contains
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: tag, prefix
       character(*), parameter :: defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
-      integer :: at, last
+      character(*), parameter :: ids(5) = [character(7) :: " id='", ' id="', "href='#", 'href="#', 'url(#']
+      integer :: at, last, k
 
       if (begins(tag, 1, '<g ') .and. index(tag, defaults) > 0) then
          at = index(tag, defaults)
@@ -115,18 +116,15 @@ contains
                end if
             end if
          end if
-         if (begins(tag, at, " id='") .or. begins(tag, at, ' id="')) then
-            call out%add(tag(at:at + 4)//prefix//'_')
-            at = at + 5
-         else if (begins(tag, at, "href='#") .or. begins(tag, at, 'href="#')) then
-            call out%add(tag(at:at + 6)//prefix//'_')
-            at = at + 7
+         do k = 1, size(ids)
+            if (begins(tag, at, trim(ids(k)))) exit
+         end do
+         if (k <= size(ids)) then
+            call out%add(trim(ids(k))//prefix//'_')
+            at = at + len_trim(ids(k))
          else if (begins(tag, at, ':Bold"')) then          ! the form in which gnuplot writes a bold font
             call out%add('" font-weight="600"')
             at = at + 6
-         else if (begins(tag, at, 'url(#')) then
-            call out%add('url(#'//prefix//'_')
-            at = at + 5
          else
             call out%add(tag(at:at))
             at = at + 1
