@@ -5,7 +5,7 @@ module ek_text
    use ek_letters, only: visible
    implicit none(type, external)
    private
-   public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable
+   public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable, spaced
 
    !> A number as text, in the shortest form a person would write.
    interface str
@@ -153,6 +153,18 @@ contains
       character(:), allocatable :: text
       text = "'"//visible(trim(name))//"'"
    end function quoted
+
+   !> A name with blanks for its underscores.
+   pure function spaced(name) result(text)
+      character(*), intent(in) :: name
+      character(len(name)) :: text
+      integer :: k
+
+      text = name
+      do k = 1, len(name)
+         if (name(k:k) == '_') text(k:k) = ' '
+      end do
+   end function spaced
 
    !> '1 body', '3 bodies'.
    pure function plural(count, singular, many) result(text)

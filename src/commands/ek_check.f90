@@ -27,17 +27,17 @@ contains
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
-      type(buffer_t) :: words
+      type(buffer_t) :: findings
 
-      call examine(arguments, words, error)
-      call print_text(words%text(), unprinted)
+      call examine(arguments, findings, error)
+      call print_text(findings%text(), unprinted)
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
 
    !> Collects the findings, including those made before an error.
-   subroutine examine(arguments, words, error)
+   subroutine examine(arguments, findings, error)
       type(arguments_t), intent(in) :: arguments
-      type(buffer_t), intent(inout) :: words
+      type(buffer_t), intent(inout) :: findings
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
@@ -59,10 +59,10 @@ contains
 
       kkt = new_kkt(base)
       call diagnose(base, design_state(base), kkt, diagnosis)
-      call tell_model(base, diagnosis, checksum, words)
+      call add_model(base, diagnosis, checksum, findings)
       do k = 1, size(chosen)
          call examine_case(base, chosen(k), diagnosis, on_rig=case)
-         call tell_case(case, diagnosis, words)
+         call add_case(case, diagnosis, findings)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
          call add_distinct(found, diagnosis%words())
@@ -70,8 +70,8 @@ contains
       if (size(chosen) == 0) then
          if (.not. diagnosis%is_solvable()) call add_distinct(found, diagnosis%words())
       end if
-      call tell(words, 'warnings', diagnosis%warnings%text())
-      call tell_remarks(base, cases, found%count() == 0, diagnosis%warnings%count() > 0, words, trouble)
+      call add(findings, 'warnings', diagnosis%warnings%text())
+      call add_remarks(base, cases, found%count() == 0, diagnosis%warnings%count() > 0, findings, trouble)
       if (found%count() > 0) then
          call fail(error, exit_model, arguments%file//': the model cannot be solved'//new_line('a')//found%text())
          return
@@ -80,11 +80,11 @@ contains
    end subroutine examine
 
    !> Remarks on implausible values, evaluated on the balanced model if balance succeeds.
-   subroutine tell_remarks(base, cases, is_solvable, has_warnings, words, error)
+   subroutine add_remarks(base, cases, is_solvable, has_warnings, findings, error)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: cases(:)
       logical, intent(in) :: is_solvable, has_warnings
-      type(buffer_t), intent(inout) :: words
+      type(buffer_t), intent(inout) :: findings
       type(error_t), allocatable, intent(out) :: error    !! of balance
       type(suspension_t) :: balanced
       type(message_list_t) :: remarks
@@ -99,29 +99,27 @@ contains
          if (allocated(error)) balanced = base
       end if
       if (is_solvable .and. .not. allocated(error)) call balance_words(balanced, remarks)
-      do k = 1, remarks%count()
-         call words%line(remarks%line(k))
-      end do
+      if (remarks%count() > 0) call findings%line(remarks%text())
       call doubt(balanced, cases, remarks)
       do k = 1, remarks%count()
          if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! already among the warnings
-         call tell(words, 'remark', remarks%line(k))
+         call add(findings, 'remark', remarks%line(k))
       end do
-   end subroutine tell_remarks
+   end subroutine add_remarks
 
    !> Bodies, unknowns, constraints, degrees of freedom and unused points.
-   subroutine tell_model(suspension, diagnosis, checksum, words)
+   subroutine add_model(suspension, diagnosis, checksum, findings)
       type(suspension_t), intent(in) :: suspension
       type(diagnosis_t), intent(in) :: diagnosis
       character(*), intent(in) :: checksum
-      type(buffer_t), intent(inout) :: words
+      type(buffer_t), intent(inout) :: findings
       character(:), allocatable :: held, unused
       integer :: k, kind
 
-      call tell(words, 'model', suspension%name//' (checksum '//checksum//')')
-      call tell(words, 'bodies', str(size(suspension%bodies)))
-      call tell(words, 'unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
-      call tell(words, 'constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
+      call add(findings, 'model', suspension%name//' (checksum '//checksum//')')
+      call add(findings, 'bodies', str(size(suspension%bodies)))
+      call add(findings, 'unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
+      call add(findings, 'constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
          ', rank '//str(diagnosis%rank))
       held = ''
       do kind = 1, size(element_kinds)         ! bushings and springs are listed even if there are none
@@ -133,18 +131,17 @@ contains
       end do
       k = count(suspension%rows%compliance > 0.0_wp)
       if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
-      call tell(words, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
+      call add(findings, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%chosen_axis > 0) call tell(words, 'chosen axis', axis_words(suspension, k))
+         if (suspension%joints(k)%chosen_axis > 0) call add(findings, 'chosen axis', axis_words(suspension, k))
       end do
       unused = ''
       do k = 1, size(suspension%points)
          if (suspension%points(k)%is_used) cycle
-         if (len(unused) > 0) unused = unused//', '
-         unused = unused//suspension%points(k)%name//' ('//suspension%points(k)%where//')'
+         unused = unused//', '//suspension%points(k)%name//' ('//suspension%points(k)%where//')'
       end do
-      if (len(unused) > 0) call tell(words, 'unused points', unused)
-   end subroutine tell_model
+      call add(findings, 'unused points', unused(3:))
+   end subroutine add_model
 
    !> "universal 'outer': axis_2_vector = 0, 1, 0": the axis that the program has chosen, in the frame of the deck.
    function axis_words(suspension, k) result(text)
@@ -163,34 +160,29 @@ contains
    end function axis_words
 
    !> One case: its test, load or drive, and whether it can be solved.
-   subroutine tell_case(case, diagnosis, words)
+   subroutine add_case(case, diagnosis, findings)
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(in) :: diagnosis
-      type(buffer_t), intent(inout) :: words
+      type(buffer_t), intent(inout) :: findings
       character(:), allocatable :: text
 
-      if (len(case%test) > 0) then
-         text = 'test '//case%test
-      else if (len(case%load) > 0) then
-         text = 'load '//quoted(case%load)
-      else
-         text = 'drive '//quoted(case%drive)
-      end if
+      text = 'drive '//quoted(case%drive)
+      if (len(case%load) > 0) text = 'load '//quoted(case%load)
+      if (len(case%test) > 0) text = 'test '//case%test
       text = text//', '//plural(case%increments, 'increment', 'increments')//', '//case%method
       if (case%follows_arc) text = text//' along the arc'
       if (diagnosis%is_solvable()) then
-         text = text//': can be solved, 1/condition '//str(diagnosis%rcond, 2)
+         call add(findings, 'case '//case%name, text//': can be solved, 1/condition '//str(diagnosis%rcond, 2))
       else
-         text = text//': CANNOT be solved'
+         call add(findings, 'case '//case%name, text//': CANNOT be solved')
       end if
-      call tell(words, 'case '//case%name, text)
-   end subroutine tell_case
+   end subroutine add_case
 
    !> A line 'name: text'; no line for an empty text.
-   subroutine tell(words, name, text)
-      type(buffer_t), intent(inout) :: words
+   subroutine add(findings, name, text)
+      type(buffer_t), intent(inout) :: findings
       character(*), intent(in) :: name, text
-      if (len(text) > 0) call words%line(name//': '//text)
-   end subroutine tell
+      if (len(text) > 0) call findings%line(name//': '//text)
+   end subroutine add
 
 end module ek_check

@@ -15,7 +15,7 @@ module ek_compare
    use ek_report_files, only: results_t, read_results
    use ek_arguments, only: arguments_t
    use ek_console, only: print_note, print_text
-   use ek_compare_page, only: overlay, page_of, test_number
+   use ek_compare_page, only: comparison_t, overlay, page_of, test_number, letter_of
    implicit none(type, external)
    private
    public :: compare
@@ -26,62 +26,57 @@ contains
    subroutine compare(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
-      type(results_t), allocatable :: results(:)
+      type(comparison_t) :: this
       type(gradient_set_t), allocatable :: sets(:)
-      type(difference_t), allocatable :: rows(:)
-      type(chart_set_t), allocatable :: charts(:)
-      type(message_list_t) :: missing
       type(error_t), allocatable :: undrawn, unprinted
-      character(:), allocatable :: folder, message, path
-      logical :: has_pictures
+      character(:), allocatable :: message, path
       integer :: k, l
 
-      allocate (results(size(arguments%files)), sets(size(arguments%files)))
-      do k = 1, size(results)
-         call read_results(arguments%files(k)%text, arguments%windows, results(k), error)
+      allocate (this%results(size(arguments%files)), sets(size(arguments%files)))
+      do k = 1, size(this%results)
+         call read_results(arguments%files(k)%text, arguments%windows, this%results(k), error)
          if (allocated(error)) return
-         if (results(k)%is_report .neqv. results(1)%is_report) then
-            call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(results(1)%path)// &
-               ' and '//quoted(results(k)%path))
+         if (this%results(k)%is_report .neqv. this%results(1)%is_report) then
+            call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(this%results(1)%path)// &
+               ' and '//quoted(this%results(k)%path))
             return
          end if
-         sets(k)%list = results(k)%gradients
+         sets(k)%list = this%results(k)%gradients
       end do
-      do k = 1, size(results)         ! equal names: the full paths distinguish them
-         do l = 1, size(results)
-            if (l == k .or. results(l)%label /= results(k)%label) cycle
-            results(k)%label = results(k)%path
-            results(l)%label = results(l)%path
+      do k = 1, size(this%results)         ! equal names: the full paths distinguish them
+         do l = 1, size(this%results)
+            if (l == k .or. this%results(l)%label /= this%results(k)%label) cycle
+            this%results(k)%label = this%results(k)%path
+            this%results(l)%label = this%results(l)%path
          end do
       end do
-      folder = arguments%out
-      call make_folder(folder, error)
-      if (allocated(error)) return
-      call make_folder(join_path(folder, 'figures'), error)
+      this%folder = arguments%out
+      call make_folder(this%folder, error)
+      if (.not. allocated(error)) call make_folder(join_path(this%folder, 'figures'), error)
       if (allocated(error)) return
 
-      call compare_gradients(sets, rows)
-      call find_missing(results, rows, missing)
-      call print_text(words_of(results, rows), unprinted)                ! the files are written even if standard output is closed
-      do k = 1, missing%count()
-         call print_note(arguments%quiet, missing%line(k))
+      call compare_gradients(sets, this%rows)
+      call find_missing(this%results, this%rows, this%missing)
+      call print_text(text_of(this%results, this%rows), unprinted)     ! the files are written even if it is closed
+      do k = 1, this%missing%count()
+         call print_note(arguments%quiet, this%missing%line(k))
       end do
-      call write_differences(results, rows, join_path(folder, 'differences.csv'), error)
+      call write_differences(this%results, this%rows, join_path(this%folder, 'differences.csv'), error)
       if (allocated(error)) return
 
-      call overlay(results, charts)
+      call overlay(this%results, this%sets)
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
-      path = join_path(folder, 'compare.html')
+      path = join_path(this%folder, 'compare.html')
       message = ''
       if (.not. arguments%no_plots) message = 'gnuplot has not finished'
-      call write_whole(path, page_of(results, rows, charts, missing, folder, .false., message), error)
+      call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call draw(arguments, charts, folder, message, has_pictures, undrawn)
+      call draw(arguments, this%sets, this%folder, message, this%has_pictures, undrawn)
       if (len(message) > 0) call print_note(arguments%quiet, message)
       if (allocated(undrawn)) message = undrawn%message
-      call write_whole(path, page_of(results, rows, charts, missing, folder, has_pictures, message), error)
+      call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call print_note(arguments%quiet, join_path(folder, 'differences.csv')//', '//path)
+      call print_note(arguments%quiet, join_path(this%folder, 'differences.csv')//', '//path)
       if (allocated(undrawn)) then
          call move_alloc(undrawn, error)
       else if (allocated(unprinted)) then
@@ -171,7 +166,7 @@ contains
    end function some_of
 
    !> The table for standard output.
-   function words_of(results, rows) result(text)
+   function text_of(results, rows) result(text)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
       character(:), allocatable :: text
@@ -184,54 +179,52 @@ contains
          return
       end if
       do r = 1, size(results)
-         call out%line(achar(iachar('A') + modulo(r - 1, 26))//': '//results(r)%path)
+         call out%line(letter_of(r)//': '//results(r)%path)
       end do
       test = ''
       do k = 1, size(rows)
-         if (rows(k)%test /= test) then
-            test = rows(k)%test
-            call out%line('')
-            call out%add(left(test, 42)//right('A', 12))
+         associate (row => rows(k))
+            if (row%test /= test) then
+               test = row%test
+               call out%line('')
+               call out%add(padded(test, -42)//padded('A', 12))
+               do r = 2, size(results)
+                  call out%add(padded(letter_of(r), 12)//padded('difference', 12)//padded('percent', 9))
+               end do
+               call out%line('  unit')
+            end if
+            call out%add(padded(trim(row%quantity//' '//row%side), -42)//number_text(row%values(1), 6, 12))
             do r = 2, size(results)
-               call out%add(right(achar(iachar('A') + modulo(r - 1, 26)), 12)//right('difference', 12)//right('percent', 9))
+               call out%add(number_text(row%values(r), 6, 12)//number_text(difference(row%values(1), row%values(r)), 4, 12)// &
+                  number_text(percent(row%values(1), row%values(r)), 3, 9))
             end do
-            call out%line('  unit')
-         end if
-         call out%add(left(trim(rows(k)%quantity//' '//rows(k)%side), 42)//right(number_text(rows(k)%values(1), 6), 12))
-         do r = 2, size(results)
-            call out%add(right(number_text(rows(k)%values(r), 6), 12)// &
-               right(number_text(difference(rows(k)%values(1), rows(k)%values(r)), 4), 12)// &
-               right(number_text(percent(rows(k)%values(1), rows(k)%values(r)), 3), 9))
-         end do
-         call out%line('  '//rows(k)%unit)
+            call out%line('  '//row%unit)
+         end associate
       end do
       text = out%text()
-   end function words_of
+   end function text_of
 
    !> A number for the table on the terminal; '-' for a missing value.
-   pure function number_text(value, digits) result(text)
+   pure function number_text(value, digits, width) result(text)
       real(wp), intent(in) :: value
-      integer, intent(in) :: digits
+      integer, intent(in) :: digits, width
       character(:), allocatable :: text
 
       text = str(value, digits)
       if (text == 'not a number') text = '-'
+      text = padded(text, width)
    end function number_text
 
-   !> Padded with blanks to a width; aligned left or right.
-   pure function left(text, width) result(filled)
+   !> A text after blanks to fill a width; before them if the width is negative.
+   pure function padded(text, width) result(filled)
       character(*), intent(in) :: text
       integer, intent(in) :: width
-      character(:), allocatable :: filled
-      filled = text//repeat(' ', max(1, width - len(text)))
-   end function left
+      character(:), allocatable :: filled, blanks
 
-   pure function right(text, width) result(filled)
-      character(*), intent(in) :: text
-      integer, intent(in) :: width
-      character(:), allocatable :: filled
-      filled = repeat(' ', max(1, width - len(text)))//text
-   end function right
+      blanks = repeat(' ', max(1, abs(width) - len(text)))
+      filled = blanks//text
+      if (width < 0) filled = text//blanks
+   end function padded
 
    !> differences.csv: one row per gradient and per result compared with the first.
    subroutine write_differences(results, rows, path, error)

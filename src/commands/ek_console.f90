@@ -3,6 +3,8 @@ module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
    use ek_file, only: is_terminal, write_standard_output, write_standard_error
+   use ek_table, only: table_t
+   use ek_csv, only: write_csv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_balance, only: balance_words
@@ -12,7 +14,7 @@ module ek_console
    implicit none(type, external)
    private
    public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &
-      show_progress, clear_progress
+      write_table, show_progress, clear_progress
 
 contains
 
@@ -61,6 +63,17 @@ contains
       if (len(error%message) > 0) call move_alloc(error, unprinted)
    end subroutine print_path
 
+   !> Writes a table as CSV and prints its path.
+   subroutine write_table(table, path, unprinted, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(inout) :: unprinted    !! as above
+      type(error_t), allocatable, intent(out) :: error          !! exit_file: the table is not written
+
+      call write_csv(table, path, error)
+      if (.not. allocated(error)) call print_path(path, unprinted)
+   end subroutine write_table
+
    !> Progress line, which overwrites itself; on a terminal only.
    subroutine show_progress(done, total)
       integer, intent(in) :: done, total
@@ -72,13 +85,15 @@ contains
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
-   !> Prints the messages on a balanced model before its cases are run; `page` collects the warnings, and every remark.
+   !> Prints the messages on a balanced model before its cases are run: of the remarks on implausible values the first, and a
+   !> reference to the others. `page` collects the warnings, and every remark.
    subroutine print_model_remarks(quiet, suspension, cases, chosen, page)
       logical, intent(in) :: quiet
       type(suspension_t), intent(in) :: suspension      !! balanced
       type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
       type(message_list_t), intent(inout), optional :: page
-      type(message_list_t) :: notes, warnings
+      type(message_list_t) :: notes, warnings, remarks
+      character(:), allocatable :: more
       integer :: k
 
       call preload_words(suspension, notes)
@@ -92,7 +107,15 @@ contains
          call print_warning(warnings%line(k))
          if (present(page)) call page%add(warnings%line(k))
       end do
-      call warn_of_remarks(suspension, cases, page)
+      call doubt(suspension, cases, remarks)
+      if (remarks%count() == 0) return
+      more = ''
+      if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
+      call print_warning('plausible? '//remarks%line(1)//more)
+      if (.not. present(page)) return
+      do k = 1, remarks%count()
+         call page%add('plausible? '//remarks%line(k))
+      end do
    end subroutine print_model_remarks
 
    !> Prints the notes and warnings on a case; its failures become an error.
@@ -108,25 +131,5 @@ contains
          if (remark%severity == warning) call print_warning(remark%whole())
       end do
    end subroutine print_remarks
-
-   !> One warning for all remarks of ek_plausibility: the first, and a reference to the others. The page lists them all.
-   subroutine warn_of_remarks(suspension, cases, page)
-      type(suspension_t), intent(in) :: suspension      !! balanced
-      type(case_t), intent(in) :: cases(:)              !! of the deck
-      type(message_list_t), intent(inout), optional :: page
-      type(message_list_t) :: remarks
-      character(:), allocatable :: more
-      integer :: k
-
-      call doubt(suspension, cases, remarks)
-      if (remarks%count() == 0) return
-      more = ''
-      if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
-      call print_warning('plausible? '//remarks%line(1)//more)
-      if (.not. present(page)) return
-      do k = 1, remarks%count()
-         call page%add('plausible? '//remarks%line(k))
-      end do
-   end subroutine warn_of_remarks
 
 end module ek_console

@@ -65,27 +65,24 @@ contains
       type(case_t), intent(in) :: cases(:)
       type(case_t), allocatable, intent(out) :: chosen(:)
       type(error_t), allocatable, intent(out) :: error
-      character(64), allocatable :: names(:)
+      character(64) :: names(size(cases))
       character(:), allocatable :: hint
       integer :: k
 
-      allocate (names(size(cases)))
-      do k = 1, size(cases)
-         names(k) = cases(k)%name
-      end do
       if (size(cases) == 0) then
          call fail(error, exit_usage, arguments%file//': no &case group, so there is no case to run (check works without one)')
          return
       end if
       allocate (chosen(0))
       do k = 1, size(cases)
+         names(k) = cases(k)%name
          if (len(arguments%case) == 0 .or. arguments%case == cases(k)%name) chosen = [chosen, cases(k)]
       end do
       if (size(chosen) == 0) then
          hint = nearest_name(arguments%case, names)
          if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
+         hint = hint//'; it has'
          do k = 1, size(names)
-            if (k == 1) hint = hint//'; it has'
             hint = hint//' '//quoted(names(k))
          end do
          call fail(error, exit_usage, '--case: no case '//quoted(arguments%case)//' in '//arguments%file//hint)

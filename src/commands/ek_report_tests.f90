@@ -2,6 +2,7 @@
 module ek_report_tests
    use ek_kinds, only: wp
    use ek_error, only: error_t
+   use ek_text, only: spaced
    use ek_suspension, only: suspension_t, load_number
    use ek_standard_tests, only: standard_tests, test_title
    use ek_case, only: case_t
@@ -34,11 +35,8 @@ contains
       type(case_t), intent(in) :: own(:)
       type(case_t), allocatable, intent(out) :: cases(:)
 
-      if (size(suspension%wheels) == 0) then
-         cases = own
-      else
-         call standard_tests(suspension, own, cases)
-      end if
+      cases = own
+      if (size(suspension%wheels) > 0) call standard_tests(suspension, own, cases)
    end subroutine report_cases
 
    !> Name, kind and title of every test before it is run.
@@ -94,10 +92,8 @@ contains
       else if (abs(force(1)) > mostly*norm2(force)) then
          kind = 'braking'
          factor_size = force(1)
-         if (is_at_centre(suspension, k)) then
-            kind = 'traction'
-            factor_size = -force(1)
-         end if
+         if (is_at_centre(suspension, k)) kind = 'traction'
+         if (kind == 'traction') factor_size = -force(1)
       else if (abs(moment(3)) > mostly*norm2(moment)) then
          kind = 'aligning_torque'
          factor_size = moment(3)
@@ -111,23 +107,16 @@ contains
       real(wp), parameter :: same = 1.0e-6_wp     ! m
       integer :: k
 
-      is_at_centre = .false.
-      do k = 1, size(suspension%wheels)
-         if (suspension%wheels(k)%body /= suspension%loads(load)%body) cycle
-         is_at_centre = is_at_centre .or. norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same
-      end do
+      is_at_centre = any([(suspension%wheels(k)%body == suspension%loads(load)%body .and. &
+         norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same, k=1, size(suspension%wheels))])
    end function is_at_centre
 
    !> 'Wheel travel sweep' of 'wheel_travel_sweep'.
    pure function title_of(name) result(title)
       character(*), intent(in) :: name
       character(:), allocatable :: title
-      integer :: k
 
-      title = name
-      do k = 1, len(title)
-         if (title(k:k) == '_') title(k:k) = ' '
-      end do
+      title = spaced(name)
       if (len(title) == 0) return
       if (title(1:1) >= 'a' .and. title(1:1) <= 'z') title(1:1) = achar(iachar(title(1:1)) - 32)
    end function title_of
@@ -167,11 +156,8 @@ contains
          do k = 1, result%remarks%count()
             remark = result%remarks%item(k)
             if (remark%topic /= topics(topic)) cycle
-            if (remark%severity == failure) then
-               call test%remarks%add(remark%whole())
-            else
-               call test%remarks%add(remark%text)
-            end if
+            if (remark%severity == failure) remark%text = remark%whole()
+            call test%remarks%add(remark%text)
          end do
       end do
       test%is_run = result%is_run()

@@ -12,13 +12,13 @@ module ek_run
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
-   use ek_csv, only: write_csv, tell_csv
+   use ek_csv, only: tell_csv
    use ek_figure, only: figure_t
    use ek_plot, only: run_figures
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
-   use ek_console, only: print_note, print_error, print_path, print_model_remarks, print_remarks, show_progress, clear_progress
+   use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run
@@ -129,9 +129,8 @@ contains
       if (folder == '-') then
          call tell_csv(result%table, trouble)
       else
-         call write_csv(result%table, name//'.csv', trouble)
+         call write_table(result%table, name//'.csv', unprinted, trouble)
          if (.not. allocated(trouble)) then
-            call print_path(name//'.csv', unprinted)
             if (arguments%plot) call draw(arguments, result, folder, name, undrawn)
             if (arguments%compliance) call write_compliance(result, checksum, name//compliance_ending, unprinted, trouble)
          end if
@@ -154,8 +153,7 @@ contains
 
       call compliance_table(result%suspension, result%case, result%path, result%kkt, table)
       call add_header(table, result%suspension, result%case, checksum)
-      call write_csv(table, path, error)
-      if (.not. allocated(error)) call print_path(path, unprinted)
+      call write_table(table, path, unprinted, error)
    end subroutine write_compliance
 
    !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
@@ -179,9 +177,8 @@ contains
          if (folder /= '-') then
             call add_header(found%table, result%suspension, case, checksum)
             call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
-            call write_csv(found%table, path, error)
+            call write_table(found%table, path, unprinted, error)
             if (allocated(error)) return
-            call print_path(path, unprinted)
          end if
          words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
             str(found%place/case%unit, 9)//' '//case%unit_name

@@ -71,15 +71,10 @@ contains
       character(:), allocatable :: text
 
       call begin_part(writer, join_path(out, study%name//'.csv'), error)
-      if (allocated(error)) return
-      call step_size_text(study, deck, text, error, writer)
-      if (allocated(error)) then
-         call writer%abandon()
-         return
-      end if
-      call writer%finish(error)
-      if (allocated(error)) return
-      call note(study%name//'.csv', out, tables, unprinted)
+      if (.not. allocated(error)) call step_size_text(study, deck, text, error, writer)
+      if (.not. allocated(error)) call writer%finish(error)
+      call writer%abandon()                              ! no effect on a finished table
+      if (.not. allocated(error)) call note(study%name//'.csv', out, tables, unprinted)
    end subroutine run_step_size
 
    !> out/<study>_curves.csv and out/<study>_responses.csv

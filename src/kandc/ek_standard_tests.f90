@@ -2,7 +2,7 @@
 module ek_standard_tests
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
-   use ek_text, only: str, lower
+   use ek_text, only: str, lower, spaced
    use ek_case, only: case_t
    use ek_suspension, only: suspension_t
    use ek_characteristics, only: trail
@@ -123,15 +123,11 @@ contains
       type(case_t), intent(in) :: this
       integer, intent(in) :: wheels              !! number of wheels of the model; a single wheel has no phase
       character(:), allocatable :: title
-      integer :: k
 
       title = this%name
       if (len(this%test) == 0) return
-      title = this%test
+      title = spaced(this%test)
       title(1:1) = achar(iachar(title(1:1)) - 32)
-      do k = 1, len(title)
-         if (title(k:k) == '_') title(k:k) = ' '
-      end do
       if (wheels > 1 .and. any(this%test == [character(15) :: 'lateral_force', 'aligning_torque', 'braking', 'traction'])) then
          if (this%is_anti) then
             title = title//', opposed (anti phase)'

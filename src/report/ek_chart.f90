@@ -8,12 +8,14 @@ module ek_chart
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
-   use ek_gnuplot, only: palette
+   use ek_gnuplot, only: palette, axes_look
    use ek_gnuplot_text, only: gnuplot_text, file_letters
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
 
+   character(25), parameter :: dashes(0:3) = [character(25) :: '', ' dashtype (10, 6)', ' dashtype (2, 4)', &
+      ' dashtype (10, 4, 2, 4)']
    integer, parameter :: chart_width = 460, chart_height = 330   !! pixels at font size 13
 
    !> One curve.
@@ -54,28 +56,14 @@ contains
    pure subroutine add_trace(chart, trace)
       type(chart_t), intent(inout) :: chart
       type(trace_t), intent(in) :: trace
-      type(trace_t), allocatable :: grown(:)
-      integer :: n
-
-      n = size(chart%traces)
-      allocate (grown(n + 1))
-      grown(:n) = chart%traces
-      grown(n + 1) = trace
-      call move_alloc(grown, chart%traces)
+      chart%traces = [chart%traces, trace]
    end subroutine add_trace
 
    !> Appends a chart to a list.
    pure subroutine append_chart(charts, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
       type(chart_t), intent(in) :: chart
-      type(chart_t), allocatable :: grown(:)
-      integer :: n
-
-      n = size(charts)
-      allocate (grown(n + 1))
-      grown(:n) = charts
-      grown(n + 1) = chart
-      call move_alloc(grown, charts)
+      charts = [charts, chart]
    end subroutine append_chart
 
    !> The file of a chart: its name, reduced to the characters of a file name, as it may come from a foreign table.
@@ -99,10 +87,7 @@ contains
       call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
          " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
       call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'")
-      call script%line("set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1")
-      call script%line("set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
-      call script%line("set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
+      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//new_line('a')//axes_look)
       call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
       call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)
@@ -116,9 +101,9 @@ contains
    pure subroutine add_chart(script, chart)
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
-      character(:), allocatable :: line
+      character(:), allocatable :: line, look, title
       real(wp) :: low, high
-      integer :: k, row, keys, plotted, across, rows
+      integer :: k, row, keys, across, rows
 
       if (size(chart%traces) == 0) return
       call script%line('')
@@ -133,15 +118,13 @@ contains
                low = min(low, trace%y(row))
                high = max(high, trace%y(row))
             end do
-            call script%line('')
-            call script%line('')
+            call script%line(new_line('a'))
             if (allocated(trace%mark)) then
                call add_pair(script, trace%mark(1), trace%mark(2))
             else
                call script%line('NaN NaN')
             end if
-            call script%line('')
-            call script%line('')
+            call script%line(new_line('a'))
          end associate
       end do
       call script%line('EOD')
@@ -179,48 +162,24 @@ contains
          call script%line('unset key')
          call script%line('set tmargin at screen 0.82')
       end if
-      plotted = size(chart%traces)
-      do k = 1, plotted
+      do k = 1, size(chart%traces)
          associate (trace => chart%traces(k))
             line = '     '
             if (k == 1) line = 'plot '
-            line = line//'$data index '//str(2*k - 2)//' using 1:2 with '
-            if (chart%has_points) then
-               line = line//'points pointtype '//str(merge(7, 6, trace%dash == 0))//' pointsize 0.6 linewidth 1.6'
-            else
-               line = line//'lines linewidth 2.2'//dashes(trace%dash)
-            end if
-            line = line//" linecolor rgb '"//palette(modulo(trace%colour - 1, size(palette)) + 1)//"'"
-            if (keys > 0) then
-               line = line//' title '//gnuplot_text(trace%title)
-            else
-               line = line//' notitle'
-            end if
-            call script%line(line//', \')
+            look = 'lines linewidth 2.2'//trim(dashes(min(trace%dash, 3)))
+            if (chart%has_points) &
+               look = 'points pointtype '//str(merge(7, 6, trace%dash == 0))//' pointsize 0.6 linewidth 1.6'
+            title = ' notitle'
+            if (keys > 0) title = ' title '//gnuplot_text(trace%title)
+            call script%line(line//'$data index '//str(2*k - 2)//' using 1:2 with '//look//" linecolor rgb '"// &
+               palette(modulo(trace%colour - 1, size(palette)) + 1)//"'"//title//', \')
             line = '     $data index '//str(2*k - 1)//" using 1:2 with points pointtype 6 pointsize 0.9 linewidth 1.6"// &
                " linecolor rgb '#202020' notitle"
-            if (k < plotted) line = line//', \'
+            if (k < size(chart%traces)) line = line//', \'
             call script%line(line)
          end associate
       end do
    end subroutine add_chart
-
-   !> The gnuplot dash pattern.
-   pure function dashes(dash) result(words)
-      integer, intent(in) :: dash
-      character(:), allocatable :: words
-
-      select case (dash)
-      case (0)
-         words = ''
-      case (1)
-         words = ' dashtype (10, 6)'
-      case (2)
-         words = ' dashtype (2, 4)'
-      case default
-         words = ' dashtype (10, 4, 2, 4)'
-      end select
-   end function dashes
 
    !> x and y with seven digits, more than a picture resolves.
    pure subroutine add_pair(script, x, y)

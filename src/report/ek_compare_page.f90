@@ -15,7 +15,17 @@ module ek_compare_page
    use ek_report_page, only: add_chart_set
    implicit none(type, external)
    private
-   public :: overlay, page_of, test_number
+   public :: comparison_t, overlay, page_of, test_number, letter_of
+
+   !> Results and what differs between them.
+   type :: comparison_t
+      character(:), allocatable :: folder               !! of the page
+      type(results_t), allocatable :: results(:)        !! the first is the one compared with
+      type(difference_t), allocatable :: rows(:)
+      type(chart_set_t), allocatable :: sets(:)         !! charts of each test of the first
+      type(message_list_t) :: missing                   !! from some results
+      logical :: has_pictures = .false.                 !! those in the folder belong to this comparison
+   end type comparison_t
 
 contains
 
@@ -83,25 +93,19 @@ contains
    end subroutine overlay_quantity
 
    !> compare.html
-   function page_of(results, rows, sets, missing, folder, has_pictures, why_none) result(text)
-      type(results_t), intent(in) :: results(:)
-      type(difference_t), intent(in) :: rows(:)
-      type(chart_set_t), intent(in) :: sets(:)
-      type(message_list_t), intent(in) :: missing
-      character(*), intent(in) :: folder
-      logical, intent(in) :: has_pictures           !! those in the folder belong to this comparison
-      character(*), intent(in) :: why_none          !! '' if there is no message
-      character(:), allocatable :: text, test
+   function page_of(this, why_none) result(text)
+      type(comparison_t), intent(in) :: this
+      character(*), intent(in) :: why_none          !! why there are no pictures; '' if there is no message
+      character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
-      character(longest_label(results)) :: labels(size(results))
-      character(longest_label(results) + 1) :: heads(3*size(results) + 1)
-      integer :: k, r, t
+      character(longest_label(this%results)) :: labels(size(this%results))
+      integer :: r, t
 
-      do r = 1, size(results)
-         labels(r) = results(r)%label
-         call names%add(achar(iachar('A') + modulo(r - 1, 26)))
-         call values%add(results(r)%path)
+      do r = 1, size(this%results)
+         labels(r) = this%results(r)%label
+         call names%add(letter_of(r))
+         call values%add(this%results(r)%path)
       end do
       call names%add('Program')
       call values%add('elastokin '//version)
@@ -111,50 +115,67 @@ contains
          call warnings%add('The page has no pictures: '//why_none)
          call add_warnings(page, 'Warnings', warnings)
       end if
-      call add_warnings(page, 'Missing from some results', missing)
-      if (size(rows) > 0) then
-         call begin_section(page, 'gradients', 'Gradients')
-         heads(1) = 'Quantity'
-         heads(2) = '>'//labels(1)
-         do r = 2, size(results)
-            heads(3*r - 3) = '>'//labels(r)
-            heads(3*r - 2) = '>difference'
-            heads(3*r - 1) = '>percent'
-         end do
-         heads(size(heads) - 1) = 'Unit'
-         heads(size(heads)) = 'Window'
-         call begin_table(page, heads)
-         test = ''
-         do k = 1, size(rows)
-            if (rows(k)%test /= test) then
-               test = rows(k)%test
-               call add_group(page, title_of(results(1), test))
-            end if
-            call begin_row(page)
-            call add_cell(page, trim(rows(k)%quantity//' '//rows(k)%side))
-            call add_cell(page, page_number(rows(k)%values(1)), 'n')
-            do r = 2, size(results)
-               call add_cell(page, page_number(rows(k)%values(r)), 'n')
-               call add_cell(page, page_number(difference(rows(k)%values(1), rows(k)%values(r))), 'n')
-               call add_cell(page, page_number(percent(rows(k)%values(1), rows(k)%values(r))), 'n')
-            end do
-            call add_cell(page, rows(k)%unit)
-            call add_cell(page, rows(k)%window)
-            call end_row(page)
-         end do
-         call end_table(page)
-         call end_section(page)
-      end if
-      do t = 1, size(sets)
-         if (size(sets(t)%charts) == 0) cycle
-         call begin_section(page, 'test-'//str(t), results(1)%tests(t)%title)
-         call add_legend(page, labels, design_row(results(1)%tests(t)%table) > 0, &
-            results(1)%tests(t)%kind == 'table')
-         if (has_pictures) call add_chart_set(page, sets(t)%charts, folder)
+      call add_warnings(page, 'Missing from some results', this%missing)
+      if (size(this%rows) > 0) call add_gradients(page, this%results, this%rows, labels)
+      do t = 1, size(this%sets)
+         if (size(this%sets(t)%charts) == 0) cycle
+         call begin_section(page, 'test-'//str(t), this%results(1)%tests(t)%title)
+         call add_legend(page, labels, design_row(this%results(1)%tests(t)%table) > 0, &
+            this%results(1)%tests(t)%kind == 'table')
+         if (this%has_pictures) call add_chart_set(page, this%sets(t)%charts, this%folder)
          call end_section(page)
       end do
       text = page_text(page)
    end function page_of
+
+   !> The table of gradients.
+   subroutine add_gradients(page, results, rows, labels)
+      type(page_t), intent(inout) :: page
+      type(results_t), intent(in) :: results(:)
+      type(difference_t), intent(in) :: rows(:)
+      character(*), intent(in) :: labels(:)
+      character(len(labels) + 1) :: heads(3*size(results) + 1)
+      character(:), allocatable :: test
+      integer :: k, r
+
+      call begin_section(page, 'gradients', 'Gradients')
+      heads(1) = 'Quantity'
+      heads(2) = '>'//labels(1)
+      do r = 2, size(results)
+         heads(3*r - 3) = '>'//labels(r)
+         heads(3*r - 2) = '>difference'
+         heads(3*r - 1) = '>percent'
+      end do
+      heads(size(heads) - 1) = 'Unit'
+      heads(size(heads)) = 'Window'
+      call begin_table(page, heads)
+      test = ''
+      do k = 1, size(rows)
+         if (rows(k)%test /= test) then
+            test = rows(k)%test
+            call add_group(page, title_of(results(1), test))
+         end if
+         call begin_row(page)
+         call add_cell(page, trim(rows(k)%quantity//' '//rows(k)%side))
+         call add_cell(page, page_number(rows(k)%values(1)), 'n')
+         do r = 2, size(results)
+            call add_cell(page, page_number(rows(k)%values(r)), 'n')
+            call add_cell(page, page_number(difference(rows(k)%values(1), rows(k)%values(r))), 'n')
+            call add_cell(page, page_number(percent(rows(k)%values(1), rows(k)%values(r))), 'n')
+         end do
+         call add_cell(page, rows(k)%unit)
+         call add_cell(page, rows(k)%window)
+         call end_row(page)
+      end do
+      call end_table(page)
+      call end_section(page)
+   end subroutine add_gradients
+
+   !> The letter of a result: A is the first.
+   pure character(1) function letter_of(result)
+      integer, intent(in) :: result
+      letter_of = achar(iachar('A') + modulo(result - 1, 26))
+   end function letter_of
 
    !> Room for every label and for 'difference'.
    pure integer function longest_label(results) result(longest)

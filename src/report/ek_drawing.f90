@@ -17,7 +17,7 @@ module ek_drawing
    public :: run_gnuplot, run_plot_script
 
    integer, parameter :: time_limit = 300             !! s for one run; the largest report takes a tenth of it
-   integer, parameter :: most_said = 2000             !! characters of gnuplot's own message
+   integer, parameter :: longest_log = 2000           !! characters of gnuplot's own message
    character(*), parameter :: log_name = 'gnuplot.log'
 
 contains
@@ -31,9 +31,7 @@ contains
       character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn, otherwise the reason
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
-      type(message_list_t) :: words
-      character(:), allocatable :: home, name, trouble
-      integer :: k
+      character(:), allocatable :: trouble
 
       message = ''
       if (scripts%count() == 0) return
@@ -44,23 +42,8 @@ contains
       end if
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
-      home = whole_path(folder)
-      call begin_words(words, "set loadpath '..'; to = ''")
-      do k = 1, scripts%count()
-         call words%add(join_path(home, scripts%line(k)))
-      end do
-      call draw_in(scratch, words, trouble)
-      do k = 1, pictures%count()
-         if (len(trouble) > 0) exit
-         name = last_part(pictures%line(k))
-         if (.not. is_whole(join_path(scratch%path, name))) trouble = 'it has not completed '//name
-      end do
-      do k = 1, pictures%count()                          ! all or none: pictures of two runs are not mixed
-         if (len(trouble) > 0) exit
-         call move_file(join_path(scratch%path, last_part(pictures%line(k))), join_path(folder, pictures%line(k)), error)
-         if (allocated(error)) trouble = error%message
-      end do
-      call end_scratch(scratch)
+      call draw_in(scratch, "set loadpath '..'; to = ''", scripts, join_path(working_folder(), folder), trouble)
+      call take_pictures(scratch, pictures, folder, trouble)
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not draw the figures in '//folder//': '//trouble)
    end subroutine run_gnuplot
 
@@ -72,10 +55,10 @@ contains
       character(*), intent(in) :: folder
       type(error_t), allocatable, intent(out) :: error    !! exit_file, with gnuplot's message
       type(scratch_t) :: scratch
-      type(message_list_t) :: words, names
+      type(message_list_t) :: scripts, names, pictures
       type(facts_t) :: facts
-      character(:), allocatable :: trouble, name
-      integer :: k, moved
+      character(:), allocatable :: trouble
+      integer :: k
 
       call begin_scratch(folder, scratch, error)
       if (allocated(error)) return
@@ -85,61 +68,73 @@ contains
             join_path(scratch%path, tables%line(k))//c_null_char) /= 0) trouble = 'no link to a table: '//system_reason()
       end do
       if (len(trouble) == 0) then
-         call begin_words(words, 'set loadpath '//gnuplot_text(working_folder())//'; out = '// &
-            gnuplot_text(whole_path(scratch%path)))
-         call words%add(whole_path(script))
-         call draw_in(scratch, words, trouble)
+         call scripts%add(script)
+         call draw_in(scratch, 'set loadpath '//gnuplot_text(working_folder())//'; out = '// &
+            gnuplot_text(join_path(working_folder(), scratch%path)), scripts, working_folder(), trouble)
       end if
       call folder_names(scratch%path, names)
-      moved = 0
       do k = 1, names%count()
-         if (len(trouble) > 0) exit
-         name = join_path(scratch%path, names%line(k))
-         facts = facts_of(name, follow=.false.)
+         facts = facts_of(join_path(scratch%path, names%line(k)), follow=.false.)
          if (names%line(k) == log_name .or. .not. (facts%kind == regular_file .or. facts%kind == unknown_file)) cycle
-         if (.not. is_whole(name)) trouble = 'it has not completed '//names%line(k)
+         call pictures%add(names%line(k))
       end do
-      do k = 1, names%count()
-         if (len(trouble) > 0) exit
-         name = join_path(scratch%path, names%line(k))
-         facts = facts_of(name, follow=.false.)
-         if (names%line(k) == log_name .or. .not. (facts%kind == regular_file .or. facts%kind == unknown_file)) cycle
-         call move_file(name, join_path(folder, names%line(k)), error)
-         if (allocated(error)) trouble = error%message
-         moved = moved + 1
-      end do
-      if (len(trouble) == 0 .and. moved == 0) trouble = 'it has drawn no picture'
-      call end_scratch(scratch)
+      if (len(trouble) == 0 .and. pictures%count() == 0) trouble = 'it has drawn no picture'
+      call take_pictures(scratch, pictures, folder, trouble)
       if (len(trouble) > 0) call fail(error, exit_file, 'gnuplot could not run '''//script//''': '//trouble)
    end subroutine run_plot_script
 
-   !> The command line of gnuplot, and the commands before any script. C.UTF-8: gnuplot rejects the degree sign in C, and
-   !> other locales may write a decimal comma.
-   subroutine begin_words(words, before)
-      type(message_list_t), intent(out) :: words
-      character(*), intent(in) :: before                  !! commands
+   !> Moves the pictures to their folder, all or none: pictures of two runs are not mixed.
+   subroutine take_pictures(scratch, pictures, folder, trouble)
+      type(scratch_t), intent(inout) :: scratch           !! it ends
+      type(message_list_t), intent(in) :: pictures        !! paths relative to the folder
+      character(*), intent(in) :: folder
+      character(:), allocatable, intent(inout) :: trouble !! '' so far, or nothing is moved
+      type(error_t), allocatable :: error
+      character(:), allocatable :: name
+      integer :: k
 
-      call words%add('env')
-      call words%add('LC_ALL=C.UTF-8')
-      call words%add('gnuplot')
-      call words%add('-d')
-      call words%add('-e')
-      call words%add(before)
-   end subroutine begin_words
+      do k = 1, pictures%count()
+         if (len(trouble) > 0) exit
+         name = pictures%line(k)
+         name = name(index(name, '/', back=.true.) + 1:)
+         if (.not. is_whole(join_path(scratch%path, name))) trouble = 'it has not completed '//name
+      end do
+      do k = 1, pictures%count()
+         if (len(trouble) > 0) exit
+         name = pictures%line(k)
+         name = name(index(name, '/', back=.true.) + 1:)
+         call move_file(join_path(scratch%path, name), join_path(folder, pictures%line(k)), error)
+         if (allocated(error)) trouble = error%message
+      end do
+      call end_scratch(scratch)
+   end subroutine take_pictures
 
-   !> Runs gnuplot in a scratch folder.
-   subroutine draw_in(scratch, words, trouble)
+   !> Runs gnuplot on scripts in a scratch folder. C.UTF-8: gnuplot rejects the degree sign in C, and other locales may write a
+   !> decimal comma.
+   subroutine draw_in(scratch, before, scripts, folder, trouble)
       type(scratch_t), intent(in) :: scratch
-      type(message_list_t), intent(in) :: words
+      character(*), intent(in) :: before                  !! commands before any script
+      type(message_list_t), intent(in) :: scripts         !! paths relative to the folder
+      character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: trouble   !! '' if gnuplot succeeded
+      type(message_list_t) :: command
       type(error_t), allocatable :: unread
-      character(:), allocatable :: said
-      integer :: status
+      character(:), allocatable :: log
+      integer :: k, status
 
-      call run_program(words, scratch%path, join_path(scratch%path, log_name), seconds_allowed(), status, trouble)
+      call command%add('env')
+      call command%add('LC_ALL=C.UTF-8')
+      call command%add('gnuplot')
+      call command%add('-d')
+      call command%add('-e')
+      call command%add(before)
+      do k = 1, scripts%count()
+         call command%add(join_path(folder, scripts%line(k)))
+      end do
+      call run_program(command, scratch%path, join_path(scratch%path, log_name), seconds_allowed(), status, trouble)
       if (len(trouble) > 0 .or. status == 0) return
-      call read_whole(join_path(scratch%path, log_name), said, unread)
-      trouble = printable(trim(said(:min(len(said), most_said))))
+      call read_whole(join_path(scratch%path, log_name), log, unread)
+      trouble = printable(trim(log(:min(len(log), longest_log))))
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
    end subroutine draw_in
 
@@ -183,21 +178,5 @@ contains
          is_whole = .true.
       end select
    end function is_whole
-
-   !> The absolute path.
-   function whole_path(path) result(whole)
-      character(*), intent(in) :: path
-      character(:), allocatable :: whole
-
-      whole = join_path(working_folder(), path)
-   end function whole_path
-
-   !> 'c.svg' for '../c.svg'.
-   pure function last_part(path) result(name)
-      character(*), intent(in) :: path
-      character(:), allocatable :: name
-
-      name = path(index(path, '/', back=.true.) + 1:)
-   end function last_part
 
 end module ek_drawing

@@ -78,28 +78,14 @@ contains
    pure subroutine add_curve(panel, curve)
       type(panel_t), intent(inout) :: panel
       type(curve_t), intent(in) :: curve
-      type(curve_t), allocatable :: grown(:)
-      integer :: n
-
-      n = size(panel%curves)
-      allocate (grown(n + 1))
-      grown(:n) = panel%curves
-      grown(n + 1) = curve
-      call move_alloc(grown, panel%curves)
+      panel%curves = [panel%curves, curve]
    end subroutine add_curve
 
    !> Appends a pair of axes.
    pure subroutine add_panel(figure, panel)
       type(figure_t), intent(inout) :: figure
       type(panel_t), intent(in) :: panel
-      type(panel_t), allocatable :: grown(:)
-      integer :: n
-
-      n = size(figure%panels)
-      allocate (grown(n + 1))
-      grown(:n) = figure%panels
-      grown(n + 1) = panel
-      call move_alloc(grown, figure%panels)
+      figure%panels = [figure%panels, panel]
    end subroutine add_panel
 
 end module ek_figure

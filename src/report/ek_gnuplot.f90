@@ -10,7 +10,7 @@ module ek_gnuplot
    use ek_drawing, only: run_gnuplot
    implicit none(type, external)
    private
-   public :: figure_script, write_figure, render_figures, gnuplot_text, palette
+   public :: figure_script, write_figure, render_figures, gnuplot_text, palette, axes_look
 
    !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
@@ -19,6 +19,10 @@ module ek_gnuplot
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
 
+   character(*), parameter :: nl = new_line('a')
+   character(*), parameter :: axes_look = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
+      "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
+      "set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"
    character(*), parameter :: label_look = " textcolor rgb '#202020'"
 
 contains
@@ -60,7 +64,12 @@ contains
       logical :: is_single
 
       is_single = size(figure%panels) == 1
-      call measure_legend(figure, entries, longest)
+      entries = 0                            ! of the legend; all panels share that of the first
+      longest = 0                            ! characters
+      do k = 1, size(figure%panels(1)%curves)
+         if (len(figure%panels(1)%curves(k)%title) > 0) entries = entries + 1
+         longest = max(longest, len(figure%panels(1)%curves(k)%title))
+      end do
       right = 0.97_wp
       if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
 
@@ -114,37 +123,14 @@ contains
       text = script%text()//new_line('a')
    end function figure_script
 
-   !> Size of the legend. All panels of a figure share that of the first.
-   pure subroutine measure_legend(figure, entries, longest)
-      type(figure_t), intent(in) :: figure
-      integer, intent(out) :: entries, longest   !! number of titles; characters of the longest
-      integer :: k
-
-      entries = 0
-      longest = 0
-      if (size(figure%panels) == 0) return
-      do k = 1, size(figure%panels(1)%curves)
-         if (len(figure%panels(1)%curves(k)%title) == 0) cycle
-         entries = entries + 1
-         longest = max(longest, len(figure%panels(1)%curves(k)%title))
-      end do
-   end subroutine measure_legend
-
    !> Settings shared by all figures: data format, grid, zero lines, line styles.
    pure subroutine add_look(script)
       type(message_list_t), intent(inout) :: script
       integer :: k
 
-      call script%add('reset')
-      call script%add('set encoding utf8')
-      call script%add('set datafile separator comma')
-      call script%add('set datafile columnheaders')
-      call script%add("set datafile missing 'nan'")
-      call script%add("set border 3 linecolor rgb '#808080'")
-      call script%add("set tics out nomirror textcolor rgb '#404040'")
-      call script%add("set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1")
-      call script%add("set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
-      call script%add("set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2")
+      call script%add('reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl//'set datafile columnheaders')
+      call script%add("set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'")
+      call script%add("set tics out nomirror textcolor rgb '#404040'"//nl//axes_look)
       do k = 1, size(palette)
          call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)// &
             "' linewidth 2.6 pointtype 7 pointsize 0.7")
@@ -183,11 +169,8 @@ contains
       integer :: gap
 
       gap = index(text, '    (')
-      if (is_folded .and. gap > 0) then
-         words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
-      else
-         words = gnuplot_text(text)
-      end if
+      words = gnuplot_text(text)
+      if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
    end function label
 
    !> The plot command.
@@ -195,7 +178,7 @@ contains
       type(message_list_t), intent(inout) :: script
       type(panel_t), intent(in) :: panel
       logical, intent(in) :: has_legend
-      character(:), allocatable :: line
+      character(:), allocatable :: line, title
       integer :: k, colour
 
       colour = 0
@@ -213,39 +196,26 @@ contains
             else
                colour = colour + 1
                if (curve%colour > 0) colour = curve%colour
-               line = line//' with '//drawn(curve%style)//' linestyle '//str(modulo(colour - 1, size(palette)) + 1)
+               line = line//' with '//trim(merge('points', 'lines ', curve%style == 'points'))//' linestyle '// &
+                  str(modulo(colour - 1, size(palette)) + 1)
                if (curve%style == 'dashed' .or. colour > size(palette)) line = line//' dashtype (12, 7)'
             end if
-            if (has_legend .and. len(curve%title) > 0) then
-               line = line//' title '//gnuplot_text(curve%title)
-            else
-               line = line//' notitle'
-            end if
+            title = ' notitle'
+            if (has_legend .and. len(curve%title) > 0) title = ' title '//gnuplot_text(curve%title)
+            line = line//title
          end associate
          if (k < size(panel%curves)) line = line//', \'
          call script%add(line)
       end do
    end subroutine add_plot
 
-   !> The gnuplot style of a curve.
-   pure function drawn(style) result(with)
-      character(*), intent(in) :: style
-      character(:), allocatable :: with
-
-      with = 'lines'
-      if (style == 'points') with = 'points'
-   end function drawn
-
    !> A column by its name, or an expression unchanged.
    pure function field(name) result(text)
       character(*), intent(in) :: name
       character(:), allocatable :: text
 
-      if (index(name, '(') == 1) then
-         text = name
-      else
-         text = gnuplot_name(trim(name))
-      end if
+      text = gnuplot_name(trim(name))
+      if (index(name, '(') == 1) text = name
    end function field
 
 end module ek_gnuplot

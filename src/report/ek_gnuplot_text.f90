@@ -4,7 +4,7 @@
 module ek_gnuplot_text
    implicit none(type, external)
    private
-   public :: gnuplot_text, gnuplot_name, gnuplot_comment, file_letters
+   public :: gnuplot_text, gnuplot_name, gnuplot_comment, file_letters, one_line
 
 contains
 
@@ -25,32 +25,22 @@ contains
    !> A column name between double quotes; gnuplot accepts no quote and no backslash in it.
    pure function gnuplot_name(text) result(literal)
       character(*), intent(in) :: text
-      character(:), allocatable :: literal
+      character(len(text) + 2) :: literal
       integer :: k
 
-      literal = '"'
-      do k = 1, len(text)
-         if (text(k:k) == '"' .or. text(k:k) == '\' .or. text(k:k) == '`') then
-            literal = literal//'_'
-         else
-            literal = literal//one_line(text(k:k))
-         end if
+      literal = '"'//one_line(text)//'"'
+      do k = 2, len(text) + 1
+         if (scan(literal(k:k), '"\`') == 1) literal(k:k) = '_'
       end do
-      literal = literal//'"'
    end function gnuplot_name
 
    !> A comment of one line. A backslash at its end would continue it on the next line.
    pure function gnuplot_comment(text) result(comment)
       character(*), intent(in) :: text
-      character(:), allocatable :: comment
-      integer :: k
+      character(len(text) + 2) :: comment
 
-      comment = '# '
-      do k = 1, len(text)
-         comment = comment//one_line(text(k:k))
-      end do
-      if (len(text) == 0) return
-      if (text(len(text):) == '\') comment(len(comment):) = '/'
+      comment = '# '//one_line(text)
+      if (comment(len(comment):) == '\') comment(len(comment):) = '/'
    end function gnuplot_comment
 
    !> A file name: letters, digits and the other characters of test and column names; any other character becomes '_'. The
@@ -69,12 +59,16 @@ contains
       end do
    end function file_letters
 
-   !> A character, or a blank for a control character.
-   pure character(1) function one_line(letter)
-      character(1), intent(in) :: letter
+   !> A text with blanks for control characters.
+   pure function one_line(text) result(line)
+      character(*), intent(in) :: text
+      character(len(text)) :: line
+      integer :: k
 
-      one_line = letter
-      if (iachar(letter) < 32 .or. iachar(letter) == 127) one_line = ' '
+      line = text
+      do k = 1, len(text)
+         if (iachar(text(k:k)) < 32 .or. iachar(text(k:k)) == 127) line(k:k) = ' '
+      end do
    end function one_line
 
 end module ek_gnuplot_text

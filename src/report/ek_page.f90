@@ -14,7 +14,7 @@ module ek_page
    private
    public :: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts
    public :: begin_table, begin_row, add_cell, end_row, add_group, end_table
-   public :: begin_charts, add_chart_picture, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
+   public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
 
    character(*), parameter :: nl = new_line('a')
 
@@ -99,16 +99,14 @@ contains
    pure subroutine begin_table(page, heads)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)
-      integer :: k
+      integer :: k, first
 
       page%table_columns = size(heads)
       call page%body%add('<div class="scroll"><table><thead><tr>')
       do k = 1, size(heads)
-         if (index(heads(k), '>') == 1) then
-            call page%body%add('<th scope="col" class="n">'//escape_html(trim(heads(k) (2:)))//'</th>')
-         else
-            call page%body%add('<th scope="col">'//escape_html(trim(heads(k)))//'</th>')
-         end if
+         first = merge(2, 1, index(heads(k), '>') == 1)
+         call page%body%add('<th scope="col"'//trim(merge(' class="n">', '>          ', first == 2))// &
+            escape_html(trim(heads(k) (first:)))//'</th>')
       end do
       call page%body%line('</tr></thead><tbody>')
    end subroutine begin_table
@@ -133,11 +131,9 @@ contains
       character(*), intent(in) :: text
       character(1), intent(in), optional :: kind
 
-      if (present(kind)) then
-         call page%body%add('<td class="'//kind//'">'//escape_html(text)//'</td>')
-      else
-         call page%body%add('<td>'//escape_html(text)//'</td>')
-      end if
+      call page%body%add('<td')
+      if (present(kind)) call page%body%add(' class="'//kind//'"')
+      call page%body%add('>'//escape_html(text)//'</td>')
    end subroutine add_cell
 
    !> Ends a row.
@@ -164,26 +160,16 @@ contains
       call page%body%line('</div>')
    end subroutine end_charts
 
-   !> One chart of a block, from the SVG written by gnuplot.
-   pure subroutine add_chart_picture(page, svg, title)
-      type(page_t), intent(inout) :: page
-      character(*), intent(in) :: svg, title     !! content of the file; its description
-
-      page%pictures = page%pictures + 1
-      call page%body%add('<figure>')
-      call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
-      call page%body%line('</figure>')
-   end subroutine add_chart_picture
-
-   !> A picture of full width.
+   !> A picture from the SVG written by gnuplot: of full width with a caption, or one chart of a block without.
    pure subroutine add_picture(page, svg, title, caption)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: svg, title, caption
+      character(*), intent(in) :: svg, title     !! content of the file; its description
+      character(*), intent(in), optional :: caption
 
       page%pictures = page%pictures + 1
-      call page%body%add('<figure class="wide">')
+      call page%body%add(trim(merge('<figure class="wide">', '<figure>             ', present(caption))))
       call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
-      if (len(caption) > 0) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
+      if (present(caption)) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
       call page%body%line('</figure>')
    end subroutine add_picture
 

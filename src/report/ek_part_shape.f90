@@ -8,7 +8,7 @@ module ek_part_shape
    use ek_measure, only: measure_t, distance
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
    use ek_suspension, only: suspension_t
-   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, &
+   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, &
       same_point
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_face, add_line, add_tube, add_surface, add_coil, add_ball, part_tyre, part_plate, &
@@ -30,7 +30,7 @@ contains
       integer, intent(in) :: body
       logical, intent(in) :: plain
       type(skeleton_t) :: skeleton
-      real(wp) :: a(3), b(3)
+      real(wp) :: bar(3, 2)
       integer :: k, kind
 
       skeleton = skeleton_of(suspension, body)
@@ -41,9 +41,9 @@ contains
          kind = part_damper
       end if
       do k = 1, skeleton%count
-         a = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
-         b = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
-         call add_tube(scene, kind, a, b, merge(1.25_wp, 1.0_wp, kind == part_carrier)*arm_radius, merge(4, 7, plain))
+         bar = bar_of(suspension, state, body, skeleton, k)
+         call add_tube(scene, kind, bar(:, 1), bar(:, 2), &
+            merge(1.25_wp, 1.0_wp, kind == part_carrier)*arm_radius, merge(4, 7, plain))
       end do
       if (kind == part_arm .and. .not. plain) call add_plate(scene, suspension, state, body, skeleton)
    end subroutine add_body
@@ -56,15 +56,10 @@ contains
       integer, intent(in) :: body
       type(skeleton_t), intent(in) :: skeleton
       real(wp) :: face(3, 3), reach, most
-      integer :: held(2), n, k, tip
+      integer :: held(2), k, tip
 
-      n = 0
-      do k = 1, skeleton%used
-         if (.not. skeleton%nodes(k)%is_held) cycle
-         n = n + 1
-         if (n <= 2) held(n) = k
-      end do
-      if (n /= 2) return
+      if (count(skeleton%nodes(:skeleton%used)%is_held) /= 2) return
+      held = pack([(k, k=1, skeleton%used)], skeleton%nodes(:skeleton%used)%is_held)
       tip = 0
       most = 0.05_wp
       do k = 1, skeleton%used

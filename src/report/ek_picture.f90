@@ -3,13 +3,14 @@
 !> A body has no shape in the model: its skeleton represents it.
 module ek_picture
    use ek_kinds, only: wp
+   use ek_text, only: spaced
    use ek_measure, only: distance
    use ek_element, only: element_kinds, stop_shape, damper_shape
    use ek_suspension, only: suspension_t
-   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides
+   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides
    use ek_part_shape, only: add_body, add_joints, add_elastic, add_wheel, add_tread
    use ek_state, only: state_t
-   use ek_scene, only: scene_t, add_face, add_line, add_words, part_ground, part_carrier, line_ground
+   use ek_scene, only: scene_t, add_face, add_line, add_label, part_ground, part_carrier, line_ground
    implicit none(type, external)
    private
    public :: add_solid, add_ghost, add_ground, add_names
@@ -21,21 +22,18 @@ contains
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      logical, intent(in), optional :: is_plain     !! fewer faces: for animations
+      logical, intent(in) :: is_plain               !! fewer faces: for animations
       integer :: k
-      logical :: plain
 
-      plain = .false.
-      if (present(is_plain)) plain = is_plain
       do k = 1, size(suspension%bodies)
-         call add_body(scene, suspension, state, k, plain)
+         call add_body(scene, suspension, state, k, is_plain)
       end do
-      call add_joints(scene, suspension, state, plain)
+      call add_joints(scene, suspension, state, is_plain)
       do k = 1, size(suspension%elements)
-         call add_elastic(scene, suspension%elements(k), state, plain)
+         call add_elastic(scene, suspension%elements(k), state, is_plain)
       end do
       do k = 1, size(suspension%wheels)
-         call add_wheel(scene, suspension, state, k, plain)
+         call add_wheel(scene, suspension, state, k, is_plain)
       end do
    end subroutine add_solid
 
@@ -52,9 +50,7 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          do k = 1, skeleton%count
-            line(:, 1) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
-            line(:, 2) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
-            call add_line(scene, kind, line)
+            call add_line(scene, kind, bar_of(suspension, state, body, skeleton, k))
          end do
       end do
       do k = 1, size(suspension%joints)
@@ -72,10 +68,9 @@ contains
       type(scene_t), intent(inout) :: scene
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      logical, intent(in), optional :: is_plain    !! only the outline: a GIF has no transparent colours
+      logical, intent(in) :: is_plain              !! only the outline: a GIF has no transparent colours
       real(wp) :: low(2), high(2), z, face(3, 4), arrow(3, 3), at(3), middle
       integer :: k
-      logical :: has_face
 
       if (size(suspension%wheels) == 0) return
       low = huge(1.0_wp)
@@ -93,22 +88,15 @@ contains
          if (suspension%wheels(1)%side < 0) high(2) = max(high(2), low(2) + 0.55_wp)
          if (suspension%wheels(1)%side > 0) low(2) = min(low(2), high(2) - 0.55_wp)
       end if
-      face(:, 1) = [low(1), low(2), z]
-      face(:, 2) = [high(1), low(2), z]
-      face(:, 3) = [high(1), high(2), z]
-      face(:, 4) = [low(1), high(2), z]
-      has_face = .true.
-      if (present(is_plain)) has_face = .not. is_plain
-      if (has_face) call add_face(scene, part_ground, face)
+      face = reshape([low(1), low(2), z, high(1), low(2), z, high(1), high(2), z, low(1), high(2), z], [3, 4])
+      if (.not. is_plain) call add_face(scene, part_ground, face)
       call add_line(scene, line_ground, reshape([face, face(:, 1)], [3, 5]))
       middle = (low(2) + high(2))/2
       if (size(suspension%wheels) == 1) middle = middle - suspension%wheels(1)%side*0.16_wp
       at = [low(1) + 0.16_wp, middle, z]
-      arrow(:, 1) = at + [-0.12_wp, 0.0_wp, 0.0_wp]
-      arrow(:, 2) = at + [0.0_wp, 0.045_wp, 0.0_wp]
-      arrow(:, 3) = at + [0.0_wp, -0.045_wp, 0.0_wp]
-      call add_face(scene, part_carrier, arrow)
-      call add_words(scene, at + [0.02_wp, 0.0_wp, 0.0_wp], 'front')
+      arrow = reshape([-0.12_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.045_wp, 0.0_wp, 0.0_wp, -0.045_wp, 0.0_wp], [3, 3])
+      call add_face(scene, part_carrier, arrow + spread(at, 2, 3))
+      call add_label(scene, at + [0.02_wp, 0.0_wp, 0.0_wp], 'front')
    end subroutine add_ground
 
    !> Names of bodies, rods and springs, once for left and right.
@@ -117,7 +105,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(skeleton_t) :: skeleton
-      real(wp) :: a(3), b(3), length, longest, at(3)
+      real(wp) :: a(3), b(3), bar(3, 2), longest, at(3)
       integer :: body, k
 
       do body = 1, size(suspension%bodies)
@@ -133,12 +121,10 @@ contains
             cycle
          end if
          do k = 1, skeleton%count
-            a = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
-            b = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
-            length = norm2(b - a)
-            if (length <= longest) cycle
-            longest = length
-            at = (a + b)/2
+            bar = bar_of(suspension, state, body, skeleton, k)
+            if (norm2(bar(:, 2) - bar(:, 1)) <= longest) cycle
+            longest = norm2(bar(:, 2) - bar(:, 1))
+            at = (bar(:, 1) + bar(:, 2))/2
          end do
          if (longest > 0.0_wp .and. slides(suspension, body) .and. .not. carries_wheel(suspension, body)) then
             call name_at(suspension%bodies(body)%name, 5.0_wp)       ! name beside the coil around it
@@ -167,16 +153,7 @@ contains
       subroutine name_at(name, aside)
          character(*), intent(in) :: name
          real(wp), intent(in), optional :: aside
-         character(:), allocatable :: words
-         integer :: letter
-
-         if (index(name, 'right_') == 1) return
-         words = name
-         if (index(name, 'left_') == 1) words = name(6:)
-         do letter = 1, len(words)
-            if (words(letter:letter) == '_') words(letter:letter) = ' '
-         end do
-         call add_words(scene, at, words, aside)
+         if (index(name, 'right_') /= 1) call add_label(scene, at, spaced(name(merge(6, 1, index(name, 'left_') == 1):)), aside)
       end subroutine name_at
 
    end subroutine add_names

@@ -3,6 +3,7 @@
 module ek_place_numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_text, only: spaced
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, design_row, unfolded_rows
    use ek_key_number, only: key_number_t, nothing
@@ -170,18 +171,6 @@ contains
       if (index(name, 'left_') == 1) prefix = 'left_'
       if (index(name, 'right_') == 1) prefix = 'right_'
    end function side_of
-
-   !> Replaces underscores by blanks.
-   pure function spaced(name) result(words)
-      character(*), intent(in) :: name
-      character(len(name)) :: words
-      integer :: k
-
-      words = name
-      do k = 1, len(name)
-         if (name(k:k) == '_') words(k:k) = ' '
-      end do
-   end function spaced
 
    subroutine begin(group, quantity, unit, sign, number)
       character(*), intent(in) :: group, quantity, unit, sign

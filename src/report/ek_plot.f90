@@ -4,6 +4,7 @@ module ek_plot
    use ek_kinds, only: wp
    use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
    use ek_test_result, only: wheel_word, least_stroke, travel => travel_column
+   use ek_quantity, only: quantity_t
    use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
    use ek_file, only: base_name
    implicit none(type, external)
@@ -12,30 +13,16 @@ module ek_plot
 
    integer, parameter :: most_curves = 8          !! in one panel, for legibility
 
-   !> A quantity drawn for every wheel: column without the wheel's name, title, label with its sign.
-   type :: quantity_t
-      character(24) :: column
-      character(28) :: title
-      character(56) :: label
-      real(wp) :: noise                           !! in units of the column; a smaller span is drawn flat
-   end type quantity_t
-
-   type(quantity_t), parameter :: toe = &
-      quantity_t('toe_deg', 'Toe', 'toe [deg]    (+ front edge inward)', 0.01_wp)
-   type(quantity_t), parameter :: camber = &
-      quantity_t('camber_deg', 'Camber', 'camber [deg]    (+ top outward)', 0.01_wp)
-   type(quantity_t), parameter :: lateral = &
-      quantity_t('track_change_mm', 'Lateral movement', 'contact patch, lateral [mm]    (+ outward)', 0.1_wp)
-   type(quantity_t), parameter :: longitudinal = &
-      quantity_t('wheelbase_change_mm', 'Longitudinal movement', 'contact patch, longitudinal [mm]    (+ rearward)', 0.1_wp)
-   type(quantity_t), parameter :: caster = &
-      quantity_t('caster_deg', 'Caster', 'caster [deg]    (+ top rearward)', 0.01_wp)
-   type(quantity_t), parameter :: inclination = &
-      quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'kingpin inclination [deg]    (+ top inward)', 0.01_wp)
-   type(quantity_t), parameter :: scrub = &
-      quantity_t('scrub_radius_mm', 'Scrub radius', 'scrub radius [mm]    (+ axis inboard of the patch)', 0.1_wp)
-   type(quantity_t), parameter :: trail = &
-      quantity_t('caster_trail_mm', 'Caster trail', 'caster trail [mm]    (+ axis ahead of the patch)', 0.1_wp)
+   ! Drawn for every wheel; the label has unit and sign
+   type(quantity_t), parameter :: wheel_quantities(8) = [ &
+      quantity_t('toe_deg', 'Toe', 'toe [deg]    (+ front edge inward)', 0.01_wp), &
+      quantity_t('camber_deg', 'Camber', 'camber [deg]    (+ top outward)', 0.01_wp), &
+      quantity_t('track_change_mm', 'Lateral movement', 'contact patch, lateral [mm]    (+ outward)', 0.1_wp), &
+      quantity_t('wheelbase_change_mm', 'Longitudinal movement', 'contact patch, longitudinal [mm]    (+ rearward)', 0.1_wp), &
+      quantity_t('caster_deg', 'Caster', 'caster [deg]    (+ top rearward)', 0.01_wp), &
+      quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'kingpin inclination [deg]    (+ top inward)', 0.01_wp), &
+      quantity_t('scrub_radius_mm', 'Scrub radius', 'scrub radius [mm]    (+ axis inboard of the patch)', 0.1_wp), &
+      quantity_t('caster_trail_mm', 'Caster trail', 'caster trail [mm]    (+ axis ahead of the patch)', 0.1_wp)]
 
    !> The properties of a run that its figures use.
    type :: view_t
@@ -62,46 +49,11 @@ contains
       character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all with _fx_n, _fy_n, _fz_n
       logical, intent(in), optional :: has_points           !! the states are independent: points without a line
       type(view_t) :: view
+      real(wp), allocatable :: factors(:)
+      real(wp) :: range(2)
+      integer :: f, p, k, place
 
       allocate (figures(0))
-      call set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
-      call add_quantities(figures, table, view, 'overview', 'Overview', [toe, camber, lateral, longitudinal])
-      call add_quantities(figures, table, view, 'toe', 'Toe', [toe])
-      call add_quantities(figures, table, view, 'camber', 'Camber', [camber])
-      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', [lateral])
-      call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
-         [longitudinal])
-      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', [caster, inclination, scrub, trail])
-      call add_springs(figures, table, view)
-      call add_bushings(figures, table, view, elements)
-      if (present(has_points)) then
-         if (has_points) call show_points(figures)
-      end if
-   end subroutine run_figures
-
-   !> Draws every state as a separate point.
-   pure subroutine show_points(figures)
-      type(figure_t), intent(inout) :: figures(:)
-      integer :: f, p, k
-
-      do f = 1, size(figures)
-         do p = 1, size(figures(f)%panels)
-            do k = 1, size(figures(f)%panels(p)%curves)
-               if (figures(f)%panels(p)%curves(k)%style /= 'mark') figures(f)%panels(p)%curves(k)%style = 'points'
-            end do
-         end do
-      end do
-   end subroutine show_points
-
-   !> Finds the wheels and the abscissa.
-   pure subroutine set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: model, case_name, csv_name
-      type(view_t), intent(out) :: view
-      character(*), intent(in), optional :: abscissa, abscissa_label
-      real(wp) :: range(2)
-      integer :: k, place
-
       view%file = csv_name
       view%stem = base_name(csv_name)
       view%subtitle = trim(model)//', '//trim(case_name)
@@ -114,7 +66,8 @@ contains
          range = column_range(table, table%columns(k))
          if (ieee_is_finite(range(1))) view%is_travel = view%is_travel .or. range(2) - range(1) >= least_stroke
       end do
-      view%has_design = any(abs(finite_only(column(table, 'factor'))) <= 0.0_wp)
+      factors = column(table, 'factor')
+      view%has_design = any(abs(pack(factors, ieee_is_finite(factors))) <= 0.0_wp)
       if (present(abscissa)) then
          view%is_travel = .false.
          view%abscissa = trim(abscissa)
@@ -127,7 +80,29 @@ contains
          view%label = 'load factor'
       end if
       if (present(abscissa_label)) view%label = abscissa_label
-   end subroutine set_view
+      call add_quantities(figures, table, view, 'overview', 'Overview', wheel_quantities(:4))
+      call add_quantities(figures, table, view, 'toe', 'Toe', wheel_quantities(1:1))
+      call add_quantities(figures, table, view, 'camber', 'Camber', wheel_quantities(2:2))
+      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', &
+         wheel_quantities(3:3))
+      call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
+         wheel_quantities(4:4))
+      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', wheel_quantities(5:))
+      call add_springs(figures, table, view)
+      call add_bushings(figures, table, view, elements)
+      if (present(has_points)) then
+         if (.not. has_points) return
+         do f = 1, size(figures)
+            do p = 1, size(figures(f)%panels)
+               associate (curves => figures(f)%panels(p)%curves)
+                  do k = 1, size(curves)
+                     if (curves(k)%style /= 'mark') curves(k)%style = 'points'
+                  end do
+               end associate
+            end do
+         end do
+      end if
+   end subroutine run_figures
 
    !> One figure with a panel for every quantity that has a column.
    pure subroutine add_quantities(figures, table, view, name, title, quantities)
@@ -164,7 +139,7 @@ contains
       end do
       if (size(figure%panels) == 0) return
       if (size(figure%panels) == 1 .and. size(quantities) > 1) return    ! a single quantity already has its own figure
-      call append(figures, figure)
+      figures = [figures, figure]
    end subroutine add_quantities
 
    !> Force of every spring, damper and stop: columns <name>_force_n beside <name>_length_mm or <name>_gap_mm.
@@ -192,7 +167,7 @@ contains
       if (size(panel%curves) == 0) return
       call mark_design(panel, view)
       call add_panel(figure, panel)
-      call append(figures, figure)
+      figures = [figures, figure]
    end subroutine add_springs
 
    !> Magnitude of the force of every bushing; of many bushings those with the largest force.
@@ -233,21 +208,14 @@ contains
       do k = 1, size(names)
          if (.not. peak(k) > least) cycle
          call add_curve(panel, new_curve(view%file, abscissa_of(view, names(k)), &
-            '(sqrt('//square(trim(names(k))//'_fx_n')//' + '//square(trim(names(k))//'_fy_n')//' + '// &
-            square(trim(names(k))//'_fz_n')//'))', trim(names(k))))
+            '(sqrt(column("'//trim(names(k))//'_fx_n")**2 + column("'//trim(names(k))//'_fy_n")**2 + column("'// &
+            trim(names(k))//'_fz_n")**2))', trim(names(k))))
       end do
       if (size(panel%curves) == 0) return
       panel%least_y = [0.0_wp, 1.0_wp]
       call add_panel(figure, panel)
-      call append(figures, figure)
+      figures = [figures, figure]
    end subroutine add_bushings
-
-   !> The square of a column as a gnuplot expression.
-   pure function square(name) result(expression)
-      character(*), intent(in) :: name
-      character(:), allocatable :: expression
-      expression = 'column("'//name//'")**2'
-   end function square
 
    !> Largest magnitude of an element's force [N]; 0 when a component is missing.
    pure real(wp) function force_peak(table, name)
@@ -306,25 +274,5 @@ contains
          if (index(element, trim(view%wheels(k))) == 1) name = trim(view%wheels(k))//travel
       end do
    end function abscissa_of
-
-   !> The finite values.
-   pure function finite_only(values) result(numbers)
-      real(wp), intent(in) :: values(:)
-      real(wp), allocatable :: numbers(:)
-      numbers = pack(values, ieee_is_finite(values))
-   end function finite_only
-
-   pure subroutine append(figures, figure)
-      type(figure_t), allocatable, intent(inout) :: figures(:)
-      type(figure_t), intent(in) :: figure
-      type(figure_t), allocatable :: grown(:)
-      integer :: n
-
-      n = size(figures)
-      allocate (grown(n + 1))
-      grown(:n) = figures
-      grown(n + 1) = figure
-      call move_alloc(grown, figures)
-   end subroutine append
 
 end module ek_plot

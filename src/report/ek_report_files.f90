@@ -7,6 +7,7 @@ module ek_report_files
    use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
    use ek_csv, only: read_csv
    use ek_decimal, only: get_decimal
+   use ek_gnuplot_text, only: one_line
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, test_gradients
@@ -118,12 +119,8 @@ contains
    !> Whether a name is a plain file name: no folder, not hidden, no control character.
    pure logical function is_file_name(name)
       character(*), intent(in) :: name
-      integer :: k
-
-      is_file_name = len_trim(name) > 0 .and. scan(name, '/') == 0 .and. index(name, '.') /= 1 .and. index(name, '-') /= 1
-      do k = 1, len(name)
-         is_file_name = is_file_name .and. iachar(name(k:k)) >= 32 .and. iachar(name(k:k)) /= 127
-      end do
+      is_file_name = len_trim(name) > 0 .and. scan(name, '/') == 0 .and. index(name, '.') /= 1 .and. index(name, '-') /= 1 &
+         .and. one_line(name) == name
    end function is_file_name
 
    !> Reads a table and the description of its test in the header.
@@ -165,12 +162,7 @@ contains
       character(*), intent(in) :: path
       character(:), allocatable :: label
 
-      label = path
-      do while (len(label) > 1)
-         if (label(len(label):) /= '/') exit
-         label = label(:len(label) - 1)
-      end do
-      label = base_name(label)
+      label = base_name(path(:min(len(path), max(1, verify(path, '/', back=.true.)))))
    end function label_of
 
 end module ek_report_files

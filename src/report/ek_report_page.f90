@@ -4,70 +4,82 @@ module ek_report_page
    use ek_error, only: error_t, message_list_t
    use ek_text, only: plural
    use ek_file, only: read_whole, join_path, file_exists
+   use ek_path, only: path_t
    use ek_test_result, only: test_result_t, design_row, converged_rows, wheel_word
    use ek_chart, only: chart_t, picture_file
    use ek_chart_set, only: chart_set_t
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts, &
-      begin_table, begin_row, add_cell, end_row, add_group, end_table, begin_charts, add_chart_picture, end_charts, &
+      begin_table, begin_row, add_cell, end_row, add_group, end_table, begin_charts, end_charts, &
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
-   public :: report_page, add_chart_set
+   public :: report_t, add_fact, report_page, add_chart_set
+
+   !> A report: its tests, and what its page shows besides.
+   type :: report_t
+      character(:), allocatable :: title, folder
+      type(message_list_t) :: names, values            !! facts for the head of the page
+      type(message_list_t) :: warnings                 !! on the model as a whole
+      type(test_result_t), allocatable :: tests(:)
+      type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if it was not run
+      type(chart_set_t), allocatable :: sets(:)        !! charts of each test
+      type(gradient_t), allocatable :: gradients(:)
+      logical :: has_pictures = .false., has_animation = .false.     !! those in the folder belong to this report
+   end type report_t
 
 contains
 
+   !> A fact for the head of the page.
+   subroutine add_fact(report, name, value)
+      type(report_t), intent(inout) :: report
+      character(*), intent(in) :: name, value
+      call report%names%add(name)
+      call report%values%add(value)
+   end subroutine add_fact
+
    !> The text of report.html. Pictures are read from the folder if they belong to this report; missing ones are
    !> omitted.
-   function report_page(title, subtitle, names, values, warnings, tests, sets, gradients, folder, has_pictures, &
-      has_animation) result(text)
-      character(*), intent(in) :: title, subtitle
-      type(message_list_t), intent(in) :: names, values      !! facts for the head
-      type(message_list_t), intent(in) :: warnings           !! on the model as a whole
-      type(test_result_t), intent(in) :: tests(:)
-      type(chart_set_t), intent(in) :: sets(:)
-      type(gradient_t), intent(in) :: gradients(:)
-      character(*), intent(in) :: folder                     !! of the report
-      logical, intent(in) :: has_pictures, has_animation     !! those in the folder belong to this report
+   function report_page(report) result(text)
+      type(report_t), intent(in) :: report
       character(:), allocatable :: text
       type(page_t) :: page
       integer :: k
 
-      call begin_page(page, title, subtitle)
-      call add_facts(page, names, values)
-      call add_warnings(page, 'Warnings', warnings)
-      if (has_pictures) call add_scene(page, title, folder, has_animation)
-      call add_key_numbers(page, tests, gradients)
-      do k = 1, size(tests)
-         call add_test(page, tests(k), sets(k)%charts, gradients, folder, has_pictures)
+      call begin_page(page, report%title, 'Kinematics and compliance report')
+      call add_facts(page, report%names, report%values)
+      call add_warnings(page, 'Warnings', report%warnings)
+      if (report%has_pictures) call add_scene(page, report)
+      call add_key_numbers(page, report%tests, report%gradients)
+      do k = 1, size(report%tests)
+         call add_test(page, report, report%tests(k), report%sets(k)%charts)
       end do
       text = page_text(page)
    end function report_page
 
    !> The picture in space, and the animation.
-   subroutine add_scene(page, title, folder, has_animation)
+   subroutine add_scene(page, report)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: title, folder
-      logical, intent(in) :: has_animation
+      type(report_t), intent(in) :: report
       type(error_t), allocatable :: error
       character(:), allocatable :: bytes
       logical :: has_svg, has_gif
 
-      has_svg = file_exists(join_path(folder, 'picture.svg'))
-      has_gif = has_animation
-      if (has_gif) has_gif = file_exists(join_path(folder, 'animation.gif'))
+      has_svg = file_exists(join_path(report%folder, 'picture.svg'))
+      has_gif = report%has_animation
+      if (has_gif) has_gif = file_exists(join_path(report%folder, 'animation.gif'))
       if (.not. (has_svg .or. has_gif)) return
       call begin_section(page, 'picture', 'The suspension')
       if (has_svg) then
-         call read_whole(join_path(folder, 'picture.svg'), bytes, error)
-         if (.not. allocated(error)) call add_picture(page, bytes, 'The suspension in space: '//title, &
+         call read_whole(join_path(report%folder, 'picture.svg'), bytes, error)
+         if (.not. allocated(error)) call add_picture(page, bytes, 'The suspension in space: '//report%title, &
             'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
             'between their attachment points.')
       end if
       if (has_gif) then
-         call read_whole(join_path(folder, 'animation.gif'), bytes, error)
-         if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//title, '')
+         call read_whole(join_path(report%folder, 'animation.gif'), bytes, error)
+         if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//report%title, '')
       end if
       call end_section(page)
    end subroutine add_scene
@@ -84,25 +96,16 @@ contains
 
       call key_numbers(tests, gradients, numbers)
       if (size(numbers) == 0) return
-      has_sides = .false.
-      do k = 1, size(tests)
-         has_sides = has_sides .or. size(tests(k)%prefixes) > 1
-      end do
+      has_sides = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       call begin_section(page, 'key-numbers', 'Key numbers')
-      if (has_sides) then
-         call begin_table(page, [character(9) :: 'Quantity', '>Left', '>Right', 'Unit', 'Sign'])
-      else
-         call begin_table(page, [character(9) :: 'Quantity', '>Value', 'Unit', 'Sign'])
-      end if
+      call begin_values(page, has_sides, [character(8) :: 'Unit', 'Sign'])
       group = ''
       do k = 1, size(numbers)
          if (numbers(k)%group /= group) then
             group = numbers(k)%group
             call add_group(page, group)
          end if
-         call begin_row(page)
-         call add_cell(page, numbers(k)%quantity)
-         call add_values(page, has_sides, numbers(k)%is_of_axle, numbers(k)%left, numbers(k)%right)
+         call add_values(page, numbers(k)%quantity, has_sides, numbers(k)%is_of_axle, numbers(k)%left, numbers(k)%right)
          call add_cell(page, numbers(k)%unit)
          call add_cell(page, numbers(k)%sign, 's')
          call end_row(page)
@@ -111,12 +114,28 @@ contains
       call end_section(page)
    end subroutine add_key_numbers
 
-   !> One or two cells of numbers; a value of the axle is in the first.
-   subroutine add_values(page, has_sides, is_of_axle, left, right)
+   !> Begins a table of quantities with one or two columns of values.
+   subroutine begin_values(page, has_sides, others)
       type(page_t), intent(inout) :: page
+      logical, intent(in) :: has_sides
+      character(8), intent(in) :: others(:)         !! the other columns
+
+      if (has_sides) then
+         call begin_table(page, [character(8) :: 'Quantity', '>Left', '>Right', others])
+      else
+         call begin_table(page, [character(8) :: 'Quantity', '>Value', others])
+      end if
+   end subroutine begin_values
+
+   !> Begins a row with a quantity and one or two cells of numbers; a value of the axle is in the first.
+   subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: quantity
       logical, intent(in) :: has_sides, is_of_axle
       real(wp), intent(in) :: left, right
 
+      call begin_row(page)
+      call add_cell(page, quantity)
       call add_cell(page, page_number(left), 'n')
       if (.not. has_sides) return
       if (is_of_axle) then
@@ -127,15 +146,12 @@ contains
    end subroutine add_values
 
    !> Section of a test: warnings, charts, gradients.
-   subroutine add_test(page, test, charts, gradients, folder, has_pictures)
+   subroutine add_test(page, report, test, charts)
       type(page_t), intent(inout) :: page
+      type(report_t), intent(in) :: report
       type(test_result_t), intent(in) :: test
       type(chart_t), intent(in) :: charts(:)
-      type(gradient_t), intent(in) :: gradients(:)
-      character(*), intent(in) :: folder
-      logical, intent(in) :: has_pictures
       character(16), allocatable :: names(:)
-      type(message_list_t) :: words
       integer :: k, found
 
       call begin_section(page, 'test-'//test%name, test%title)
@@ -151,8 +167,8 @@ contains
          end do
          call add_legend(page, names, design_row(test%table) > 0, test%kind == 'table')
       end if
-      if (has_pictures) call add_chart_set(page, charts, folder)
-      call add_gradients(page, test, gradients, words)
+      if (report%has_pictures) call add_chart_set(page, charts, report%folder)
+      call add_gradients(page, test%name, report%gradients)
       call end_section(page)
    end subroutine add_test
 
@@ -171,46 +187,33 @@ contains
          if (.not. file_exists(path)) cycle
          call read_whole(path, svg, error)
          if (allocated(error)) cycle
-         call add_chart_picture(page, svg, charts(k)%title//', '//charts(k)%y_label//', over '//charts(k)%x_label)
+         call add_picture(page, svg, charts(k)%title//', '//charts(k)%y_label//', over '//charts(k)%x_label)
       end do
       call end_charts(page)
    end subroutine add_chart_set
 
    !> The gradients of a test; left and right in one row.
-   subroutine add_gradients(page, test, gradients, words)
+   subroutine add_gradients(page, test, list)
       type(page_t), intent(inout) :: page
-      type(test_result_t), intent(in) :: test
-      type(gradient_t), intent(in) :: gradients(:)
-      type(message_list_t), intent(inout) :: words        !! why some have no value
-      logical :: has_sides, is_axle, has_twin
+      character(*), intent(in) :: test                    !! its name
+      type(gradient_t), intent(in) :: list(:)             !! of all tests
+      type(gradient_t), allocatable :: gradients(:)
+      type(message_list_t) :: unknown                     ! why some have no value
+      logical :: has_sides, has_twin
       integer :: k
 
-      has_sides = .false.
-      do k = 1, size(gradients)
-         if (gradients(k)%test == test%name) has_sides = has_sides .or. len(gradients(k)%side) > 0
-      end do
-      if (.not. any([(gradients(k)%test == test%name, k=1, size(gradients))])) return
+      gradients = pack(list, [(list(k)%test == test, k=1, size(list))])
+      if (size(gradients) == 0) return
+      has_sides = any([(len(gradients(k)%side) > 0, k=1, size(gradients))])
       call add_heading(page, 'Gradients: least-squares slopes around design')
-      if (has_sides) then
-         call begin_table(page, [character(9) :: 'Quantity', '>Left', '>Right', 'Unit', 'Window', 'Sign'])
-      else
-         call begin_table(page, [character(9) :: 'Quantity', '>Value', 'Unit', 'Window', 'Sign'])
-      end if
+      call begin_values(page, has_sides, [character(8) :: 'Unit', 'Window', 'Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))
-            if (g%test /= test%name) cycle
-            if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call words%add(noted(gradients(k:))//': '//g%note)
+            if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call unknown%add(noted(gradients(k:))//': '//g%note)
             if (g%side == 'right') cycle                   ! in the row of its left side
-            is_axle = len(g%side) == 0 .and. has_sides
             has_twin = .false.
             if (k < size(gradients)) has_twin = gradients(k + 1)%side == 'right' .and. gradients(k + 1)%quantity == g%quantity
-            call begin_row(page)
-            call add_cell(page, g%quantity)
-            if (has_twin) then
-               call add_values(page, has_sides, is_axle, g%value, gradients(k + 1)%value)
-            else
-               call add_values(page, has_sides, .true., g%value, g%value)
-            end if
+            call add_values(page, g%quantity, has_sides, .not. has_twin, g%value, gradients(min(k + 1, size(gradients)))%value)
             call add_cell(page, g%unit)
             call add_cell(page, g%window)
             call add_cell(page, g%sign, 's')
@@ -218,23 +221,19 @@ contains
          end associate
       end do
       call end_table(page)
-      call add_warnings(page, 'Gradients without a value', words)
+      call add_warnings(page, 'Gradients without a value', unknown)
    end subroutine add_gradients
 
-   !> Whether the last gradient of a list is the first of its test and side with its note.
+   !> Whether the last gradient of a list is the first of its side with its note.
    pure logical function is_first_note(list)
       type(gradient_t), intent(in) :: list(:)
       integer :: k, n
 
       n = size(list)
-      is_first_note = .true.
-      do k = 1, n - 1
-         if (list(k)%test == list(n)%test .and. list(k)%side == list(n)%side .and. list(k)%note == list(n)%note) &
-            is_first_note = .false.
-      end do
+      is_first_note = .not. any([(list(k)%side == list(n)%side .and. list(k)%note == list(n)%note, k=1, n - 1)])
    end function is_first_note
 
-   !> 'right bump toe, bump camber': all gradients of a list with the note, test and side of the first.
+   !> 'right bump toe, bump camber': all gradients of a list with the note and side of the first.
    pure function noted(list) result(text)
       type(gradient_t), intent(in) :: list(:)
       character(:), allocatable :: text
@@ -243,8 +242,7 @@ contains
       text = list(1)%quantity
       if (len(list(1)%side) > 0) text = list(1)%side//' '//text
       do k = 2, size(list)
-         if (list(k)%test == list(1)%test .and. list(k)%side == list(1)%side .and. list(k)%note == list(1)%note) &
-            text = text//', '//list(k)%quantity
+         if (list(k)%side == list(1)%side .and. list(k)%note == list(1)%note) text = text//', '//list(k)%quantity
       end do
    end function noted
 

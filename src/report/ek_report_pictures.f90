@@ -8,37 +8,29 @@ module ek_report_pictures
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
-   use ek_test_result, only: test_result_t
    use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
+   use ek_chart_set, only: gather_charts, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_scene, only: scene_t, line_bump, line_rebound
    use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
+   use ek_report_page, only: report_t
    use ek_picture, only: add_solid, add_ghost, add_ground, add_names
    implicit none(type, external)
    private
-   public :: film_t, draw_pictures
+   public :: draw_pictures
 
    integer, parameter :: most_frames = 40        !! of an animation
 
-   !> The states of a test, for pictures.
-   type :: film_t
-      type(path_t) :: path
-      logical :: is_there = .false.      !! false: the test was not run
-   end type film_t
+   character(16), parameter :: vertical_kinds(3) = [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']
 
 contains
 
    !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and the charts
    !> in figures/.
-   subroutine draw_pictures(wants_plots, wants_animation, suspension, tests, films, sets, folder, has_animation, message, error)
-      logical, intent(in) :: wants_plots, wants_animation
+   subroutine draw_pictures(report, suspension, wants_plots, wants_animation, message, error)
+      type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves
       type(suspension_t), intent(in) :: suspension
-      type(test_result_t), intent(in) :: tests(:)
-      type(film_t), intent(in) :: films(:)                   !! one per test
-      type(chart_set_t), intent(in) :: sets(:)               !! one per test
-      character(*), intent(in) :: folder
-      logical, intent(out) :: has_animation                  !! it was requested, and something moves
+      logical, intent(in) :: wants_plots, wants_animation
       character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
       type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
       type(message_list_t) :: scripts, pictures
@@ -46,20 +38,19 @@ contains
       type(camera_t) :: camera
 
       message = ''
-      has_animation = .false.
       if (.not. wants_plots) then
          ! pictures of an earlier report do not belong to this page
-         call remove_file(join_path(folder, 'picture.svg'))
-         call remove_file(join_path(folder, 'picture.png'))
-         call remove_file(join_path(folder, 'animation.gif'))
-         call remove_drawn(sets, folder)
+         call remove_file(join_path(report%folder, 'picture.svg'))
+         call remove_file(join_path(report%folder, 'picture.png'))
+         call remove_file(join_path(report%folder, 'animation.gif'))
+         call remove_drawn(report%sets, report%folder)
          message = 'switched off by --no-plots'
          return
       end if
-      call gather_charts(sets, charts)
-      call write_whole(join_path(folder, 'figures/charts.gp'), charts_script(charts), error, can_be_redrawn=.true.)
+      call gather_charts(report%sets, charts)
+      call write_whole(join_path(report%folder, 'figures/charts.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return
-      call write_picture(suspension, tests, films, folder, camera, error)
+      call write_picture(report, suspension, camera, error)
       if (allocated(error)) return
       call scripts%add('charts.gp')
       call scripts%add('picture.gp')
@@ -67,59 +58,52 @@ contains
       call pictures%add('../picture.svg')
       call pictures%add('../picture.png')
       if (wants_animation) then
-         call write_animation(suspension, tests, films, folder, camera, has_animation, error)
+         call write_animation(report, suspension, camera, error)
          if (allocated(error)) return
-         if (has_animation) then
+         if (report%has_animation) then
             call scripts%add('animation.gp')
             call pictures%add('../animation.gif')
          end if
       end if
-      call run_gnuplot(scripts, pictures, join_path(folder, 'figures'), message, error)
+      call run_gnuplot(scripts, pictures, join_path(report%folder, 'figures'), message, error)
    end subroutine draw_pictures
 
    !> Design as solid parts, the ends of the travel as lines.
-   subroutine write_picture(suspension, tests, films, folder, camera, error)
+   subroutine write_picture(report, suspension, camera, error)
+      type(report_t), intent(in) :: report
       type(suspension_t), intent(in) :: suspension
-      type(test_result_t), intent(in) :: tests(:)
-      type(film_t), intent(in) :: films(:)
-      character(*), intent(in) :: folder
       type(camera_t), intent(out) :: camera
       type(error_t), allocatable, intent(out) :: error
       type(scene_t) :: scenes(1)
       type(state_t) :: state
-      integer :: film, last
+      integer :: test
 
       camera = view_of(suspension)
       state = design_state(suspension)
-      call add_solid(scenes(1), suspension, state)
-      call add_ground(scenes(1), suspension, state)
+      call add_solid(scenes(1), suspension, state, is_plain=.false.)
+      call add_ground(scenes(1), suspension, state, is_plain=.false.)
       call add_names(scenes(1), suspension, state)
-      film = moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel'])
-      if (film > 0) then
-         associate (path => films(film)%path)
-            last = findloc(path%is_reached, .true., dim=1)
-            call look_at(path, last, suspension, state)
+      test = moving_test(report, vertical_kinds)
+      if (test > 0) then
+         associate (path => report%paths(test))
+            call get_state(path, findloc(path%is_reached, .true., dim=1), suspension, state)
             call add_ghost(scenes(1), suspension, state, line_rebound)
             scenes(1)%rebound = end_name(suspension, state)
-            last = findloc(path%is_reached, .true., dim=1, back=.true.)
-            call look_at(path, last, suspension, state)
+            call get_state(path, findloc(path%is_reached, .true., dim=1, back=.true.), suspension, state)
             call add_ghost(scenes(1), suspension, state, line_bump)
             scenes(1)%bump = end_name(suspension, state)
          end associate
       end if
       call fit_camera(camera, scenes, 3.0_wp, 2.0_wp, footer=0.11_wp)
-      call write_whole(join_path(folder, 'figures/picture.gp'), scene_script(scenes(1), camera, '../picture', &
+      call write_whole(join_path(report%folder, 'figures/picture.gp'), scene_script(scenes(1), camera, '../picture', &
          suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
    !> There and back through the travel, then through the steering.
-   subroutine write_animation(suspension, tests, films, folder, camera, is_there, error)
+   subroutine write_animation(report, suspension, camera, error)
+      type(report_t), intent(inout) :: report                !! has_animation: something moves
       type(suspension_t), intent(in) :: suspension
-      type(test_result_t), intent(in) :: tests(:)
-      type(film_t), intent(in) :: films(:)
-      character(*), intent(in) :: folder
       type(camera_t), intent(in) :: camera
-      logical, intent(out) :: is_there                       !! false: nothing moves
       type(error_t), allocatable, intent(out) :: error
       type(scene_t), allocatable :: scenes(:)
       character(64), allocatable :: captions(:)
@@ -127,53 +111,51 @@ contains
       type(state_t) :: state
       integer :: chosen(2), frames, each, k, f, n, at, first, last
 
-      chosen = [moving_film(tests, films, [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']), &
-         moving_film(tests, films, [character(16) :: 'steering'])]
+      chosen = [moving_test(report, vertical_kinds), moving_test(report, [character(16) :: 'steering'])]
       frames = most_frames/max(1, count(chosen > 0))
       allocate (scenes(frames*count(chosen > 0)), captions(frames*count(chosen > 0)))
-      is_there = size(scenes) > 0
-      if (.not. is_there) return
+      report%has_animation = size(scenes) > 0
+      if (.not. report%has_animation) return
       n = 0
       do f = 1, 2
          if (chosen(f) == 0) cycle
-         associate (path => films(chosen(f))%path)
+         associate (path => report%paths(chosen(f)))
             first = findloc(path%is_reached, .true., dim=1)
             last = findloc(path%is_reached, .true., dim=1, back=.true.)
             each = frames/2
             do k = 0, frames - 1
                at = first + nint(real(last - first, wp)*(1 - cos(acos(-1.0_wp)*k/each))/2)   ! slow at the ends
-               call look_at(path, at, suspension, state)
+               call get_state(path, at, suspension, state)
                n = n + 1
                call add_solid(scenes(n), suspension, state, is_plain=.true.)
                call add_ground(scenes(n), suspension, design_state(suspension), is_plain=.true.)
-               captions(n) = tests(chosen(f))%title
+               captions(n) = report%tests(chosen(f))%title
             end do
          end associate
       end do
       fitted = camera
       call fit_camera(fitted, scenes, 4.0_wp, 3.0_wp, footer=0.06_wp)
-      call write_whole(join_path(folder, 'figures/animation.gp'), animation_script(scenes, captions, fitted, '../animation', &
-         suspension%name), error, can_be_redrawn=.true.)
+      call write_whole(join_path(report%folder, 'figures/animation.gp'), &
+         animation_script(scenes, captions, fitted, '../animation', suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
 
    !> The test of the first of the wanted kinds with more than one state; 0 if there is none.
-   pure integer function moving_film(tests, films, kinds) result(film)
-      type(test_result_t), intent(in) :: tests(:)
-      type(film_t), intent(in) :: films(:)
+   pure integer function moving_test(report, kinds) result(test)
+      type(report_t), intent(in) :: report
       character(*), intent(in) :: kinds(:)
       integer :: kind
 
       do kind = 1, size(kinds)
-         do film = 1, size(tests)
-            if (.not. films(film)%is_there .or. tests(film)%kind /= kinds(kind)) cycle
-            if (count(films(film)%path%is_reached) > 1) return
+         do test = 1, size(report%tests)
+            if (.not. report%tests(test)%is_run .or. report%tests(test)%kind /= kinds(kind)) cycle
+            if (count(report%paths(test)%is_reached) > 1) return
          end do
       end do
-      film = 0
-   end function moving_film
+      test = 0
+   end function moving_test
 
    !> State k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
-   subroutine look_at(path, k, suspension, state)
+   subroutine get_state(path, k, suspension, state)
       type(path_t), intent(in) :: path
       integer, intent(in) :: k
       type(suspension_t), intent(in) :: suspension
@@ -181,7 +163,7 @@ contains
 
       state = design_state(suspension)
       call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
-   end subroutine look_at
+   end subroutine get_state
 
    !> Label of an end of the travel: 'bump, +80 mm', from the height of the first wheel's centre over design.
    function end_name(suspension, state) result(name)

@@ -6,14 +6,13 @@ module ek_scene
    use ek_units, only: pi
    implicit none(type, external)
    private
-   public :: scene_t, run_t, words_t, add_face, add_line, add_words, add_tube, add_surface, add_coil, add_ball
+   public :: scene_t, run_t, add_face, add_line, add_label, add_tube, add_surface, add_coil, add_ball
    public :: part_ground, part_tyre, part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, &
       part_ball, part_mount, parts, line_bump, line_rebound, line_ground, line_kinds
 
    integer, parameter :: part_ground = 1, part_tyre = 2, part_plate = 3, part_carrier = 4, part_arm = 5, part_rod = 6, &
       part_spring = 7, part_damper = 8, part_bushing = 9, part_ball = 10, part_mount = 11, parts = 11
    integer, parameter :: line_bump = 1, line_rebound = 2, line_ground = 3, line_kinds = 3
-
 
    !> Faces and lines as runs of vertices.
    type :: run_t
@@ -22,16 +21,15 @@ module ek_scene
       integer :: runs = 0, used = 0
    end type run_t
 
-   type :: words_t
+   type :: label_t
       real(wp) :: at(3) = 0.0_wp
-      real(wp) :: aside = 0.0_wp               !! offset to the right, in characters
+      real(wp) :: aside = 0.6_wp               !! offset to the right, in characters
       character(:), allocatable :: text
-   end type words_t
+   end type label_t
 
    type :: scene_t
       type(run_t) :: faces, lines
-      type(words_t), allocatable :: words(:)
-      integer :: labels = 0
+      type(label_t), allocatable :: labels(:)
       character(:), allocatable :: bump, rebound   !! labels of the thin lines; unallocated: none
    end type scene_t
 
@@ -87,25 +85,19 @@ contains
    end subroutine add_run
 
    !> A small label at a point.
-   pure subroutine add_words(scene, at, text, aside)
+   pure subroutine add_label(scene, at, text, aside)
       type(scene_t), intent(inout) :: scene
       real(wp), intent(in) :: at(3)
       character(*), intent(in) :: text
       real(wp), intent(in), optional :: aside    !! offset to the right of the point, in characters; absent: 0.6
-      type(words_t), allocatable :: grown(:)
+      type(label_t) :: label
 
-      if (.not. allocated(scene%words)) allocate (scene%words(16))
-      if (scene%labels == size(scene%words)) then
-         allocate (grown(2*scene%labels))
-         grown(:scene%labels) = scene%words
-         call move_alloc(grown, scene%words)
-      end if
-      scene%labels = scene%labels + 1
-      scene%words(scene%labels)%at = at
-      scene%words(scene%labels)%text = text
-      scene%words(scene%labels)%aside = 0.6_wp
-      if (present(aside)) scene%words(scene%labels)%aside = aside
-   end subroutine add_words
+      label%at = at
+      label%text = text
+      if (present(aside)) label%aside = aside
+      if (.not. allocated(scene%labels)) allocate (scene%labels(0))
+      scene%labels = [scene%labels, label]
+   end subroutine add_label
 
    !> A round bar from a to b, closed at both ends. Long bars are made of pieces, because faces are sorted by their middle.
    pure subroutine add_tube(scene, kind, a, b, radius, sides)
@@ -121,15 +113,8 @@ contains
       length = norm2(b - a)
       if (length < 1.0e-4_wp) return
       pieces = max(1, nint(length/piece))
-      allocate (along(pieces + 3), round(pieces + 3))
-      along(1) = 0.0_wp
-      along(pieces + 3) = length
-      round = radius
-      round(1) = 0.0_wp
-      round(pieces + 3) = 0.0_wp
-      do k = 0, pieces
-         along(k + 2) = length*k/pieces
-      end do
+      along = [0.0_wp, (length*k/pieces, k=0, pieces), length]
+      round = [0.0_wp, (radius, k=0, pieces), 0.0_wp]
       call add_surface(scene, kind, a, (b - a)/length, along, round, sides)
    end subroutine add_tube
 
@@ -145,7 +130,7 @@ contains
 
       n = 7
       if (present(sides)) n = sides
-      call across(axis, u, v)
+      call find_normals(axis, u, v)
       do k = 1, n
          now = u*cos(2*pi*(k - 1)/n) + v*sin(2*pi*(k - 1)/n)
          next = u*cos(2*pi*k/n) + v*sin(2*pi*k/n)
@@ -173,12 +158,12 @@ contains
       integer, intent(in) :: coils, per_coil
       integer, parameter :: sides = 4
       real(wp) :: axis(3), u(3), v(3), length, angle, share, out(3), centre(3), ring(3, sides), before(3, sides), face(3, 4)
-      integer :: k, n, l
+      integer :: k, n, l, next
 
       length = norm2(b - a)
       if (length < 1.0e-3_wp) return
       axis = (b - a)/length
-      call across(axis, u, v)
+      call find_normals(axis, u, v)
       n = coils*per_coil
       do k = 0, n
          angle = 2*pi*real(k, wp)/per_coil
@@ -190,10 +175,8 @@ contains
          end do
          if (k > 0) then
             do l = 1, sides
-               face(:, 1) = before(:, l)
-               face(:, 2) = before(:, modulo(l, sides) + 1)
-               face(:, 3) = ring(:, modulo(l, sides) + 1)
-               face(:, 4) = ring(:, l)
+               next = modulo(l, sides) + 1
+               face = reshape([before(:, l), before(:, next), ring(:, next), ring(:, l)], [3, 4])
                call add_face(scene, kind, face)
             end do
          end if
@@ -213,7 +196,7 @@ contains
    end subroutine add_ball
 
    !> Two unit vectors normal to an axis.
-   pure subroutine across(axis, u, v)
+   pure subroutine find_normals(axis, u, v)
       real(wp), intent(in) :: axis(3)
       real(wp), intent(out) :: u(3), v(3)
       integer :: least
@@ -224,6 +207,6 @@ contains
       u = u - axis*dot_product(axis, u)
       u = u/norm2(u)
       v = [axis(2)*u(3) - axis(3)*u(2), axis(3)*u(1) - axis(1)*u(3), axis(1)*u(2) - axis(2)*u(1)]
-   end subroutine across
+   end subroutine find_normals
 
 end module ek_scene

@@ -8,7 +8,7 @@ module ek_scene_script
    use ek_units, only: degree, millimetre
    use ek_text, only: str
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: put_decimal, longest_decimal
+   use ek_decimal, only: decimal
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    use ek_scene, only: scene_t, run_t, part_tyre, line_bump, line_rebound, parts, line_kinds
    implicit none(type, external)
@@ -44,7 +44,7 @@ contains
       real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, font sizes 12 to 13
       real(wp), parameter :: above_middle = 0.014_wp   ! offset of the centre in picture heights; measured likewise
       real(wp) :: right(3), up(3), low(2), high(2), p(2), scale
-      integer :: s, k
+      integer :: s
 
       right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
       up = [-sin(camera%turn*degree)*cos(camera%tilt*degree), cos(camera%turn*degree)*cos(camera%tilt*degree), &
@@ -53,12 +53,8 @@ contains
       high = -huge(1.0_wp)
       camera%span = 0.1_wp
       do s = 1, size(scenes)
-         do k = 1, scenes(s)%faces%used
-            call include(scenes(s)%faces%at(:, k))
-         end do
-         do k = 1, scenes(s)%lines%used
-            call include(scenes(s)%lines%at(:, k))
-         end do
+         call include(scenes(s)%faces)
+         call include(scenes(s)%lines)
       end do
       if (low(1) > high(1)) return
       p = (low + high)/2
@@ -66,23 +62,30 @@ contains
       camera%centre = right*p(1) + up*(p(2) - (footer/2 - above_middle)*height/scale)
       ! the box must contain every vertex; gnuplot clips at the box
       do s = 1, size(scenes)
-         do k = 1, scenes(s)%faces%used
-            camera%span = max(camera%span, 2.1_wp*maxval(abs(scenes(s)%faces%at(:, k) - camera%centre)))
-         end do
-         do k = 1, scenes(s)%lines%used
-            camera%span = max(camera%span, 2.1_wp*maxval(abs(scenes(s)%lines%at(:, k) - camera%centre)))
-         end do
+         call enclose(scenes(s)%faces)
+         call enclose(scenes(s)%lines)
       end do
       camera%zoom = scale*camera%span/(box_share*min(width, height))
 
    contains
 
-      subroutine include(at)
-         real(wp), intent(in) :: at(3)
-         p = [dot_product(right, at), dot_product(up, at)]
-         low = min(low, p)
-         high = max(high, p)
+      subroutine include(list)
+         type(run_t), intent(in) :: list
+         integer :: k
+         do k = 1, list%used
+            p = [dot_product(right, list%at(:, k)), dot_product(up, list%at(:, k))]
+            low = min(low, p)
+            high = max(high, p)
+         end do
       end subroutine include
+
+      subroutine enclose(list)
+         type(run_t), intent(in) :: list
+         integer :: k
+         do k = 1, list%used
+            camera%span = max(camera%span, 2.1_wp*maxval(abs(list%at(:, k) - camera%centre)))
+         end do
+      end subroutine enclose
 
    end subroutine fit_camera
 
@@ -184,10 +187,10 @@ contains
       integer :: kind
 
       do kind = 1, parts
-         if (has_kind(scene%faces, kind)) call add_block(script, '$part'//str(kind), scene%faces, kind, .true.)
+         call add_block(script, '$part', scene%faces, kind, new_line('a'))   ! gnuplot needs two blank lines between polygons
       end do
       do kind = 1, line_kinds
-         if (has_kind(scene%lines, kind)) call add_block(script, '$line'//str(kind), scene%lines, kind, .false.)
+         call add_block(script, '$line', scene%lines, kind, '')
       end do
    end subroutine add_blocks
 
@@ -200,32 +203,24 @@ contains
       if (list%runs > 0) has_kind = any(list%kind(:list%runs) == kind)
    end function has_kind
 
-   !> The data of all faces or lines of a kind [mm].
-   pure subroutine add_block(script, name, list, kind, is_closed)
+   !> The data of all faces or lines of a kind [mm], to 0.1 mm.
+   pure subroutine add_block(script, name, list, kind, ending)
       type(buffer_t), intent(inout) :: script
-      character(*), intent(in) :: name
+      character(*), intent(in) :: name, ending       !! ending: after each face or line
       type(run_t), intent(in) :: list
       integer, intent(in) :: kind
-      logical, intent(in) :: is_closed       !! polygons: gnuplot needs two blank lines between them
-      character(3*longest_decimal + 3) :: line
-      integer :: k, vertex, axis, used
+      real(wp) :: at(3)
+      integer :: k, vertex
 
-      call script%line(name//' << EOD')
+      if (.not. has_kind(list, kind)) return
+      call script%line(name//str(kind)//' << EOD')
       do k = 1, list%runs
          if (list%kind(k) /= kind) cycle
          do vertex = list%first(k), list%first(k + 1) - 1
-            used = 0
-            do axis = 1, 3
-               if (axis > 1) then
-                  used = used + 1
-                  line(used:used) = ' '
-               end if
-               call put_decimal(anint(list%at(axis, vertex)*1.0e4_wp)/10.0_wp, line, used)   ! to 0.1 mm
-            end do
-            call script%line(line(:used))
+            at = anint(list%at(:, vertex)*1.0e4_wp)/10.0_wp
+            call script%line(decimal(at(1))//' '//decimal(at(2))//' '//decimal(at(3)))
          end do
-         call script%line('')
-         if (is_closed) call script%line('')
+         call script%line(ending)
       end do
       call script%line('EOD')
    end subroutine add_block
@@ -238,12 +233,15 @@ contains
       character(:), allocatable :: line
       integer :: kind, k
 
-      do k = 1, scene%labels
-         call script%line('set label '//str(100 + k)//' '//gnuplot_text(scene%words(k)%text)//' at '// &
-            str(scene%words(k)%at(1)/millimetre, 5)//', '//str(scene%words(k)%at(2)/millimetre, 5)//', '// &
-            str(scene%words(k)%at(3)/millimetre, 5)//" front font ',11' textcolor rgb '#30343B' offset "// &
-            str(scene%words(k)%aside, 3)//', 0.5')
-      end do
+      if (allocated(scene%labels)) then
+         do k = 1, size(scene%labels)
+            associate (label => scene%labels(k))
+               call script%line('set label '//str(100 + k)//' '//gnuplot_text(label%text)//' at '// &
+                  str(label%at(1)/millimetre, 5)//', '//str(label%at(2)/millimetre, 5)//', '//str(label%at(3)/millimetre, 5)// &
+                  " front font ',11' textcolor rgb '#30343B' offset "//str(label%aside, 3)//', 0.5')
+            end associate
+         end do
+      end if
       if (has_legend) call add_legend(script, scene)
       line = 'splot '
       do kind = 1, line_kinds
@@ -264,25 +262,25 @@ contains
    pure subroutine add_legend(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
-      integer, parameter :: in_a_row = 6
       integer :: kind, used
 
       used = 0
       do kind = 1, parts
          if (has_kind(scene%faces, kind) .and. len_trim(part_names(kind)) > 0) &
-            call add_entry(script, used, trim(part_names(kind)), key_colour(kind), 0.012_wp, in_a_row)
+            call add_entry(script, used, trim(part_names(kind)), &
+            merge('#CCCCCC', part_colours(kind), kind == part_tyre), 0.012_wp)     ! a tyre is transparent
       end do
-      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp, in_a_row)
-      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp, in_a_row)
+      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp)
+      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp)
    end subroutine add_legend
 
    !> One swatch and its label.
-   pure subroutine add_entry(script, used, name, colour, height, in_a_row)
+   pure subroutine add_entry(script, used, name, colour, height)
       type(buffer_t), intent(inout) :: script
       integer, intent(inout) :: used
       character(*), intent(in) :: name, colour
       real(wp), intent(in) :: height              !! of the swatch, share of the picture
-      integer, intent(in) :: in_a_row
+      integer, parameter :: in_a_row = 6
       character(:), allocatable :: x, y
 
       x = str(0.045_wp + 0.158_wp*modulo(used, in_a_row), 4)
@@ -294,25 +292,14 @@ contains
          " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
    end subroutine add_entry
 
-   !> The colour of a part on white.
-   pure function key_colour(kind) result(colour)
-      integer, intent(in) :: kind
-      character(7) :: colour
-      colour = part_colours(kind)
-      if (kind == part_tyre) colour = '#CCCCCC'
-   end function key_colour
-
    !> The gnuplot fill style for the faces of a kind.
-   pure function fill(kind) result(words)
+   pure function fill(kind) result(style)
       integer, intent(in) :: kind
-      character(:), allocatable :: words
+      character(:), allocatable :: style
 
-      if (part_solidity(kind) < 1.0_wp) then
-         words = 'fillstyle transparent solid '//str(part_solidity(kind), 2)//' noborder'
-      else
-         words = 'fillstyle solid noborder'
-      end if
-      words = words//" fillcolor rgb '"//part_colours(kind)//"'"
+      style = 'solid'
+      if (part_solidity(kind) < 1.0_wp) style = 'transparent solid '//str(part_solidity(kind), 2)
+      style = 'fillstyle '//style//" noborder fillcolor rgb '"//part_colours(kind)//"'"
    end function fill
 
 end module ek_scene_script

@@ -10,7 +10,7 @@ module ek_skeleton
    use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, carries_wheel, slides, same_point
+   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, same_point
 
    real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
    integer, parameter :: most_points = 64           !! of a body; further ones are omitted
@@ -37,9 +37,9 @@ contains
       integer, intent(in) :: body
       type(skeleton_t) :: skeleton
       type(measure_t) :: measure
-      logical :: is_in(most_points), is_rigid
+      logical :: is_in(most_points), is_rigid, is_spring
       real(wp) :: best, cost
-      integer :: k, from, to, best_from, best_to
+      integer :: k, n, from, to, best_from, best_to
 
       do k = 1, size(suspension%joints)
          select case (suspension%joints(k)%kind)
@@ -51,16 +51,13 @@ contains
          if (measure%body_i == body) call add_node(measure%arm_i, is_rigid .and. measure%body_j == 0, .false.)
          if (measure%body_j == body) call add_node(measure%arm_j, is_rigid .and. measure%body_i == 0, .false.)
       end do
-      do k = suspension%scalars + 1, size(suspension%elements)
+      do n = 1, size(suspension%elements)             ! those of one measure, springs and stops, last
+         k = modulo(n - 1 + suspension%scalars, size(suspension%elements)) + 1
          measure = suspension%elements(k)%measure
-         if (measure%body_i == body) call add_node(measure%arm_i, measure%body_j == 0, .false.)
-         if (measure%body_j == body) call add_node(measure%arm_j, measure%body_i == 0, .false.)
-      end do
-      do k = 1, suspension%scalars
-         measure = suspension%elements(k)%measure
-         if (measure%kind /= distance) cycle           ! it has no attachment point
-         if (measure%body_i == body) call add_node(measure%arm_i, .false., .true.)
-         if (measure%body_j == body) call add_node(measure%arm_j, .false., .true.)
+         is_spring = k <= suspension%scalars
+         if (is_spring .and. measure%kind /= distance) cycle           ! it has no attachment point
+         if (measure%body_i == body) call add_node(measure%arm_i, .not. is_spring .and. measure%body_j == 0, is_spring)
+         if (measure%body_j == body) call add_node(measure%arm_j, .not. is_spring .and. measure%body_i == 0, is_spring)
       end do
       do k = 1, size(suspension%wheels)
          if (suspension%wheels(k)%body == body) call add_node(suspension%wheels(k)%centre, .false., .false.)
@@ -141,16 +138,24 @@ contains
          at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
    end function place_of
 
+   !> The ends of bar k of a body's skeleton, global [m].
+   pure function bar_of(suspension, state, body, skeleton, k) result(ends)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(skeleton_t), intent(in) :: skeleton
+      integer, intent(in) :: body, k
+      real(wp) :: ends(3, 2)
+
+      ends(:, 1) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
+      ends(:, 2) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
+   end function bar_of
+
    !> Whether a body carries a wheel.
    pure logical function carries_wheel(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
-      integer :: k
 
-      carries_wheel = .false.
-      do k = 1, size(suspension%wheels)
-         carries_wheel = carries_wheel .or. suspension%wheels(k)%body == body
-      end do
+      carries_wheel = any(suspension%wheels%body == body)
    end function carries_wheel
 
    !> Whether a body slides along another moving body: the rod of a damper.

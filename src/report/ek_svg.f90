@@ -19,7 +19,9 @@ contains
       character(:), allocatable :: svg
       type(buffer_t) :: out
       character(:), allocatable :: box
-      integer :: at, last, finish, head
+      character(*), parameter :: omitted(5) = [character(7) :: '<script', '<title', '<desc', '<filter', '<!--']
+      character(*), parameter :: ends(5) = [character(9) :: '</script>', '</title>', '</desc>', '</filter>', '-->']
+      integer :: at, last, finish, head, k
 
       svg = ''
       at = index(text, '<svg')
@@ -40,16 +42,11 @@ contains
          end if
          call add_words(out, text(at:at + last - 2))
          at = at + last - 1
-         if (begins(text, at, '<script')) then
-            at = past(text, at, '</script>')
-         else if (begins(text, at, '<title')) then
-            at = past(text, at, '</title>')
-         else if (begins(text, at, '<desc')) then
-            at = past(text, at, '</desc>')
-         else if (begins(text, at, '<filter')) then
-            at = past(text, at, '</filter>')
-         else if (begins(text, at, '<!--')) then
-            at = past(text, at, '-->')
+         do k = 1, size(omitted)
+            if (begins(text, at, trim(omitted(k)))) exit
+         end do
+         if (k <= size(omitted)) then
+            at = past(text, at, trim(ends(k)))
          else
             last = past(text, at, '>') - 1
             if (begins(text, at, '<g ')) then            ! gnuplot writes many empty groups
@@ -94,7 +91,8 @@ contains
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: tag, prefix
       character(*), parameter :: defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
-      integer :: at, last
+      character(*), parameter :: ids(5) = [character(7) :: " id='", ' id="', "href='#", 'href="#', 'url(#']
+      integer :: at, last, k
 
       if (begins(tag, 1, '<g ') .and. index(tag, defaults) > 0) then
          at = index(tag, defaults)
@@ -118,18 +116,15 @@ contains
                end if
             end if
          end if
-         if (begins(tag, at, " id='") .or. begins(tag, at, ' id="')) then
-            call out%add(tag(at:at + 4)//prefix//'_')
-            at = at + 5
-         else if (begins(tag, at, "href='#") .or. begins(tag, at, 'href="#')) then
-            call out%add(tag(at:at + 6)//prefix//'_')
-            at = at + 7
+         do k = 1, size(ids)
+            if (begins(tag, at, trim(ids(k)))) exit
+         end do
+         if (k <= size(ids)) then
+            call out%add(trim(ids(k))//prefix//'_')
+            at = at + len_trim(ids(k))
          else if (begins(tag, at, ':Bold"')) then          ! the form in which gnuplot writes a bold font
             call out%add('" font-weight="600"')
             at = at + 6
-         else if (begins(tag, at, 'url(#')) then
-            call out%add('url(#'//prefix//'_')
-            at = at + 5
          else
             call out%add(tag(at:at))
             at = at + 1
@@ -176,9 +171,9 @@ contains
    !> The leading digits of a text such as '460px'.
    pure function number_of(text) result(digits)
       character(*), intent(in) :: text
-      character(:), allocatable :: digits
+      character(verify(text//' ', '0123456789.') - 1) :: digits
 
-      digits = text(:verify(text//' ', '0123456789.') - 1)
+      digits = text
    end function number_of
 
    !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file

@@ -134,25 +134,16 @@ contains
       character(*), intent(in) :: content
       type(sheet_t), intent(inout) :: sheet
       type(cells_t) :: cells
-      integer :: k
 
-      if (index(content, ';') > 0) then
-         sheet%separator = ';'
-      else if (index(content, tab) > 0) then
-         sheet%separator = tab
-      else if (index(content, ',') > 0) then
-         sheet%separator = ','
-      end if
+      if (index(content, ',') > 0) sheet%separator = ','
+      if (index(content, tab) > 0) sheet%separator = tab
+      if (index(content, ';') > 0) sheet%separator = ';'
       call cut(content, sheet%separator, cells)
       if (.not. cells%is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
       do while (cells%text(cells%count) == '')     ! separators behind the last head; the line has other characters too
          cells%count = cells%count - 1
       end do
-      deallocate (sheet%heads)
-      allocate (sheet%heads(cells%count))
-      do k = 1, cells%count
-         sheet%heads(k) = cells%text(k)
-      end do
+      sheet%heads = [character(name_length) :: cells%text(:cells%count)]
    end subroutine take_heads
 
    !> Commas that separate no columns may be decimal commas, unless there are decimal points too.

@@ -44,19 +44,13 @@ contains
       type(text_table_t), intent(inout) :: table
       integer, intent(in), optional :: line
       type(cell_t), allocatable :: grown(:, :)
-      integer, allocatable :: lines(:)
-      integer :: k, r
+      integer :: k
 
       if (table%rows == size(table%cells, 2)) then
-         allocate (grown(size(table%columns), 2*table%rows), lines(2*table%rows))
-         do r = 1, table%rows
-            do k = 1, size(table%columns)
-               call move_alloc(table%cells(k, r)%text, grown(k, r)%text)
-            end do
-         end do
-         lines(:table%rows) = table%lines
+         allocate (grown(size(table%columns), 2*table%rows))
+         grown(:, :table%rows) = table%cells
          call move_alloc(grown, table%cells)
-         call move_alloc(lines, table%lines)
+         table%lines = [table%lines, table%lines]
       end if
       table%rows = table%rows + 1
       table%lines(table%rows) = 0
@@ -176,10 +170,8 @@ contains
       integer, intent(inout) :: at, line
       type(cell_t), allocatable, intent(inout) :: fields(:)
       integer, intent(out) :: used
-      type(cell_t), allocatable :: grown(:)
       type(buffer_t) :: cell
       logical :: is_quoted
-      integer :: k
 
       used = 0
       is_quoted = .false.
@@ -220,13 +212,7 @@ contains
    contains
 
       subroutine end_cell()
-         if (used == size(fields)) then
-            allocate (grown(2*used))
-            do k = 1, used
-               call move_alloc(fields(k)%text, grown(k)%text)
-            end do
-            call move_alloc(grown, fields)
-         end if
+         if (used == size(fields)) fields = [fields, fields]
          used = used + 1
          fields(used)%text = cell%text()
          call cell%clear()
