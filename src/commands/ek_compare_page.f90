@@ -1,11 +1,12 @@
 !> The page of a comparison: charts of the curves of all results, and the table of gradients.
 module ek_compare_page
+   use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_version, only: version
    use ek_test_result, only: design_row
-   use ek_quantity, only: quantity_t, all_quantities, quantities_of, quantity_named
-   use ek_test_charts, only: quantity_chart
+   use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
+   use ek_test_charts, only: quantity_chart, quantities_of
    use ek_chart, only: chart_t, add_trace, append_chart
    use ek_comparison, only: difference_t, difference, percent
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
@@ -34,8 +35,8 @@ contains
             call overlay_quantity(results, t, quantity_named(columns(k)), sets(t)%charts)
          end do
          do k = 1, size(all_quantities)
-            if (.not. any(columns == all_quantities(k)%column)) &
-               call overlay_quantity(results, t, all_quantities(k), sets(t)%charts)
+            if (.not. all_quantities(k)%span > 0.0_wp .or. any(columns == held_name(all_quantities(k)%name, 1))) cycle
+            call overlay_quantity(results, t, quantity_named(held_name(all_quantities(k)%name, 1)), sets(t)%charts)
          end do
       end do
    end subroutine overlay
@@ -50,7 +51,7 @@ contains
       type(chart_t) :: chart
       integer :: r, side, u, k, drawn
 
-      if (quantity%column == results(1)%tests(test)%abscissa) return
+      if (quantity%name == results(1)%tests(test)%abscissa) return
       allocate (own(size(results)))
       own(1) = quantity_chart(results(1)%tests(test), quantity)
       do r = 2, size(results)

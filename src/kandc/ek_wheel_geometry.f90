@@ -8,7 +8,7 @@ module ek_wheel_geometry
    use ek_rotation, only: cross
    implicit none(type, external)
    private
-   public :: axis_distances_t, axis_distances, side_view_angle, camber_rate
+   public :: axis_distances_t, axis_distances, side_view_angle
    public :: ideal_outer_steer, outer_wheel, wall_to_wall, ride_frequency
 
    real(wp), parameter :: parallel = 1.0e-9_wp        !! sine of the angle of spin and steer axis: parallel below
@@ -58,12 +58,6 @@ contains
       real(wp), intent(in) :: a(3, 3)      !! its axes, global
       angle = atan2(a(1, 3), a(3, 3))
    end function side_view_angle
-
-   !> Change of camber = asin(−w_z) with a rotation θ of the carrier: −(θ×w)_z/√(1 − w_z²).
-   pure real(wp) function camber_rate(spin, turn) result(rate)
-      real(wp), intent(in) :: spin(3), turn(3)
-      rate = -(turn(1)*spin(2) - turn(2)*spin(1))/sqrt(spin(1)**2 + spin(2)**2)
-   end function camber_rate
 
    !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from that of the inner one:
    !> atan(L/(L/tan δi + t)), written without a division.

@@ -2,6 +2,7 @@
 module ek_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_quantity, only: quantity_t, quantity_named, label_of
    use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
    use ek_test_result, only: wheel_word, least_stroke, travel => travel_column
    use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
@@ -11,31 +12,6 @@ module ek_plot
    public :: run_figures
 
    integer, parameter :: most_curves = 8          !! in one panel, for legibility
-
-   !> A quantity drawn for every wheel: column without the wheel's name, title, label with its sign.
-   type :: quantity_t
-      character(24) :: column
-      character(28) :: title
-      character(56) :: label
-      real(wp) :: noise                           !! in units of the column; a smaller span is drawn flat
-   end type quantity_t
-
-   type(quantity_t), parameter :: toe = &
-      quantity_t('toe_deg', 'Toe', 'toe [deg]    (+ front edge inward)', 0.01_wp)
-   type(quantity_t), parameter :: camber = &
-      quantity_t('camber_deg', 'Camber', 'camber [deg]    (+ top outward)', 0.01_wp)
-   type(quantity_t), parameter :: lateral = &
-      quantity_t('track_change_mm', 'Lateral movement', 'contact patch, lateral [mm]    (+ outward)', 0.1_wp)
-   type(quantity_t), parameter :: longitudinal = &
-      quantity_t('wheelbase_change_mm', 'Longitudinal movement', 'contact patch, longitudinal [mm]    (+ rearward)', 0.1_wp)
-   type(quantity_t), parameter :: caster = &
-      quantity_t('caster_deg', 'Caster', 'caster [deg]    (+ top rearward)', 0.01_wp)
-   type(quantity_t), parameter :: inclination = &
-      quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'kingpin inclination [deg]    (+ top inward)', 0.01_wp)
-   type(quantity_t), parameter :: scrub = &
-      quantity_t('scrub_radius_mm', 'Scrub radius', 'scrub radius [mm]    (+ axis inboard of the patch)', 0.1_wp)
-   type(quantity_t), parameter :: trail = &
-      quantity_t('caster_trail_mm', 'Caster trail', 'caster trail [mm]    (+ axis ahead of the patch)', 0.1_wp)
 
    !> The properties of a run that its figures use.
    type :: view_t
@@ -65,13 +41,15 @@ contains
 
       allocate (figures(0))
       call set_view(table, model, case_name, csv_name, view, abscissa, abscissa_label)
-      call add_quantities(figures, table, view, 'overview', 'Overview', [toe, camber, lateral, longitudinal])
-      call add_quantities(figures, table, view, 'toe', 'Toe', [toe])
-      call add_quantities(figures, table, view, 'camber', 'Camber', [camber])
-      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', [lateral])
+      call add_quantities(figures, table, view, 'overview', 'Overview', [character(23) :: 'toe_deg', 'camber_deg', &
+         'track_change_mm', 'wheelbase_change_mm'])
+      call add_quantities(figures, table, view, 'toe', 'Toe', ['toe_deg'])
+      call add_quantities(figures, table, view, 'camber', 'Camber', ['camber_deg'])
+      call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', ['track_change_mm'])
       call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
-         [longitudinal])
-      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', [caster, inclination, scrub, trail])
+         ['wheelbase_change_mm'])
+      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', [character(23) :: 'caster_deg', &
+         'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm'])
       call add_springs(figures, table, view)
       call add_bushings(figures, table, view, elements)
       if (present(has_points)) then
@@ -130,12 +108,13 @@ contains
    end subroutine set_view
 
    !> One figure with a panel for every quantity that has a column.
-   pure subroutine add_quantities(figures, table, view, name, title, quantities)
+   pure subroutine add_quantities(figures, table, view, name, title, columns)
       type(figure_t), allocatable, intent(inout) :: figures(:)
       type(table_t), intent(in) :: table
       type(view_t), intent(in) :: view
       character(*), intent(in) :: name, title
-      type(quantity_t), intent(in) :: quantities(:)
+      character(*), intent(in) :: columns(:)
+      type(quantity_t) :: quantity
       type(figure_t) :: figure
       type(panel_t) :: panel
       character(name_length) :: wanted
@@ -143,13 +122,14 @@ contains
       integer :: k, wheel
 
       figure = new_figure(view%stem//'_'//name, title, view%subtitle)
-      do k = 1, size(quantities)
-         panel = view_panel(view, trim(quantities(k)%title), trim(quantities(k)%label))
-         if (size(quantities) == 1) panel%title = ''
+      do k = 1, size(columns)
+         quantity = quantity_named(columns(k))
+         panel = view_panel(view, trim(quantity%title), trim(quantity%title)//', '//label_of(quantity))
+         if (size(columns) == 1) panel%title = ''
          middle = 0.0_wp
          width = 0.0_wp
          do wheel = 1, size(view%wheels)
-            wanted = trim(view%wheels(wheel))//quantities(k)%column
+            wanted = trim(view%wheels(wheel))//columns(k)
             range = column_range(table, wanted)
             if (.not. ieee_is_finite(range(1))) cycle
             middle = sum(range)/2
@@ -158,12 +138,12 @@ contains
                wheel_word(view%wheels(wheel)), trim(merge('dashed', 'line  ', wheel > 1)), wheel))
          end do
          if (size(panel%curves) == 0) cycle
-         if (width < quantities(k)%noise) panel%least_y = middle + quantities(k)%noise*[-1.0_wp, 1.0_wp]
+         if (width < quantity%span) panel%least_y = middle + quantity%span*[-1.0_wp, 1.0_wp]
          call mark_design(panel, view)
          call add_panel(figure, panel)
       end do
       if (size(figure%panels) == 0) return
-      if (size(figure%panels) == 1 .and. size(quantities) > 1) return    ! a single quantity already has its own figure
+      if (size(figure%panels) == 1 .and. size(columns) > 1) return    ! a single quantity already has its own figure
       call append(figures, figure)
    end subroutine add_quantities
 

@@ -1,4 +1,4 @@
-!> The standard charts of a test, side by side, in the order of ek_quantity: one per quantity, then motion ratios, springs,
+!> The standard charts of a test, side by side, in the order of quantities_of: one per quantity, then motion ratios, springs,
 !> anti-roll bars and bushings together.
 !>
 !> Quantities without a column or without a value are omitted.
@@ -7,11 +7,11 @@ module ek_test_charts
    use ek_kinds, only: wp
    use ek_table, only: name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
-   use ek_quantity, only: quantity_t, quantities_of, quantity_named, without_phase
+   use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
-   public :: test_charts, quantity_chart
+   public :: test_charts, quantity_chart, quantities_of
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
    integer, parameter :: most_curves = 8       !! in one chart, for legibility
@@ -40,6 +40,49 @@ contains
       call append_if_drawn(charts, bushing_chart(test))
    end subroutine test_charts
 
+   !> The columns drawn for a kind of test, the most important ones first.
+   pure function quantities_of(kind) result(columns)
+      character(*), intent(in) :: kind
+      character(48), allocatable :: columns(:)
+
+      select case (kind)
+      case ('roll')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
+            'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
+            'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
+      case ('steering')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
+            'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
+            'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
+            'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
+            'wall_to_wall_m', 'steering_rack_force_n']
+      case ('lateral_force')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+            'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
+      case ('aligning_torque')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
+      case ('braking', 'traction')
+         columns = [character(48) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
+            'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
+      case ('vertical_force')
+         columns = [character(48) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
+      case default
+         columns = [character(48) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
+            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
+            'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
+            'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
+            'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
+            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
+            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
+            'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
+         if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(48) :: columns(:13), &
+            'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
+         if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
+         if (kind == 'table') columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
+      end select
+   end function quantities_of
+
    pure subroutine append_if_drawn(charts, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
       type(chart_t), intent(in) :: chart
@@ -60,19 +103,30 @@ contains
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
       type(test_result_t), intent(in) :: test
       type(quantity_t), intent(in) :: quantity
-      integer :: wheel, place
+      character(:), allocatable :: title, label
+      integer :: wheel, place, at
 
-      chart = chart_of(test, trim(quantity%column), trim(quantity%title), trim(quantity%label))
-      if (size(test%prefixes) < 2) chart%y_label = without_phase(chart%y_label)
-      chart%noise = quantity%noise
-      if (index(quantity%column, '_arm_length_mm') > 0) chart%cap = longest_arm
-      place = column_index(test%table, quantity%column)
+      title = trim(quantity%title)
+      label = label_of(quantity)
+      if (size(test%prefixes) < 2) then
+         title = without_phase(title)
+         label = without_phase(label)
+      end if
+      at = index(title, ', parallel')
+      if (at > 0) then                ! too long for a heading
+         label = unit_text(unit_of(trim(quantity%name)))//'    ('//title(at + 2:)//')'
+         title = title(:at - 1)
+      end if
+      chart = chart_of(test, trim(quantity%name), title, label)
+      chart%noise = quantity%span
+      if (index(quantity%name, '_arm_length_mm') > 0) chart%cap = longest_arm
+      place = column_index(test%table, quantity%name)
       if (place > 0) then
          call add_column(chart, test, 1, place, '', merge(1, 3, size(test%prefixes) < 2), 0)
          return
       end if
       do wheel = 1, size(test%prefixes)
-         place = column_index(test%table, trim(test%prefixes(wheel))//quantity%column)
+         place = column_index(test%table, trim(test%prefixes(wheel))//quantity%name)
          if (place > 0) call add_column(chart, test, wheel, place, wheel_word(test%prefixes(wheel)), wheel, merge(1, 0, wheel > 1))
       end do
    end function quantity_chart
