@@ -18,13 +18,18 @@ module ek_bench
    use ek_path, only: path_t, new_path, walk, sweep
    use ek_rig, only: mount
    use ek_examination, only: examination_t, examine_cases
-   use ek_remark_words, only: unsolvable_words
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t
    use ek_csv, only: csv_text
    use ek_arguments, only: arguments_t
-   use ek_load_deck, only: load_deck, chosen_cases
-   use ek_words, only: tell
+   use ek_load_deck, only: load_deck, chosen_cases, unsolvable_words, apply_settings
+   use ek_deck, only: deck_t, read_deck
+   use ek_parameter, only: choice_t
+   use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case
+   use ek_wheel_side, only: prefix_of
+   use ek_json, only: json_t
+   use ek_console, only: tell => print_text
    implicit none(type, external)
    private
    public :: bench
@@ -32,9 +37,23 @@ module ek_bench
    integer, parameter :: rounds = 15          !! each method is timed this often; the minimum counts
    integer, parameter :: kept_numbers = 2**17 !! size of the matrices kept for the unit: 1 MB stays in the cache
 
+   integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
+   integer, parameter :: designs = 40         !! timed together
+
+   !> What was measured.
+   type :: figures_t
+      real(wp) :: unit = 0.0_wp              !! dsysv [s]
+      real(wp) :: increment(3) = 0.0_wp      !! of each method [s]
+      real(wp) :: factorisations = 0.0_wp    !! per state
+      integer :: most = 0                    !! factorisations of one state
+      real(wp) :: distance = 0.0_wp          !! from the exact solution [m]
+      real(wp) :: design = 0.0_wp            !! a design of short_sweep increments, from numbers to a column [s]; 0: not measured
+      real(wp) :: states = 0.0_wp            !! the states alone of such a design [s]
+   end type figures_t
+
 contains
 
-   !> Prints the table of ratios to standard output.
+   !> Prints the table of ratios to standard output, or with --json an object.
    subroutine bench(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
@@ -42,9 +61,9 @@ contains
       type(case_t) :: case
       type(kkt_t) :: kkt
       type(path_t) :: path, exact
+      type(figures_t) :: figures
       real(wp), allocatable :: matrices(:, :, :)
-      real(wp) :: unit, together, copying, best(3), start
-      character(200) :: line
+      real(wp) :: together, copying, start
       integer :: k, m
 
       call load_case(arguments, suspension, case, error)
@@ -59,9 +78,9 @@ contains
       end if
       call collect_matrices(suspension, case, path, kkt, matrices)
 
-      together = huge(unit)
-      copying = huge(unit)
-      best = huge(unit)
+      together = huge(together)
+      copying = huge(copying)
+      figures%increment = huge(together)
       do k = 1, rounds
          call time_lapack(kkt%n, matrices, together, copying, error)
          if (allocated(error)) return
@@ -70,31 +89,141 @@ contains
             call new_path(suspension, case, path)
             start = seconds()
             call walk(suspension, case, path, kkt)
-            best(m) = min(best(m), (seconds() - start)/(path%states - 1))
+            figures%increment(m) = min(figures%increment(m), (seconds() - start)/(path%states - 1))
          end do
       end do
-
-      unit = together - copying
-      call put('model '//suspension%name//', case '//case%name//', '//str(case%increments)// &
-         ' increments, matrix '//str(kkt%n)//' x '//str(kkt%n), error)
-      call put(timing('LAPACK dsysv alone', unit, unit), error)
-      do m = 1, 3
-         call put(timing(trim(method_names(m))//' increment', best(m), unit), error)
-      end do
+      figures%unit = together - copying
       case%method = 'equilibrium'
       call sweep(suspension, case, path, kkt)
-      call put('equilibrium: converged states per second '//str(nint(1.0_wp/best(3))), error)
-      write (line, '(a,f5.3,a,i0)') 'equilibrium: factorisations per state ', &
-         real(sum(path%iterations), wp)/path%states, ', at most ', maxval(path%iterations)
-      call put(trim(line), error)
+      figures%factorisations = real(sum(path%iterations), wp)/path%states
+      figures%most = maxval(path%iterations)
       case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default
       call sweep(suspension, case, exact, kkt)
-      write (line, '(a,es8.1,a)') 'equilibrium: largest distance to the solution at tolerance 1e-10 mm: ', &
-         largest_distance(path, exact, kkt%nq/6)*1000.0_wp, ' mm'
-      call put(trim(line), error)
+      figures%distance = largest_distance(path, exact, kkt%nq/6)
+      if (case%test /= 'table') call time_designs(arguments, case%name, figures, error)
+      if (allocated(error)) return
+      if (arguments%json) then
+         call put(json_of(suspension, case, kkt%n, figures), error)
+         return
+      end if
+      call print_table(suspension, case, kkt%n, figures, error)
       if (arguments%quiet .or. allocated(error)) return
       call whole_way(arguments, error)
    end subroutine bench
+
+   !> The figures as lines.
+   subroutine print_table(suspension, case, n, figures, error)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: n                   !! size of the matrix
+      type(figures_t), intent(in) :: figures
+      type(error_t), allocatable, intent(inout) :: error
+      character(200) :: line
+      integer :: m
+
+      call put('model '//suspension%name//', case '//case%name//', '//str(case%increments)// &
+         ' increments, matrix '//str(n)//' x '//str(n), error)
+      call put(timing('LAPACK dsysv alone', figures%unit, figures%unit), error)
+      do m = 1, 3
+         call put(timing(trim(method_names(m))//' increment', figures%increment(m), figures%unit), error)
+      end do
+      call put('equilibrium: converged states per second '//str(nint(1.0_wp/figures%increment(3))), error)
+      write (line, '(a,f5.3,a,i0)') 'equilibrium: factorisations per state ', figures%factorisations, ', at most ', figures%most
+      call put(trim(line), error)
+      write (line, '(a,es8.1,a)') 'equilibrium: largest distance to the solution at tolerance 1e-10 mm: ', &
+         figures%distance*1000.0_wp, ' mm'
+      call put(trim(line), error)
+      if (.not. figures%design > 0.0_wp) return
+      write (line, '(a,i0,a,f8.1,a,f5.2,a,i0)') 'design of ', short_sweep, ' increments, from numbers to a column: ', &
+         figures%design*1.0e6_wp, ' us, ', figures%design/figures%states, ' times its states; designs per second ', &
+         nint(1.0_wp/figures%design)
+      call put(trim(line), error)
+   end subroutine print_table
+
+   !> The figures as a JSON object.
+   function json_of(suspension, case, n, figures) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: n                   !! size of the matrix
+      type(figures_t), intent(in) :: figures
+      character(:), allocatable :: text
+      type(json_t) :: json
+      integer :: m
+
+      call json%open('{')
+      call json%text_item('model', suspension%name)
+      call json%text_item('case', case%name)
+      call json%integer_item('increments', case%increments)
+      call json%integer_item('n', n)
+      call json%number_item('unit_us', figures%unit*1.0e6_wp)
+      do m = 1, 3
+         call json%number_item(trim(method_names(m))//'_units', figures%increment(m)/figures%unit)
+      end do
+      call json%number_item('states_per_s', 1.0_wp/figures%increment(3))
+      call json%number_item('factorisations_per_state', figures%factorisations)
+      call json%integer_item('max_factorisations', figures%most)
+      call json%number_item('distance_mm', figures%distance*1000.0_wp)
+      if (figures%design > 0.0_wp) then
+         call json%number_item('design_us', figures%design*1.0e6_wp)
+         call json%number_item('design_states_us', figures%states*1.0e6_wp)
+         call json%number_item('designs_per_s', 1.0_wp/figures%design)
+      end if
+      call json%close('}')
+      text = json%text()
+   end function json_of
+
+   !> Times whole designs, as a study runs them: numbers to suspension, examination, balance, states and one column; and the
+   !> states alone. The first given number of the deck is changed in its tenth digit.
+   subroutine time_designs(arguments, case_name, figures, error)
+      type(arguments_t), intent(in) :: arguments
+      character(*), intent(in) :: case_name
+      type(figures_t), intent(inout) :: figures
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      type(subject_t) :: subject
+      type(factor_paths_t) :: paths(1)
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
+      real(wp) :: start, value, time
+      logical :: is_done
+      integer :: k, d
+
+      call read_deck(arguments%file, deck, error)
+      if (.not. allocated(error)) call apply_settings(arguments, deck, error)
+      if (.not. allocated(error)) call make_subject(deck, case_name, subject, error)
+      if (allocated(error)) return
+      associate (list => subject%design%parameters%list, x => subject%design%parameters%x)
+         do k = 1, subject%design%parameters%used
+            if (list(k)%is_given .and. abs(x(k)) > 0.0_wp) exit
+         end do
+         paths(1)%found = [choice_t(k, 1.0_wp)]
+         value = x(k)/list(k)%unit
+      end associate
+      subject%design%cases%increments = short_sweep
+      options%has_remarks = .false.
+      allocate (options%columns(1))
+      options%columns = 'toe_deg'
+      if (size(subject%suspension%wheels) > 1) options%columns = prefix_of(subject%suspension, 1)//'toe_deg'
+      figures%design = huge(time)
+      figures%states = huge(time)
+      do k = 1, 3
+         start = seconds()
+         do d = 1, designs
+            call change_subject(arguments%file, paths, [value*(1.0_wp + 1.0e-10_wp*d)], subject, is_done, error)
+            if (allocated(error) .or. .not. is_done) then      ! such a model has no design from numbers
+               figures%design = 0.0_wp
+               return
+            end if
+            call solve_case(subject%suspension, subject%case, options, result)
+         end do
+         figures%design = min(figures%design, (seconds() - start)/designs)
+         start = seconds()
+         do d = 1, designs
+            call sweep(result%suspension, result%case, result%path, result%kkt)
+         end do
+         figures%states = min(figures%states, (seconds() - start)/designs)
+      end do
+   end subroutine time_designs
 
    !> The first chosen case of a deck on the rig, examined and balanced.
    subroutine load_case(arguments, suspension, case, error)

@@ -4,7 +4,7 @@ module ek_check
    use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
-   use ek_words, only: tell_result => tell
+   use ek_console, only: print_text
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
@@ -26,12 +26,12 @@ contains
    subroutine check(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unheard
+      type(error_t), allocatable :: unprinted
       type(buffer_t) :: words
 
       call examine(arguments, words, error)
-      call tell_result(words%text(), unheard)
-      if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
+      call print_text(words%text(), unprinted)
+      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
 
    !> Collects the findings, including those made before an error.

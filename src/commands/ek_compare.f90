@@ -10,13 +10,11 @@ module ek_compare
    use ek_chart, only: chart_t, charts_script
    use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
-   use ek_gradient_window, only: windows_t
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results
-   use ek_window_option, only: chosen_windows
    use ek_arguments, only: arguments_t
-   use ek_words, only: say, tell
+   use ek_console, only: print_note, print_text
    use ek_compare_page, only: overlay, page_of, test_number
    implicit none(type, external)
    private
@@ -33,17 +31,14 @@ contains
       type(difference_t), allocatable :: rows(:)
       type(chart_set_t), allocatable :: charts(:)
       type(message_list_t) :: missing
-      type(error_t), allocatable :: undrawn, unheard
-      type(windows_t) :: windows
+      type(error_t), allocatable :: undrawn, unprinted
       character(:), allocatable :: folder, message, path
       logical :: has_pictures
       integer :: k, l
 
-      call chosen_windows(arguments, windows, error)
-      if (allocated(error)) return
       allocate (results(size(arguments%files)), sets(size(arguments%files)))
       do k = 1, size(results)
-         call read_results(arguments%files(k)%text, windows, results(k), error)
+         call read_results(arguments%files(k)%text, arguments%windows, results(k), error)
          if (allocated(error)) return
          if (results(k)%is_report .neqv. results(1)%is_report) then
             call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(results(1)%path)// &
@@ -60,7 +55,6 @@ contains
          end do
       end do
       folder = arguments%out
-      if (len(folder) == 0) folder = 'out'
       call make_folder(folder, error)
       if (allocated(error)) return
       call make_folder(join_path(folder, 'figures'), error)
@@ -68,9 +62,9 @@ contains
 
       call compare_gradients(sets, rows)
       call find_missing(results, rows, missing)
-      call tell(words_of(results, rows), unheard)                ! the files are written even if standard output is closed
+      call print_text(words_of(results, rows), unprinted)                ! the files are written even if standard output is closed
       do k = 1, missing%count()
-         call say(arguments%quiet, missing%line(k))
+         call print_note(arguments%quiet, missing%line(k))
       end do
       call write_differences(results, rows, join_path(folder, 'differences.csv'), error)
       if (allocated(error)) return
@@ -83,15 +77,15 @@ contains
       call write_whole(path, page_of(results, rows, charts, missing, folder, .false., message), error)
       if (allocated(error)) return
       call draw(arguments, charts, folder, message, has_pictures, undrawn)
-      if (len(message) > 0) call say(arguments%quiet, message)
+      if (len(message) > 0) call print_note(arguments%quiet, message)
       if (allocated(undrawn)) message = undrawn%message
       call write_whole(path, page_of(results, rows, charts, missing, folder, has_pictures, message), error)
       if (allocated(error)) return
-      call say(arguments%quiet, join_path(folder, 'differences.csv')//', '//path)
+      call print_note(arguments%quiet, join_path(folder, 'differences.csv')//', '//path)
       if (allocated(undrawn)) then
          call move_alloc(undrawn, error)
-      else if (allocated(unheard)) then
-         call move_alloc(unheard, error)
+      else if (allocated(unprinted)) then
+         call move_alloc(unprinted, error)
       end if
    end subroutine compare
 

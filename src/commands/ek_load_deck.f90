@@ -1,6 +1,6 @@
 !> From a path and settings to a model: the first step of every command.
 module ek_load_deck
-   use ek_error, only: error_t, fail, exit_usage, exit_file
+   use ek_error, only: error_t, fail, exit_usage, exit_model, exit_file
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
@@ -8,10 +8,11 @@ module ek_load_deck
    use ek_suspension, only: suspension_t
    use ek_case_inputs, only: check_inputs
    use ek_case, only: case_t, method_names, most_increments
+   use ek_examination, only: examination_t, examine_cases
    use ek_arguments, only: arguments_t
    implicit none(type, external)
    private
-   public :: load_deck, apply_settings, chosen_cases
+   public :: load_deck, apply_settings, chosen_cases, examine_chosen, unsolvable_words
 
 contains
 
@@ -108,5 +109,30 @@ contains
          if (arguments%increments > 0) chosen(k)%increments = arguments%increments
       end do
    end subroutine chosen_cases
+
+   !> Examines the cases to run; an error if none can be solved.
+   subroutine examine_chosen(arguments, suspension, chosen, found, error)
+      type(arguments_t), intent(in) :: arguments
+      type(suspension_t), intent(in) :: suspension      !! not balanced
+      type(case_t), intent(in) :: chosen(:)
+      type(examination_t), intent(out) :: found
+      type(error_t), allocatable, intent(out) :: error  !! exit_model
+
+      call examine_cases(suspension, chosen, found)
+      if (found%none_solvable()) call fail(error, exit_model, unsolvable_words(arguments%file, found))
+   end subroutine examine_chosen
+
+   !> The reasons why no case of a deck can be run; each defect once.
+   function unsolvable_words(file, found) result(words)
+      character(*), intent(in) :: file
+      type(examination_t), intent(in) :: found          !! no case can be solved
+      character(:), allocatable :: words
+
+      if (size(found%is_solvable) == 1) then
+         words = found%faults%line(1)
+      else
+         words = file//': the model cannot be solved'//new_line('a')//found%distinct%text()
+      end if
+   end function unsolvable_words
 
 end module ek_load_deck

@@ -1,6 +1,6 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
-   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_convergence
    use ek_units, only: millimetre
    use ek_text, only: str, plural
    use ek_version, only: version
@@ -15,18 +15,15 @@ module ek_report
    use ek_chart_set, only: chart_set_t
    use ek_test_charts, only: test_charts
    use ek_gradient, only: gradient_t, test_gradients
-   use ek_gradient_window, only: windows_t
    use ek_gradient_file, only: write_gradients
    use ek_arguments, only: arguments_t
-   use ek_load_deck, only: load_deck, chosen_cases
+   use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
    use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
    use ek_report_pictures, only: film_t, draw_pictures
    use ek_report_page, only: report_page
-   use ek_window_option, only: chosen_windows
-   use ek_examination, only: examination_t, examine_cases
-   use ek_remark_words, only: print_model_words, unsolvable_words
-   use ek_words, only: say, complain, tell_path
+   use ek_examination, only: examination_t
+   use ek_console, only: print_note, print_error, print_path, print_model_remarks
    implicit none(type, external)
    private
    public :: report
@@ -45,22 +42,21 @@ contains
       type(film_t), allocatable :: films(:)
       type(gradient_t), allocatable :: gradients(:)
       type(chart_set_t), allocatable :: sets(:)
-      type(windows_t) :: windows
       type(message_list_t) :: warnings, page_warnings
       type(examination_t) :: found
-      type(error_t), allocatable :: trouble, undrawn, unheard
+      type(error_t), allocatable :: trouble, undrawn, unprinted
       type(table_t) :: compliance
       character(:), allocatable :: checksum, folder, message
       logical :: has_matrix                        ! of the first test that is run: travel, with design
       logical :: has_pictures, has_animation
       integer :: k, failed, code
 
-      call begin_report(arguments, windows, suspension, cases, chosen, checksum, folder, found, error)
+      call begin_report(arguments, suspension, cases, chosen, checksum, folder, found, error)
       if (allocated(error)) return
       call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call planned_tests(suspension, chosen, planned)
-      call print_model_words(arguments%quiet, suspension, cases, planned%case, warnings)
+      call print_model_remarks(arguments%quiet, suspension, cases, planned%case, warnings)
       call remove_file(join_path(folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(folder, contents_file))
 
@@ -77,7 +73,7 @@ contains
                compliance)
          end if
          if (allocated(trouble)) then
-            call complain(trouble%message)
+            call print_error(trouble%message)
             failed = failed + 1
             if (trouble%code /= exit_convergence) code = trouble%code     ! the test was not run at all
             call warnings%add(planned(k)%title//': '//trouble%message)
@@ -87,18 +83,18 @@ contains
          films(k)%is_there = .true.
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
          if (allocated(error)) return
-         call tell_path(join_path(folder, tests(k)%file), unheard)
-         if (.not. has_matrix) call write_matrix(compliance, folder, unheard, error)
+         call print_path(join_path(folder, tests(k)%file), unprinted)
+         if (.not. has_matrix) call write_matrix(compliance, folder, unprinted, error)
          if (allocated(error)) return
          has_matrix = .true.
-         call test_gradients(tests(k), windows, gradients)
+         call test_gradients(tests(k), arguments%windows, gradients)
          call test_charts(tests(k), sets(k)%charts)
       end do
       call write_gradients(gradients, suspension%name, checksum, join_path(folder, gradients_file), &
          join_path(folder, 'gradients.json'), error)
       if (allocated(error)) return
-      call tell_path(join_path(folder, gradients_file), unheard)
-      call tell_path(join_path(folder, 'gradients.json'), unheard)
+      call print_path(join_path(folder, gradients_file), unprinted)
+      call print_path(join_path(folder, 'gradients.json'), unprinted)
 
       call write_contents(tests, join_path(folder, contents_file), error)
       if (allocated(error)) return
@@ -110,33 +106,33 @@ contains
          call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
          if (allocated(error)) return
       end if
-      call draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, undrawn)
+      call draw_pictures(.not. arguments%no_plots, arguments%animate, suspension, tests, films, sets, folder, has_animation, &
+         message, undrawn)
       if (allocated(undrawn)) then
-         call complain(undrawn%message)
+         call print_error(undrawn%message)
          call warnings%add('The page lacks pictures: '//undrawn%message)
       else if (len(message) > 0) then
-         if (.not. arguments%no_plots) call say(arguments%quiet, message)
+         if (.not. arguments%no_plots) call print_note(arguments%quiet, message)
          call warnings%add('The page has no pictures: '//message)
       end if
       has_pictures = .not. allocated(undrawn) .and. len(message) == 0
       call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
          has_animation, error)
       if (allocated(error)) return
-      call tell_path(join_path(folder, 'report.html'), unheard)
+      call print_path(join_path(folder, 'report.html'), unprinted)
       if (failed > 0) then
          call fail(error, code, str(failed)//' of '//plural(size(tests), 'test', 'tests')// &
             trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
       else if (allocated(undrawn)) then
          call fail(error, undrawn%code, 'the report was written, but some of its pictures are missing')
-      else if (allocated(unheard)) then
-         call move_alloc(unheard, error)
+      else if (allocated(unprinted)) then
+         call move_alloc(unprinted, error)
       end if
    end subroutine report
 
    !> Reads the deck, examines the chosen cases, and makes the folders; an error if no case can be solved.
-   subroutine begin_report(arguments, windows, suspension, cases, chosen, checksum, folder, found, error)
+   subroutine begin_report(arguments, suspension, cases, chosen, checksum, folder, found, error)
       type(arguments_t), intent(in) :: arguments
-      type(windows_t), intent(out) :: windows
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:), chosen(:)      !! all of the deck; those of this report
       character(:), allocatable, intent(out) :: checksum, folder
@@ -144,34 +140,28 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: all_cases(:)
 
-      call chosen_windows(arguments, windows, error)
-      if (allocated(error)) return
       call load_deck(arguments, suspension, cases, checksum, error)
       if (allocated(error)) return
       call report_cases(suspension, cases, all_cases)
       call chosen_cases(arguments, all_cases, chosen, error)
       if (allocated(error)) return
       folder = arguments%out
-      if (len(folder) == 0) folder = 'out'
-      call examine_cases(suspension, chosen, found)
-      if (found%none_solvable()) then
-         call fail(error, exit_model, unsolvable_words(arguments%file, found))
-         return
-      end if
+      call examine_chosen(arguments, suspension, chosen, found, error)
+      if (allocated(error)) return
       call make_folder(folder, error)
       if (allocated(error)) return
       call make_folder(join_path(folder, 'figures'), error)
    end subroutine begin_report
 
    !> compliance.csv: the compliance matrix at every state of a test.
-   subroutine write_matrix(table, folder, unheard, error)
+   subroutine write_matrix(table, folder, unprinted, error)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: folder
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
+      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
 
       call write_csv(table, join_path(folder, compliance_file), error)
-      if (.not. allocated(error)) call tell_path(join_path(folder, compliance_file), unheard)
+      if (.not. allocated(error)) call print_path(join_path(folder, compliance_file), unprinted)
    end subroutine write_matrix
 
    !> report.html

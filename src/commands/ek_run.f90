@@ -1,13 +1,13 @@
 !> elastokin run: deck → model → sweep → table → CSV and figures, case by case.
 module ek_run
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_usage, exit_model, exit_convergence
+   use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_file, only: make_folder, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_balance, only: balance
-   use ek_examination, only: examination_t, examine_cases
+   use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
@@ -17,9 +17,8 @@ module ek_run
    use ek_plot, only: run_figures
    use ek_gnuplot, only: write_figure, render_figures
    use ek_arguments, only: arguments_t
-   use ek_load_deck, only: load_deck, chosen_cases
-   use ek_remark_words, only: print_model_words, print_remarks, unsolvable_words
-   use ek_words, only: say, complain, tell_path, show_progress, clear_progress
+   use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
+   use ek_console, only: print_note, print_error, print_path, print_model_remarks, print_remarks, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run
@@ -35,7 +34,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), chosen(:)
-      type(error_t), allocatable :: trouble, unheard
+      type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
       character(:), allocatable :: checksum, folder, words
       integer :: k, failed, code
@@ -45,7 +44,6 @@ contains
       call chosen_cases(arguments, cases, chosen, error)
       if (allocated(error)) return
       folder = arguments%out
-      if (len(folder) == 0) folder = 'out'
       if (folder == '-' .and. size(chosen) > 1) then
          call fail(error, exit_usage, '--out - writes one table, but '//arguments%file//' has '//str(size(chosen))// &
             ' cases; name one with --case')
@@ -55,34 +53,31 @@ contains
          call refuse_double_files(chosen, error)
          if (allocated(error)) return
       end if
-      call examine_cases(suspension, chosen, found)
-      if (found%none_solvable()) then
-         call fail(error, exit_model, unsolvable_words(arguments%file, found))
-         return
-      end if
+      call examine_chosen(arguments, suspension, chosen, found, error)
+      if (allocated(error)) return
       if (folder /= '-') then
          call make_folder(folder, error)
          if (allocated(error)) return
       end if
       call balance(suspension, chosen(1)%tolerance, error)
       if (allocated(error)) return
-      call print_model_words(arguments%quiet, suspension, cases, chosen)
+      call print_model_remarks(arguments%quiet, suspension, cases, chosen)
 
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
-         call run_case(arguments, suspension, chosen(k), found%faults%line(k), folder, checksum, unheard, trouble)
+         call run_case(arguments, suspension, chosen(k), found%faults%line(k), folder, checksum, unprinted, trouble)
          if (.not. allocated(trouble)) cycle
          if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
             call move_alloc(trouble, error)
             return
          end if
-         call complain(trouble%message)
+         call print_error(trouble%message)
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
       end do
       if (failed == 0) then
-         call move_alloc(unheard, error)
+         call move_alloc(unprinted, error)
          return
       end if
       words = str(failed)//' of '//plural(size(chosen), 'case', 'cases')
@@ -110,13 +105,13 @@ contains
    end subroutine refuse_double_files
 
    !> One case: solve, report, write, draw.
-   subroutine run_case(arguments, base, wanted, fault, folder, checksum, unheard, error)
+   subroutine run_case(arguments, base, wanted, fault, folder, checksum, unprinted, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
       character(*), intent(in) :: folder, checksum
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
+      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
       type(solve_options_t) :: options
@@ -136,13 +131,13 @@ contains
       else
          call write_csv(result%table, name//'.csv', trouble)
          if (.not. allocated(trouble)) then
-            call tell_path(name//'.csv', unheard)
+            call print_path(name//'.csv', unprinted)
             if (arguments%plot) call draw(arguments, result, folder, name, undrawn)
-            if (arguments%compliance) call write_compliance(result, checksum, name//compliance_ending, unheard, trouble)
+            if (arguments%compliance) call write_compliance(result, checksum, name//compliance_ending, unprinted, trouble)
          end if
       end if
       if (.not. allocated(trouble) .and. len(wanted%target) > 0) &
-         call aim(arguments, result, checksum, folder, name//'_target.csv', unheard, trouble)
+         call aim(arguments, result, checksum, folder, name//'_target.csv', unprinted, trouble)
       if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
       if (.not. allocated(trouble)) return
       if (allocated(error)) trouble%message = error%message//new_line('a')//trouble%message
@@ -150,33 +145,33 @@ contains
    end subroutine run_case
 
    !> Writes the compliance matrix at every converged state to a separate file.
-   subroutine write_compliance(result, checksum, path, unheard, error)
+   subroutine write_compliance(result, checksum, path, unprinted, error)
       type(case_result_t), intent(inout) :: result
       character(*), intent(in) :: checksum, path
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
+      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: table
 
       call compliance_table(result%suspension, result%case, result%path, result%kkt, table)
       call add_header(table, result%suspension, result%case, checksum)
       call write_csv(table, path, error)
-      if (.not. allocated(error)) call tell_path(path, unheard)
+      if (.not. allocated(error)) call print_path(path, unprinted)
    end subroutine write_compliance
 
    !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
    !> results go to standard output). Not for the linear methods, whose states are not equilibria.
-   subroutine aim(arguments, result, checksum, folder, path, unheard, error)
+   subroutine aim(arguments, result, checksum, folder, path, unprinted, error)
       type(arguments_t), intent(in) :: arguments
       type(case_result_t), intent(inout) :: result
       character(*), intent(in) :: checksum, folder, path
-      type(error_t), allocatable, intent(inout) :: unheard     !! a path could not be printed
+      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
       character(:), allocatable :: words
 
       associate (case => result%case)
          if (case%method /= 'equilibrium') then
-            call say(arguments%quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
+            call print_note(arguments%quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
             return
          end if
          call find_target(result%suspension, case, result%path, result%table, result%kkt, found, error)
@@ -186,12 +181,12 @@ contains
             call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
             call write_csv(found%table, path, error)
             if (allocated(error)) return
-            call tell_path(path, unheard)
+            call print_path(path, unprinted)
          end if
          words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
             str(found%place/case%unit, 9)//' '//case%unit_name
          if (found%crossings > 1) words = words//' (of '//str(found%crossings)//' solutions the nearest to design)'
-         call say(arguments%quiet, words)
+         call print_note(arguments%quiet, words)
       end associate
    end subroutine aim
 
@@ -229,9 +224,9 @@ contains
       call render_figures(figures, folder, message, error)
       if (allocated(error)) return
       if (len(message) > 0) then
-         call say(arguments%quiet, message)
+         call print_note(arguments%quiet, message)
       else
-         call say(arguments%quiet, 'case '//quoted(result%case%name)//': '//str(size(figures))//' figures in '//folder// &
+         call print_note(arguments%quiet, 'case '//quoted(result%case%name)//': '//str(size(figures))//' figures in '//folder// &
             ' ('//figures(1)%name//'.png …)')
       end if
    end subroutine draw

@@ -12,7 +12,7 @@ module ek_study_command
    use ek_factor_sweep, only: sweep_factors
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: apply_settings
-   use ek_words, only: say, warn, complain, tell_path
+   use ek_console, only: print_note, print_warning, print_error, print_path
    implicit none(type, external)
    private
    public :: run_study_command
@@ -25,7 +25,7 @@ contains
    subroutine run_study_command(arguments, error)
       type(arguments_t), intent(in) :: arguments
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unheard, undrawn
+      type(error_t), allocatable :: unprinted, undrawn
       type(message_list_t) :: tables
       type(study_t) :: study
       type(deck_t) :: deck
@@ -46,26 +46,26 @@ contains
       if (allocated(error)) return
 
       if (study%kind == 'step_size') then
-         call run_step_size(study, deck, out, tables, unheard, error)
+         call run_step_size(study, deck, out, tables, unprinted, error)
       else
-         call run_sweep(study, deck, out, tables, unheard, error)
+         call run_sweep(study, deck, out, tables, unprinted, error)
       end if
       if (tables%count() == 0) return
       call draw(arguments, study, home, tables, out, undrawn)
       if (allocated(undrawn)) then
-         if (allocated(error)) call complain(undrawn%message)
+         if (allocated(error)) call print_error(undrawn%message)
          if (.not. allocated(error)) call move_alloc(undrawn, error)
       end if
-      if (allocated(unheard) .and. .not. allocated(error)) call move_alloc(unheard, error)
+      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine run_study_command
 
    !> out/<study>.csv
-   subroutine run_step_size(study, deck, out, tables, unheard, error)
+   subroutine run_step_size(study, deck, out, tables, unprinted, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
       type(message_list_t), intent(inout) :: tables      !! the tables written
-      type(error_t), allocatable, intent(inout) :: unheard
+      type(error_t), allocatable, intent(inout) :: unprinted
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: writer
       character(:), allocatable :: text
@@ -79,16 +79,16 @@ contains
       end if
       call writer%finish(error)
       if (allocated(error)) return
-      call note(study%name//'.csv', out, tables, unheard)
+      call note(study%name//'.csv', out, tables, unprinted)
    end subroutine run_step_size
 
    !> out/<study>_curves.csv and out/<study>_responses.csv
-   subroutine run_sweep(study, deck, out, tables, unheard, error)
+   subroutine run_sweep(study, deck, out, tables, unprinted, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
       type(message_list_t), intent(inout) :: tables      !! the tables written: both or none
-      type(error_t), allocatable, intent(inout) :: unheard
+      type(error_t), allocatable, intent(inout) :: unprinted
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: curves, responses
       type(writer_t) :: curve_writer, response_writer
@@ -104,23 +104,23 @@ contains
       call curve_writer%abandon()                        ! no effect on a finished table
       call response_writer%abandon()
       if (allocated(error)) return
-      call note(study%name//'_curves.csv', out, tables, unheard)
-      call note(study%name//'_responses.csv', out, tables, unheard)
+      call note(study%name//'_curves.csv', out, tables, unprinted)
+      call note(study%name//'_responses.csv', out, tables, unprinted)
       do k = 1, troubles%count()
-         call warn(troubles%line(k))
+         call print_warning(troubles%line(k))
       end do
       if (troubles%count() > 0) call fail(error, exit_convergence, plural(troubles%count(), 'design of the study is', &
          'designs of the study are')//' incomplete (see the warnings above); the others were written')
    end subroutine run_sweep
 
    !> Prints the path of a written table and keeps its name for the plot script.
-   subroutine note(name, out, tables, unheard)
+   subroutine note(name, out, tables, unprinted)
       character(*), intent(in) :: name, out
       type(message_list_t), intent(inout) :: tables
-      type(error_t), allocatable, intent(inout) :: unheard     !! the path could not be printed
+      type(error_t), allocatable, intent(inout) :: unprinted     !! the path could not be printed
 
       call tables%add(name)
-      call tell_path(join_path(out, name), unheard)
+      call print_path(join_path(out, name), unprinted)
    end subroutine note
 
    !> Runs the study's plot script over the tables.
@@ -135,11 +135,11 @@ contains
       script = join_path(home, study%plot)
       if (.not. file_exists(script)) return
       if (.not. program_exists('gnuplot')) then
-         call say(arguments%quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
+         call print_note(arguments%quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
          return
       end if
       call run_plot_script(script, tables, out, error)
-      if (.not. allocated(error)) call say(arguments%quiet, 'figures in '//out)
+      if (.not. allocated(error)) call print_note(arguments%quiet, 'figures in '//out)
    end subroutine draw
 
 end module ek_study_command

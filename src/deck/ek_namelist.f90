@@ -66,90 +66,37 @@ contains
                   call complain(k, trim(key%name)//' has '//plural(key%most, 'element', 'elements')//', found element '// &
                      str(entry%first + entry%used - 1))
                else
-                  call complain(k, trim(key%name)//' '//needs()//', found '//str(given)//surplus())
+                  call complain(k, trim(key%name)//' '//needs(key)//', found '//str(given)//surplus(key, entry))
                end if
                return
             end if
             if (given < key%least .and. first == k) then
-               call complain(k, trim(key%name)//' '//needs()//', found '//str(given))
+               call complain(k, trim(key%name)//' '//needs(key)//', found '//str(given))
                return
             end if
             if (entry%first > 1 .and. given >= key%least) then     ! lists start at their first element and have no gaps
                if (entry_index(record, entry%key, entry%first - 1) == 0) then
-                  call complain(k, trim(key%name)//element_text(entry%first - 1)//' is missing, found '//trim(key%name)// &
-                     element_text(entry%first))
+                  call complain(k, trim(key%name)//element_text(key, entry%first - 1)//' is missing, found '//trim(key%name)// &
+                     element_text(key, entry%first))
                   return
                end if
             end if
             do j = 1, entry%used
                fault = value_fault(entry%values(j), key%type)
                if (fault == '') cycle
-               call complain(k, trim(key%name)//element_text(entry%first + j - 1)//' must be '//fault)
+               call complain(k, trim(key%name)//element_text(key, entry%first + j - 1)//' must be '//fault)
                return
             end do
             fits = .true.
-            if (key%type == number) call check_range(entry, fits)
-         end associate
-      end function fits
-
-      !> A number outside its range is rejected, but the others of the entry are checked too.
-      subroutine check_range(entry, has_passed)
-         type(entry_t), intent(in) :: entry
-         logical, intent(inout) :: has_passed
-         character(:), allocatable :: name
-         real(wp) :: value
-         integer :: j
-
-         do j = 1, entry%used
-            read (entry%values(j)%text, *) value
-            name = trim(key%name)//element_text(entry%first + j - 1)
-            if (key%least /= key%most) name = trim(key%name)
-            if (is_inside(key%range, value)) cycle
-            call complain(k, name//' '//range_words(key, str(value)))
-            has_passed = .false.
-            if (key%least /= key%most) return
-         end do
-      end subroutine check_range
-
-      pure function needs() result(words)
-         character(:), allocatable :: words
-         if (key%least == key%most) then
-            words = 'needs '//plural(key%least, 'value', 'values')
-         else
-            words = 'needs '//str(key%least)//' to '//str(key%most)//' values'
-         end if
-      end function needs
-
-      !> Hints about surplus values: a decimal comma, or an unknown key without = after it.
-      function surplus() result(words)
-         character(:), allocatable :: words
-         integer :: j
-
-         words = ''
-         associate (entry => record%entries(k))
-            do j = 2, entry%used
-               if (entry%values(j)%is_string .or. entry%values(j)%is_empty) cycle
-               if (scan(lower(entry%values(j)%text(:1)), 'abcdefghijklmnopqrstuvwxyz') == 1 .and. j < entry%used) then
-                  ! an unclosed string leaves no numbers
-                  if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, '0123456789') == 0) cycle
-                  words = ' (is the = after '//quoted(entry%values(j)%text)//' missing?)'
-                  return
-               end if
-               if (key%type /= number .or. verify(entry%values(j)%text, '0123456789') > 0) cycle
-               if (verify(entry%values(j - 1)%text, '+-0123456789') > 0) cycle
-               words = ' (a decimal comma? Write '//entry%values(j - 1)%text//'.'//entry%values(j)%text//', not '// &
-                  entry%values(j - 1)%text//','//entry%values(j)%text//')'
-               return
+            do j = 1, entry%used      ! each number outside its range is reported
+               fault = out_of_range(key, entry, j)
+               if (fault == '') cycle
+               call complain(k, fault)
+               fits = .false.
+               if (key%least /= key%most) return
             end do
          end associate
-      end function surplus
-
-      pure function element_text(at) result(words)
-         integer, intent(in) :: at
-         character(:), allocatable :: words
-         words = ''
-         if (key%most > 1) words = '('//str(at)//')'
-      end function element_text
+      end function fits
 
       subroutine complain(entry, what)
          integer, intent(in) :: entry
@@ -162,6 +109,68 @@ contains
       end subroutine complain
 
    end subroutine check_record
+
+   !> 'kt(2) must be 0 or more, found -1'; '' if the number is in the range of its key, or is none.
+   function out_of_range(key, entry, k) result(words)
+      type(key_t), intent(in) :: key
+      type(entry_t), intent(in) :: entry
+      integer, intent(in) :: k               !! number of the value in the entry
+      character(:), allocatable :: words
+      real(wp) :: value
+
+      words = ''
+      if (key%type /= number) return
+      read (entry%values(k)%text, *) value
+      if (is_inside(key%range, value)) return
+      words = trim(key%name)//' '//range_words(key, str(value))
+      if (key%least == key%most) words = trim(key%name)//element_text(key, entry%first + k - 1)//' '//range_words(key, str(value))
+   end function out_of_range
+
+   !> 'needs 3 values'
+   pure function needs(key) result(words)
+      type(key_t), intent(in) :: key
+      character(:), allocatable :: words
+
+      if (key%least == key%most) then
+         words = 'needs '//plural(key%least, 'value', 'values')
+      else
+         words = 'needs '//str(key%least)//' to '//str(key%most)//' values'
+      end if
+   end function needs
+
+   !> Hints about surplus values: a decimal comma, or an unknown key without = after it.
+   function surplus(key, entry) result(words)
+      type(key_t), intent(in) :: key
+      type(entry_t), intent(in) :: entry
+      character(:), allocatable :: words
+      integer :: j
+
+      words = ''
+      do j = 2, entry%used
+         associate (value => entry%values(j), before => entry%values(j - 1)%text)
+            if (value%is_string .or. value%is_empty) cycle
+            if (scan(lower(value%text(:1)), 'abcdefghijklmnopqrstuvwxyz') == 1 .and. j < entry%used) then
+               ! an unclosed string leaves no numbers
+               if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, '0123456789') == 0) cycle
+               words = ' (is the = after '//quoted(value%text)//' missing?)'
+               return
+            end if
+            if (key%type /= number .or. verify(value%text, '0123456789') > 0) cycle
+            if (verify(before, '+-0123456789') > 0) cycle
+            words = ' (a decimal comma? Write '//before//'.'//value%text//', not '//before//','//value%text//')'
+            return
+         end associate
+      end do
+   end function surplus
+
+   !> '(2)' of a key with several elements.
+   pure function element_text(key, at) result(words)
+      type(key_t), intent(in) :: key
+      integer, intent(in) :: at
+      character(:), allocatable :: words
+      words = ''
+      if (key%most > 1) words = '('//str(at)//')'
+   end function element_text
 
    !> 'a number, found …' if a value does not fit its type; '' if it does.
    pure function value_fault(value, type) result(fault)

@@ -4,6 +4,7 @@
 !> one path without the side, and the one on the right takes `sign` × the value.
 module ek_parameter
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_text, only: str, is_like
    use ek_twin, only: right_twin
    use ek_record, only: record_t, entry_index, element, own_name
@@ -115,6 +116,8 @@ contains
       real(wp), intent(inout) :: x(:)
       integer :: j
 
+      if (are_checked) call require(all(found%number >= 1 .and. found%number <= min(parameters%used, size(x))), &
+         'put_value: the parameters are of another deck')
       do j = 1, size(found)
          x(found(j)%number) = (found(j)%sign*value)*parameters%list(found(j)%number)%unit
       end do

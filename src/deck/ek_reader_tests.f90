@@ -69,7 +69,7 @@ contains
          if (max(abs(from), abs(to))*unit > steepest_roll) call complain(draft, 'to', &
             'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
       case ('steering')
-         call find_steering()
+         call find_steering(draft, this%drive, unit)
       case ('aligning_torque')
          unit = 1.0_wp          ! N m, as on every rig
       case ('table')
@@ -118,33 +118,36 @@ contains
          end do
       end subroutine check_tyres
 
-      !> The steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
-      subroutine find_steering()
-         character(word_length) :: only
-         integer :: j, found
-
-         this%drive = text_of(draft, 'drive')
-         only = ''
-         found = 0
-         do j = 1, size(draft%cards)
-            if (this%drive /= '') exit
-            if (draft%records(j)%group == 'steering') this%drive = element(draft%records(j), 'driver', 1)
-         end do
-         do j = 1, size(draft%cards)
-            if (this%drive /= '') exit
-            if (draft%cards(j)%group /= joint_group) cycle
-            if (lower(element(draft%records(j), 'type', 1)) /= 'driver') cycle
-            found = found + 1
-            if (found == 1) only = draft%cards(j)%name
-         end do
-         if (found == 1) this%drive = trim(only)
-         if (this%drive == '') then
-            call complain(draft, 'test', "the steered joint is unknown: give drive = '<driver joint>' or a &steering")
-         else
-            call find_driver(draft, this%drive, [character(1) ::], unit)
-         end if
-      end subroutine find_steering
-
    end subroutine read_test
+
+   !> The steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
+   subroutine find_steering(draft, drive, unit)
+      type(draft_t), intent(inout) :: draft
+      character(:), allocatable, intent(out) :: drive
+      real(wp), intent(inout) :: unit        !! deck unit of its value → SI
+      character(word_length) :: only
+      integer :: j, found
+
+      drive = text_of(draft, 'drive')
+      only = ''
+      found = 0
+      do j = 1, size(draft%cards)
+         if (drive /= '') exit
+         if (draft%records(j)%group == 'steering') drive = element(draft%records(j), 'driver', 1)
+      end do
+      do j = 1, size(draft%cards)
+         if (drive /= '') exit
+         if (draft%cards(j)%group /= joint_group) cycle
+         if (lower(element(draft%records(j), 'type', 1)) /= 'driver') cycle
+         found = found + 1
+         if (found == 1) only = draft%cards(j)%name
+      end do
+      if (found == 1) drive = trim(only)
+      if (drive == '') then
+         call complain(draft, 'test', "the steered joint is unknown: give drive = '<driver joint>' or a &steering")
+      else
+         call find_driver(draft, drive, [character(1) ::], unit)
+      end if
+   end subroutine find_steering
 
 end module ek_reader_tests

@@ -146,16 +146,20 @@ contains
          start = cursor
          if (is_word_begin(c)) then
             if (key_follows(text, cursor)) then
-               if (is_open) call close_entry()
+               if (is_open) call close_entry(file, cursor, entry, record, complaints)
                cursor = start
-               call open_entry()
+               call open_entry(text, file, cursor, record%group, entry, complaints)
+               is_open = .true.
+               after_comma = .true.           ! a comma here leaves the first value empty
                cycle
             end if
             cursor = start
             ! after the values of a key, the name of another key is not a value
             if ((.not. is_open .or. entry%used > 0) .and. lacks_equals(text, cursor, record%group)) then
-               if (is_open) call close_entry()
-               call open_entry()
+               if (is_open) call close_entry(file, cursor, entry, record, complaints)
+               call open_entry(text, file, cursor, record%group, entry, complaints)
+               is_open = .true.
+               after_comma = .true.
                cycle
             end if
          end if
@@ -183,75 +187,82 @@ contains
             end if
          end if
       end do
-      if (is_open) call close_entry()
+      if (is_open) call close_entry(file, cursor, entry, record, complaints)
+
+   end subroutine scan_record
+
+   !> Takes a key, its subscript and the = sign.
+   subroutine open_entry(text, file, cursor, group, entry, complaints)
+      character(*), intent(in) :: text, file, group
+      type(cursor_t), intent(inout) :: cursor
+      type(entry_t), intent(inout) :: entry
+      type(complaints_t), intent(inout) :: complaints
+      character(:), allocatable :: subscript, word
+      integer :: status
+
+      entry%line = cursor%line
+      call take_word(text, cursor, word)
+      entry%key = lower(word)
+      entry%first = 1
+      call skip_blanks(text, cursor)
+      if (next_is('(')) then
+         call take_subscript(text, cursor, subscript)
+         status = 1
+         if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
+            read (subscript, *, iostat=status) entry%first
+         if (status /= 0 .or. entry%first < 1) then
+            call complain(complaints, file, cursor, entry%line, '&'//group//': the subscript of '// &
+               quoted(entry%key)//' must be one positive whole number, found ('//subscript//')')
+            entry%first = 1
+         end if
+         call skip_blanks(text, cursor)
+      end if
+      if (next_is(':')) then
+         call complain(complaints, file, cursor, entry%line, '&'//group//": expected = after "//quoted(entry%key)//', found :')
+         cursor%at = cursor%at + 1
+         if (next_is('=')) cursor%at = cursor%at + 1
+      else if (next_is('=')) then
+         cursor%at = cursor%at + 1
+      else
+         call complain(complaints, file, cursor, entry%line, '&'//group//': the = after '//quoted(entry%key)//' is missing')
+      end if
 
    contains
 
-      subroutine open_entry()
-         character(:), allocatable :: subscript
-         integer :: status
-
-         entry%line = cursor%line
-         call take_word(text, cursor, word)
-         entry%key = lower(word)
-         entry%first = 1
-         call skip_blanks(text, cursor)
-         if (next_is('(')) then
-            call take_subscript(text, cursor, subscript)
-            status = 1
-            if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
-               read (subscript, *, iostat=status) entry%first
-            if (status /= 0 .or. entry%first < 1) then
-               call complain(complaints, file, cursor, entry%line, '&'//record%group//': the subscript of '// &
-                  quoted(entry%key)//' must be one positive whole number, found ('//subscript//')')
-               entry%first = 1
-            end if
-            call skip_blanks(text, cursor)
-         end if
-         if (next_is(':')) then
-            call complain(complaints, file, cursor, entry%line, '&'//record%group//": expected = after "//quoted(entry%key)// &
-               ', found :')
-            cursor%at = cursor%at + 1
-            if (next_is('=')) cursor%at = cursor%at + 1
-         else if (next_is('=')) then
-            cursor%at = cursor%at + 1
-         else
-            call complain(complaints, file, cursor, entry%line, '&'//record%group//': the = after '//quoted(entry%key)// &
-               ' is missing')
-         end if
-         is_open = .true.
-         after_comma = .true.           ! a comma here leaves the first value empty
-      end subroutine open_entry
-
       !> Whether the next character is this one.
-      logical function next_is(c)
+      pure logical function next_is(c)
          character, intent(in) :: c
          next_is = .false.
          if (cursor%at <= len(text)) next_is = text(cursor%at:cursor%at) == c
       end function next_is
 
-      subroutine close_entry()
-         integer :: k, before
+   end subroutine open_entry
 
-         is_open = .false.
-         if (entry%used == 0) then
-            call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)//' has no value')
-         end if
-         before = 0
-         do k = 1, max(entry%used, 1)
-            if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
-         end do
-         if (before > 0) then
-            call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)// &
-               ' is given twice, first in line '//str(record%entries(before)%line))
-            entry%used = 0
-            if (allocated(entry%values)) deallocate (entry%values)
-         else
-            call add_entry(record, entry)
-         end if
-      end subroutine close_entry
+   !> Adds a complete entry to its record, unless its key was given before.
+   subroutine close_entry(file, cursor, entry, record, complaints)
+      character(*), intent(in) :: file
+      type(cursor_t), intent(in) :: cursor
+      type(entry_t), intent(inout) :: entry       !! empty afterwards
+      type(record_t), intent(inout) :: record
+      type(complaints_t), intent(inout) :: complaints
+      integer :: k, before
 
-   end subroutine scan_record
+      if (entry%used == 0) then
+         call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)//' has no value')
+      end if
+      before = 0
+      do k = 1, max(entry%used, 1)
+         if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
+      end do
+      if (before > 0) then
+         call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)// &
+            ' is given twice, first in line '//str(record%entries(before)%line))
+         entry%used = 0
+         if (allocated(entry%values)) deallocate (entry%values)
+      else
+         call add_entry(record, entry)
+      end if
+   end subroutine close_entry
 
    !> One value or comma. Two commas in a row, or n* alone, leave values empty.
    subroutine scan_value(text, file, cursor, entry, after_comma, complaints)

@@ -12,6 +12,7 @@
 !> Equations (K.2), (K.3) of docs/theory/kkt.md.
 module ek_kkt
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
    use ek_block, only: add_diagonal_block, add_block, s_matrix, rotated
@@ -32,6 +33,8 @@ module ek_kkt
    integer, parameter :: material_only = 2   !! K = −(19) of the paper: recursive
    integer, parameter :: residual_only = 3   !! right-hand side only
 
+   integer, parameter :: nothing = 0, assembled = 1, factors = 2   ! stages of the matrix
+
    !> The system and its work space, allocated once per model.
    type :: kkt_t
       integer :: nq = 0, nc = 0, n = 0       !! number of unknowns, of rows, and their sum
@@ -49,6 +52,7 @@ module ek_kkt
       integer :: negative = 0                !! negative eigenvalues of the last matrix
       real(wp) :: pivot_ratio = 1.0_wp       !! smallest over largest pivot of the last matrix: a cheap condition estimate
       logical :: is_singular = .false.       !! the last factorisation met a zero pivot
+      integer :: stage = nothing             !! what `matrix` holds
    end type kkt_t
 
 contains
@@ -99,6 +103,15 @@ contains
       integer, intent(in) :: mode                !! whole_tangent, material_only or residual_only
       type(kkt_t), intent(inout) :: kkt          !! matrix not yet scaled, rhs, gradients, values
 
+      if (are_checked) then
+         call require(kkt%nq == suspension%unknowns() .and. kkt%nc == suspension%constraints(), &
+            'assemble: the system is of another model')
+         call require(size(state%poses) == size(suspension%bodies) + 1 .and. size(state%reaction) == kkt%nc, &
+            'assemble: the state is of another model')
+         call require(demand%loads <= size(demand%load) .and. all(demand%load(:demand%loads) <= size(suspension%loads)) .and. &
+            all(demand%row(:demand%rows) <= kkt%nc), 'assemble: the inputs are of another model')
+      end if
+      if (mode /= residual_only) kkt%stage = assembled
       call assemble_into(suspension, state%poses, state%reaction, demand, mode, kkt%nq, kkt%n, kkt%gradients, &
          kkt%values, kkt%matrix, kkt%rhs)
       if (demand%relief > 0.0_wp) call add_multiple(kkt%nq, -demand%relief, kkt%imbalance, kkt%rhs)
@@ -264,6 +277,8 @@ contains
       type(kkt_t), intent(inout) :: kkt
       integer :: info
 
+      if (are_checked) call require(kkt%stage == assembled, 'factorise: no matrix was assembled')
+      kkt%stage = factors
       call scale_lower(kkt%n, kkt%scale, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio)
@@ -327,6 +342,7 @@ contains
    pure subroutine solve(kkt)
       type(kkt_t), intent(inout) :: kkt
 
+      if (are_checked) call require(kkt%stage == factors, 'solve: the matrix is not factorised')
       call multiply(kkt%n, kkt%scale, kkt%rhs)
       call substitute(kkt%n, kkt%matrix, kkt%pivots, kkt%rhs)
       call multiply(kkt%n, kkt%scale, kkt%rhs)

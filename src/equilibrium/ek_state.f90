@@ -1,6 +1,7 @@
 !> A state of a suspension (poses of the bodies and reactions of the joints) and the inputs to it.
 module ek_state
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_turn, only: pose_t
    use ek_rotation, only: cross, rotate_quaternion, rotation_matrix, quaternion_product
    use ek_suspension, only: suspension_t, design_poses
@@ -100,6 +101,8 @@ contains
       type(state_t), intent(inout) :: state
       integer :: k, at
 
+      if (are_checked) call require(size(packed) == 7*(size(state%poses) - 1) + size(state%reaction), &
+         'unpack_state: the packed state is of another model')
       at = 0
       do k = 2, size(state%poses)
          associate (pose => state%poses(k), q => packed(at + 4:at + 7))

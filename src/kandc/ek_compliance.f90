@@ -26,6 +26,7 @@
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_measure, only: view_t, look
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
@@ -94,6 +95,8 @@ contains
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j, p, info
 
+      if (are_checked) call require(all(suspension%rows(released_rows)%is_driver) .and. size(self%columns, 1) == kkt%n, &
+         'wheel_compliance: only drivers of the same model can be released')
       call assemble(suspension, state, demand, whole_tangent, kkt)
       do j = 1, size(released_rows)
          call release(released_rows(j), kkt)

@@ -25,6 +25,7 @@
 !> If the drive torque is reacted in a solid axle, traction acts at the patch.
 module ek_rig
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_units, only: degree, millimetre
    use ek_wheel_side, only: side_name, height_name, left_and_right, design_track
    use ek_measure, only: rotation, axis_axis
@@ -76,6 +77,7 @@ contains
       type(case_t), intent(out) :: this               !! with its actuations, unit and name of the swept value
       integer :: k
 
+      if (are_checked) call require(is_mountable(given), 'mount: the table of the case was not read')
       suspension = base
       this = given
       if (.not. allocated(this%test)) this%test = ''

@@ -12,6 +12,7 @@
 !> An Akima curve depends on five neighbouring points: a distant corner causes no oscillation, and flat data stay flat.
 module ek_curve
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
    public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, has_corner, has_points, least_step
@@ -114,6 +115,7 @@ contains
       real(wp) :: t
       integer :: k, n
 
+      if (are_checked) call require(allocated(curve%breaks), 'look_up_curve: the curve has no points')
       n = size(curve%breaks)
       t = x - curve%breaks(n)
       if (t >= 0.0_wp) then

@@ -1,6 +1,7 @@
 !> Completes a suspension after all parts have been added (ek_builder): reference points, arms, design values.
 module ek_completion
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_turn, only: pose_t
    use ek_measure, only: measure_t, measure_value, axis_axis, rotation
    use ek_element, only: measure_spring, bushing_element, is_of_angle, set_measure_design
@@ -26,6 +27,8 @@ contains
       type(suspension_t), intent(inout) :: self
       integer :: k, t
 
+      if (are_checked .and. size(self%rows) > 0) call require(sum(self%rows%terms) == size(self%terms) .and. &
+         all(self%rows%first + self%rows%terms - 1 <= size(self%terms)), 'settle_design: rows and terms do not belong together')
       call settle_origins(self)
       do k = 1, size(self%terms)
          call subtract_origins(self, self%terms(k)%measure)

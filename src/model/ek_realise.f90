@@ -8,6 +8,7 @@
 !> is .false. and the suspension must not be used; the deck reader reports the reason.
 module ek_realise
    use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
    use ek_curve, only: curve_t, new_curve, scaled_curve, has_points, look_up_curve, least_step
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, axes_fit, max_terms
@@ -43,6 +44,12 @@ contains
       logical, intent(out) :: is_good
       integer :: k
 
+      if (are_checked) then
+         call require(allocated(suspension%vectors), 'realise: call new_design first')
+         call require(size(suspension%vectors, 2) == size(plan%vectors) + 1 .and. suspension%scalars == size(plan%elements) &
+            .and. size(suspension%elements) == size(plan%elements) + size(plan%bushings), &
+            'realise: the suspension is of another blueprint')
+      end if
       call find_vectors(plan, x, suspension%vectors, is_good)
       do k = 1, size(plan%points)
          suspension%points(k)%at = suspension%vectors(:, plan%points(k))

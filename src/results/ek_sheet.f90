@@ -321,7 +321,7 @@ contains
          if (content(k:k) == separator) most = most + 1
       end do
       allocate (character(max(len(content), 1)) :: cells%text(most))
-      cells%text = ''
+      cells%text(:) = ''      ! (:) keeps the length; without it the standard asks for length 0
       cell = ''
       used = 0
       is_quoted = .false.

@@ -38,7 +38,7 @@ contains
 
    !> Builds the model of a deck for one case ('': the first case), examines it on the rig, and balances it.
    !>
-   !> A study of many designs passes the same subject with each: what does not change between designs is then checked once.
+   !> A study of many designs passes the same one with each: what does not change between designs is then checked once.
    subroutine make_subject(deck, case_name, subject, error)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_name

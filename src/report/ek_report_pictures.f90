@@ -15,7 +15,6 @@ module ek_report_pictures
    use ek_scene, only: scene_t, line_bump, line_rebound
    use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
    use ek_picture, only: add_solid, add_ghost, add_ground, add_names
-   use ek_arguments, only: arguments_t
    implicit none(type, external)
    private
    public :: film_t, draw_pictures
@@ -32,8 +31,8 @@ contains
 
    !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and the charts
    !> in figures/.
-   subroutine draw_pictures(arguments, suspension, tests, films, sets, folder, has_animation, message, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine draw_pictures(wants_plots, wants_animation, suspension, tests, films, sets, folder, has_animation, message, error)
+      logical, intent(in) :: wants_plots, wants_animation
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
       type(film_t), intent(in) :: films(:)                   !! one per test
@@ -48,7 +47,7 @@ contains
 
       message = ''
       has_animation = .false.
-      if (arguments%no_plots) then
+      if (.not. wants_plots) then
          ! pictures of an earlier report do not belong to this page
          call remove_file(join_path(folder, 'picture.svg'))
          call remove_file(join_path(folder, 'picture.png'))
@@ -67,7 +66,7 @@ contains
       call pictures_of(charts, pictures)
       call pictures%add('../picture.svg')
       call pictures%add('../picture.png')
-      if (arguments%animate) then
+      if (wants_animation) then
          call write_animation(suspension, tests, films, folder, camera, has_animation, error)
          if (allocated(error)) return
          if (has_animation) then

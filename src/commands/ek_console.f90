@@ -1,0 +1,132 @@
+!> Output on the console: messages on standard error; findings and the paths of results on standard output.
+module ek_console
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str, plural, printable
+   use ek_file, only: is_terminal, write_standard_output, write_standard_error
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_balance, only: balance_words
+   use ek_plausibility, only: doubt
+   use ek_model_remarks, only: patch_words, spring_words, preload_words
+   use ek_remark, only: remark_t, remark_list_t, note, warning
+   implicit none(type, external)
+   private
+   public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &
+      show_progress, clear_progress
+
+contains
+
+   !> An informational message; suppressed by --quiet.
+   subroutine print_note(quiet, text)
+      logical, intent(in) :: quiet
+      character(*), intent(in) :: text
+      if (.not. quiet) call print_message(text)
+   end subroutine print_note
+
+   !> A warning: results may be unreliable.
+   subroutine print_warning(text)
+      character(*), intent(in) :: text
+      call print_message('warning: '//text)
+   end subroutine print_warning
+
+   !> An error, before the program ends or continues with the next case. An empty message prints nothing.
+   subroutine print_error(text)
+      character(*), intent(in) :: text
+      if (len(text) > 0) call print_message('error: '//text)
+   end subroutine print_error
+
+   !> Writes every message to standard error. Control characters from a deck do not reach the terminal.
+   subroutine print_message(text)
+      character(*), intent(in) :: text
+      call write_standard_error(printable(text)//new_line('a'))
+   end subroutine print_message
+
+   !> Prints findings on standard output.
+   subroutine print_text(text, error)
+      character(*), intent(in) :: text                          !! including its line ends
+      type(error_t), allocatable, intent(out) :: error          !! exit_file
+      call write_standard_output(printable(text), error)
+   end subroutine print_text
+
+   !> Prints the path of a result on standard output. If standard output is full or closed the work continues, because the
+   !> result exists. The first such failure is kept; a reader that closes the pipe (`| head`) is no failure.
+   subroutine print_path(path, unprinted)
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file
+      type(error_t), allocatable :: error
+
+      if (allocated(unprinted)) return
+      call write_standard_output(path//new_line('a'), error)
+      if (.not. allocated(error)) return
+      if (len(error%message) > 0) call move_alloc(error, unprinted)
+   end subroutine print_path
+
+   !> Progress line, which overwrites itself; on a terminal only.
+   subroutine show_progress(done, total)
+      integer, intent(in) :: done, total
+      if (is_terminal(2)) call write_standard_error(achar(13)//'  '//str(done)//' of '//str(total)//' states')
+   end subroutine show_progress
+
+   !> Clears the progress line.
+   subroutine clear_progress()
+      if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
+   end subroutine clear_progress
+
+   !> Prints the messages on a balanced model before its cases are run; `page` collects the warnings, and every remark.
+   subroutine print_model_remarks(quiet, suspension, cases, chosen, page)
+      logical, intent(in) :: quiet
+      type(suspension_t), intent(in) :: suspension      !! balanced
+      type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
+      type(message_list_t), intent(inout), optional :: page
+      type(message_list_t) :: notes, warnings
+      integer :: k
+
+      call preload_words(suspension, notes)
+      do k = 1, notes%count()
+         call print_note(quiet, notes%line(k))
+      end do
+      call patch_words(suspension, warnings)
+      call spring_words(suspension, chosen, warnings)
+      call balance_words(suspension, warnings)
+      do k = 1, warnings%count()
+         call print_warning(warnings%line(k))
+         if (present(page)) call page%add(warnings%line(k))
+      end do
+      call warn_of_remarks(suspension, cases, page)
+   end subroutine print_model_remarks
+
+   !> Prints the notes and warnings on a case; its failures become an error.
+   subroutine print_remarks(quiet, remarks)
+      logical, intent(in) :: quiet
+      type(remark_list_t), intent(in) :: remarks
+      type(remark_t) :: remark
+      integer :: k
+
+      do k = 1, remarks%count()
+         remark = remarks%item(k)
+         if (remark%severity == note) call print_note(quiet, remark%whole())
+         if (remark%severity == warning) call print_warning(remark%whole())
+      end do
+   end subroutine print_remarks
+
+   !> One warning for all remarks of ek_plausibility: the first, and a reference to the others. The page lists them all.
+   subroutine warn_of_remarks(suspension, cases, page)
+      type(suspension_t), intent(in) :: suspension      !! balanced
+      type(case_t), intent(in) :: cases(:)              !! of the deck
+      type(message_list_t), intent(inout), optional :: page
+      type(message_list_t) :: remarks
+      character(:), allocatable :: more
+      integer :: k
+
+      call doubt(suspension, cases, remarks)
+      if (remarks%count() == 0) return
+      more = ''
+      if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
+      call print_warning('plausible? '//remarks%line(1)//more)
+      if (.not. present(page)) return
+      do k = 1, remarks%count()
+         call page%add('plausible? '//remarks%line(k))
+      end do
+   end subroutine warn_of_remarks
+
+end module ek_console
