@@ -18,10 +18,9 @@ module ek_geometry_columns
    use ek_characteristics, only: motion_ratio, quotient
    use ek_attitude, only: attitude_t
    use ek_angle_rate, only: axes_of, camber_rate
-   use ek_steer_angle, only: steer_of, steer_rate, turning_circle
+   use ek_steer_angle, only: steer_of, steer_rate, turning_circle, ideal_outer_steer, outer_wheel, wall_to_wall
    use ek_steer_axis, only: locked_twist
-   use ek_wheel_geometry, only: axis_distances_t, axis_distances, side_view_angle, ideal_outer_steer, outer_wheel, &
-      wall_to_wall, ride_frequency
+   use ek_wheel_geometry, only: axis_distances_t, axis_distances, side_view_angle, ride_frequency
    implicit none(type, external)
    private
    public :: wheel_geometry_values, axle_geometry_values, element_values, mass_on

@@ -6,12 +6,11 @@ module ek_plot
    use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
    use ek_test_result, only: wheel_word, least_stroke, travel => travel_column
    use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
+   use ek_test_charts, only: largest_forces, most_curves
    use ek_file, only: base_name
    implicit none(type, external)
    private
    public :: run_figures
-
-   integer, parameter :: most_curves = 8          !! in one panel, for legibility
 
    !> The properties of a run that its figures use.
    type :: view_t
@@ -181,37 +180,18 @@ contains
       type(table_t), intent(in) :: table
       type(view_t), intent(in) :: view
       character(*), intent(in), optional :: elements(:)
-      character(*), parameter :: tail = '_fx_n'
       character(name_length), allocatable :: names(:)
-      real(wp), allocatable :: peak(:)
+      real(wp), allocatable :: force(:, :)
       type(figure_t) :: figure
       type(panel_t) :: panel
-      real(wp) :: least
-      integer :: k, place
+      logical :: is_cut
+      integer :: k
 
-      allocate (names(0))
-      do k = 1, size(table%columns)
-         place = len_trim(table%columns(k)) - len(tail)
-         if (place < 1) cycle
-         if (table%columns(k) (place + 1:) /= tail) cycle
-         if (present(elements)) then
-            if (.not. any(elements == table%columns(k) (:place))) cycle
-         end if
-         names = [character(name_length) :: names, table%columns(k) (:place)]
-      end do
-      allocate (peak(size(names)))
-      do k = 1, size(names)
-         peak(k) = force_peak(table, trim(names(k)))
-      end do
-      least = 0.0_wp
-      do while (count(peak > least) > most_curves)
-         least = minval(peak, mask=peak > least)
-      end do
+      call largest_forces(table, spread(.true., 1, row_count(table)), names, force, is_cut, elements)
       figure = new_figure(view%stem//'_bushing_force', 'Bushing force', view%subtitle)
-      if (count(peak > 0.0_wp) > most_curves) figure%title = 'Bushing force, largest'
+      if (is_cut) figure%title = 'Bushing force, largest'
       panel = view_panel(view, '', 'force, magnitude [N]')
       do k = 1, size(names)
-         if (.not. peak(k) > least) cycle
          call add_curve(panel, new_curve(view%file, abscissa_of(view, names(k)), &
             '(sqrt('//square(trim(names(k))//'_fx_n')//' + '//square(trim(names(k))//'_fy_n')//' + '// &
             square(trim(names(k))//'_fz_n')//'))', trim(names(k))))
@@ -228,22 +208,6 @@ contains
       character(:), allocatable :: expression
       expression = 'column("'//name//'")**2'
    end function square
-
-   !> Largest magnitude of an element's force [N]; 0 when a component is missing.
-   pure real(wp) function force_peak(table, name)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: name
-
-      integer :: place(3), row
-
-      place = [column_index(table, name//'_fx_n'), column_index(table, name//'_fy_n'), column_index(table, name//'_fz_n')]
-      force_peak = 0.0_wp
-      if (any(place == 0)) return
-      do row = 1, row_count(table)
-         if (.not. all(ieee_is_finite(table%values(place, row)))) cycle
-         force_peak = max(force_peak, norm2(table%values(place, row)))
-      end do
-   end function force_peak
 
    !> Empty axes: wheel travel upward, a load factor to the right.
    pure type(panel_t) function view_panel(view, title, label) result(panel)

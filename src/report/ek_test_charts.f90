@@ -5,13 +5,13 @@
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_table, only: name_length, column_index, row_count
+   use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
-   public :: test_charts, quantity_chart, quantities_of
+   public :: test_charts, quantity_chart, quantities_of, largest_forces, most_curves
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
    integer, parameter :: most_curves = 8       !! in one chart, for legibility
@@ -172,48 +172,20 @@ contains
    !> Magnitude of the force of every bushing; of many bushings those with the largest force.
    pure type(chart_t) function bushing_chart(test) result(chart)
       type(test_result_t), intent(in) :: test
-      character(*), parameter :: ending = '_fx_n'
       type(trace_t) :: trace
-      real(wp), allocatable :: force(:, :), peak(:)
+      real(wp), allocatable :: force(:, :)
       character(name_length), allocatable :: names(:)
-      integer, allocatable :: places(:, :)
-      logical :: is_good(row_count(test%table))
-      real(wp) :: least
-      integer :: k, place, row, n, design
+      logical :: is_cut
+      integer :: k, design
 
       chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
       chart%noise = 1.0_wp
-      n = size(test%table%columns)
-      allocate (names(n), places(3, n), peak(n), force(row_count(test%table), n))
-      n = 0
-      is_good = converged_rows(test%table)
-      do k = 1, size(test%table%columns)
-         place = len_trim(test%table%columns(k)) - len(ending)
-         if (place < 1) cycle
-         if (test%table%columns(k) (place + 1:) /= ending) cycle
-         places(:, n + 1) = [k, column_index(test%table, test%table%columns(k) (:place)//'_fy_n'), &
-            column_index(test%table, test%table%columns(k) (:place)//'_fz_n')]
-         if (any(places(:, n + 1) == 0)) cycle
-         n = n + 1
-         names(n) = test%table%columns(k) (:place)
-         peak(n) = 0.0_wp
-         do row = 1, row_count(test%table)
-            force(row, n) = ieee_value(1.0_wp, ieee_quiet_nan)
-            if (.not. is_good(row) .or. .not. all(ieee_is_finite(test%table%values(places(:, n), row)))) cycle
-            force(row, n) = norm2(test%table%values(places(:, n), row))
-            peak(n) = max(peak(n), force(row, n))
-         end do
-      end do
-      least = 0.0_wp
-      do while (count(peak(:n) > least) > most_curves)
-         least = minval(peak(:n), mask=peak(:n) > least)
-      end do
+      call largest_forces(test%table, converged_rows(test%table), names, force, is_cut)
       design = design_row(test%table)
-      do k = 1, n
-         if (.not. peak(k) > least) cycle
+      do k = 1, size(names)
          trace%title = trim(names(k))      ! gfortran 12 leaks it in a structure constructor
-         trace%colour = size(chart%traces) + 1
+         trace%colour = k
          trace%x = abscissa_of(test, side_of(test, names(k)))
          if (size(trace%x) == 0) return
          trace%y = force(:, k)
@@ -221,6 +193,50 @@ contains
          call add_trace(chart, trace)
       end do
    end function bushing_chart
+
+   !> The elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
+   !> elements than fit in a chart those with the largest force.
+   pure subroutine largest_forces(table, is_good, names, force, is_cut, elements)
+      type(table_t), intent(in) :: table
+      logical, intent(in) :: is_good(:)                    !! rows to consider
+      character(name_length), allocatable, intent(out) :: names(:)
+      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); not a number elsewhere
+      logical, intent(out) :: is_cut                       !! others have a force as well
+      character(*), intent(in), optional :: elements(:)    !! only these
+      character(*), parameter :: ending = '_fx_n'
+      real(wp) :: peak(size(table%columns)), least
+      integer :: places(3), k, row, n, at
+
+      n = size(table%columns)
+      allocate (names(n), force(row_count(table), n))
+      force = ieee_value(1.0_wp, ieee_quiet_nan)
+      n = 0
+      do k = 1, size(table%columns)
+         at = len_trim(table%columns(k)) - len(ending)
+         if (at < 1) cycle
+         if (table%columns(k) (at + 1:) /= ending) cycle
+         if (present(elements)) then
+            if (.not. any(elements == table%columns(k) (:at))) cycle
+         end if
+         places = [k, column_index(table, table%columns(k) (:at)//'_fy_n'), column_index(table, table%columns(k) (:at)//'_fz_n')]
+         if (any(places == 0)) cycle
+         n = n + 1
+         names(n) = table%columns(k) (:at)
+         peak(n) = 0.0_wp
+         do row = 1, row_count(table)
+            if (.not. is_good(row) .or. .not. all(ieee_is_finite(table%values(places, row)))) cycle
+            force(row, n) = norm2(table%values(places, row))
+            peak(n) = max(peak(n), force(row, n))
+         end do
+      end do
+      least = 0.0_wp
+      is_cut = count(peak(:n) > least) > most_curves
+      do while (count(peak(:n) > least) > most_curves)
+         least = minval(peak(:n), mask=peak(:n) > least)
+      end do
+      names = pack(names(:n), peak(:n) > least)
+      force = force(:, pack([(k, k=1, n)], peak(:n) > least))
+   end subroutine largest_forces
 
    !> Adds a column as a curve if it has a value.
    pure subroutine add_column(chart, test, wheel, place, title, colour, dash)
