@@ -7,8 +7,7 @@ module ek_compare
    use ek_decimal, only: decimal
    use ek_file, only: make_folder, write_whole, join_path
    use ek_table, only: column_index
-   use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
+   use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
@@ -29,7 +28,7 @@ contains
       type(results_t), allocatable :: results(:)
       type(gradient_set_t), allocatable :: sets(:)
       type(difference_t), allocatable :: rows(:)
-      type(chart_set_t), allocatable :: charts(:)
+      type(chart_t), allocatable :: charts(:)
       type(message_list_t) :: missing
       type(error_t), allocatable :: undrawn, unprinted
       character(:), allocatable :: folder, message, path
@@ -264,20 +263,18 @@ contains
    end subroutine write_differences
 
    !> Draws all charts in one run of gnuplot.
-   subroutine draw(arguments, sets, folder, message, is_drawn, error)
+   subroutine draw(arguments, charts, folder, message, is_drawn, error)
       type(arguments_t), intent(in) :: arguments
-      type(chart_set_t), intent(in) :: sets(:)
+      type(chart_t), intent(in) :: charts(:)
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message    !! why there are no charts
       logical, intent(out) :: is_drawn
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: scripts, pictures
-      type(chart_t), allocatable :: charts(:)
 
       message = ''
       is_drawn = .false.
-      if (arguments%no_plots) call remove_drawn(sets, folder)
-      call gather_charts(sets, charts)
+      if (arguments%no_plots) call remove_drawn(charts, folder)
       if (arguments%no_plots .or. size(charts) == 0) return
       call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return

@@ -12,7 +12,7 @@ module ek_report
    use ek_csv, only: write_csv
    use ek_table, only: table_t
    use ek_test_result, only: test_result_t
-   use ek_chart_set, only: chart_set_t
+   use ek_chart, only: chart_t
    use ek_test_charts, only: test_charts
    use ek_gradient, only: gradient_t, test_gradients
    use ek_gradient_file, only: write_gradients
@@ -41,7 +41,7 @@ contains
       type(test_result_t), allocatable :: tests(:)
       type(film_t), allocatable :: films(:)
       type(gradient_t), allocatable :: gradients(:)
-      type(chart_set_t), allocatable :: sets(:)
+      type(chart_t), allocatable :: charts(:)
       type(message_list_t) :: warnings, page_warnings
       type(examination_t) :: found
       type(error_t), allocatable :: trouble, undrawn, unprinted
@@ -60,7 +60,7 @@ contains
       call remove_file(join_path(folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(folder, contents_file))
 
-      allocate (tests(size(planned)), films(size(planned)), sets(size(planned)), gradients(0))
+      allocate (tests(size(planned)), films(size(planned)), charts(0), gradients(0))
       call remove_file(join_path(folder, compliance_file))
       has_matrix = size(suspension%wheels) == 0
       failed = 0
@@ -78,7 +78,6 @@ contains
             if (trouble%code /= exit_convergence) code = trouble%code     ! the test was not run at all
             call warnings%add(planned(k)%title//': '//trouble%message)
          end if
-         allocate (sets(k)%charts(0))
          if (.not. tests(k)%is_run) cycle
          films(k)%is_there = .true.
          call write_csv(tests(k)%table, join_path(folder, tests(k)%file), error)
@@ -88,7 +87,7 @@ contains
          if (allocated(error)) return
          has_matrix = .true.
          call test_gradients(tests(k), arguments%windows, gradients)
-         call test_charts(tests(k), sets(k)%charts)
+         call test_charts(tests(k), charts, k)
       end do
       call write_gradients(gradients, suspension%name, checksum, join_path(folder, gradients_file), &
          join_path(folder, 'gradients.json'), error)
@@ -103,10 +102,10 @@ contains
       if (.not. arguments%no_plots) then
          page_warnings = warnings
          call page_warnings%add('The page has no pictures: gnuplot has not finished')
-         call write_page(arguments, suspension, checksum, tests, sets, gradients, page_warnings, folder, .false., .false., error)
+         call write_page(arguments, suspension, checksum, tests, charts, gradients, page_warnings, folder, .false., .false., error)
          if (allocated(error)) return
       end if
-      call draw_pictures(.not. arguments%no_plots, arguments%animate, suspension, tests, films, sets, folder, has_animation, &
+      call draw_pictures(.not. arguments%no_plots, arguments%animate, suspension, tests, films, charts, folder, has_animation, &
          message, undrawn)
       if (allocated(undrawn)) then
          call print_error(undrawn%message)
@@ -116,7 +115,7 @@ contains
          call warnings%add('The page has no pictures: '//message)
       end if
       has_pictures = .not. allocated(undrawn) .and. len(message) == 0
-      call write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
+      call write_page(arguments, suspension, checksum, tests, charts, gradients, warnings, folder, has_pictures, &
          has_animation, error)
       if (allocated(error)) return
       call print_path(join_path(folder, 'report.html'), unprinted)
@@ -165,13 +164,13 @@ contains
    end subroutine write_matrix
 
    !> report.html
-   subroutine write_page(arguments, suspension, checksum, tests, sets, gradients, warnings, folder, has_pictures, &
+   subroutine write_page(arguments, suspension, checksum, tests, charts, gradients, warnings, folder, has_pictures, &
       has_animation, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: checksum
       type(test_result_t), intent(in) :: tests(:)
-      type(chart_set_t), intent(in) :: sets(:)
+      type(chart_t), intent(in) :: charts(:)
       type(gradient_t), intent(in) :: gradients(:)
       type(message_list_t), intent(in) :: warnings
       character(*), intent(in) :: folder
@@ -196,7 +195,7 @@ contains
       call fact('Program', 'elastokin '//version)
       call fact('Date', date_words())
       call write_whole(join_path(folder, 'report.html'), report_page(title, 'Kinematics and compliance report', names, values, &
-         warnings, tests, sets, gradients, folder, has_pictures, has_animation), error)
+         warnings, tests, charts, gradients, folder, has_pictures, has_animation), error)
 
    contains
 

@@ -12,8 +12,7 @@ module ek_compare_page
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
       begin_row, add_cell, end_row, add_group, end_table, add_legend, page_text, page_number
    use ek_report_files, only: results_t
-   use ek_chart_set, only: chart_set_t
-   use ek_report_page, only: add_chart_set
+   use ek_report_page, only: add_charts
    implicit none(type, external)
    private
    public :: overlay, page_of, test_number
@@ -21,22 +20,21 @@ module ek_compare_page
 contains
 
    !> Charts of every test of the first result: one per column that another result also has, with one curve per result.
-   subroutine overlay(results, sets)
+   subroutine overlay(results, charts)
       type(results_t), intent(in) :: results(:)
-      type(chart_set_t), allocatable, intent(out) :: sets(:)
+      type(chart_t), allocatable, intent(out) :: charts(:)
       character(48), allocatable :: columns(:)
       integer :: t, k
 
-      allocate (sets(size(results(1)%tests)))
-      do t = 1, size(sets)
-         allocate (sets(t)%charts(0))
+      allocate (charts(0))
+      do t = 1, size(results(1)%tests)
          columns = quantities_of(results(1)%tests(t)%kind)
          do k = 1, size(columns)
-            call overlay_quantity(results, t, quantity_named(columns(k)), sets(t)%charts)
+            call overlay_quantity(results, t, quantity_named(columns(k)), charts)
          end do
          do k = 1, size(all_quantities)
             if (.not. all_quantities(k)%span > 0.0_wp .or. any(columns == held_name(all_quantities(k)%name, 1))) cycle
-            call overlay_quantity(results, t, quantity_named(held_name(all_quantities(k)%name, 1)), sets(t)%charts)
+            call overlay_quantity(results, t, quantity_named(held_name(all_quantities(k)%name, 1)), charts)
          end do
       end do
    end subroutine overlay
@@ -60,6 +58,7 @@ contains
       end do
       do side = 1, size(own(1)%traces)
          chart = own(1)
+         chart%test = test
          deallocate (chart%traces)
          allocate (chart%traces(0))
          associate (name => own(1)%traces(side)%title)
@@ -84,10 +83,10 @@ contains
    end subroutine overlay_quantity
 
    !> compare.html
-   function page_of(results, rows, sets, missing, folder, has_pictures, why_none) result(text)
+   function page_of(results, rows, charts, missing, folder, has_pictures, why_none) result(text)
       type(results_t), intent(in) :: results(:)
       type(difference_t), intent(in) :: rows(:)
-      type(chart_set_t), intent(in) :: sets(:)
+      type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(in) :: missing
       character(*), intent(in) :: folder
       logical, intent(in) :: has_pictures           !! those in the folder belong to this comparison
@@ -146,12 +145,12 @@ contains
          call end_table(page)
          call end_section(page)
       end if
-      do t = 1, size(sets)
-         if (size(sets(t)%charts) == 0) cycle
+      do t = 1, size(results(1)%tests)
+         if (.not. any(charts%test == t)) cycle
          call begin_section(page, 'test-'//str(t), results(1)%tests(t)%title)
          call add_legend(page, labels, design_row(results(1)%tests(t)%table) > 0, &
             results(1)%tests(t)%kind == 'table')
-         if (has_pictures) call add_chart_set(page, sets(t)%charts, folder)
+         if (has_pictures) call add_charts(page, charts, t, folder)
          call end_section(page)
       end do
       text = page_text(page)

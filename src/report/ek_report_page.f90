@@ -6,7 +6,6 @@ module ek_report_page
    use ek_file, only: read_whole, join_path, file_exists
    use ek_test_result, only: test_result_t, design_row, converged_rows, wheel_word
    use ek_chart, only: chart_t, picture_file
-   use ek_chart_set, only: chart_set_t
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts, &
@@ -14,19 +13,19 @@ module ek_report_page
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
-   public :: report_page, add_chart_set
+   public :: report_page, add_charts
 
 contains
 
    !> The text of report.html. Pictures are read from the folder if they belong to this report; missing ones are
    !> omitted.
-   function report_page(title, subtitle, names, values, warnings, tests, sets, gradients, folder, has_pictures, &
+   function report_page(title, subtitle, names, values, warnings, tests, charts, gradients, folder, has_pictures, &
       has_animation) result(text)
       character(*), intent(in) :: title, subtitle
       type(message_list_t), intent(in) :: names, values      !! facts for the head
       type(message_list_t), intent(in) :: warnings           !! on the model as a whole
       type(test_result_t), intent(in) :: tests(:)
-      type(chart_set_t), intent(in) :: sets(:)
+      type(chart_t), intent(in) :: charts(:)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: folder                     !! of the report
       logical, intent(in) :: has_pictures, has_animation     !! those in the folder belong to this report
@@ -40,7 +39,7 @@ contains
       if (has_pictures) call add_scene(page, title, folder, has_animation)
       call add_key_numbers(page, tests, gradients)
       do k = 1, size(tests)
-         call add_test(page, tests(k), sets(k)%charts, gradients, folder, has_pictures)
+         call add_test(page, tests(k), k, charts, gradients, folder, has_pictures)
       end do
       text = page_text(page)
    end function report_page
@@ -127,9 +126,10 @@ contains
    end subroutine add_values
 
    !> Section of a test: warnings, charts, gradients.
-   subroutine add_test(page, test, charts, gradients, folder, has_pictures)
+   subroutine add_test(page, test, number, charts, gradients, folder, has_pictures)
       type(page_t), intent(inout) :: page
       type(test_result_t), intent(in) :: test
+      integer, intent(in) :: number              !! of the test
       type(chart_t), intent(in) :: charts(:)
       type(gradient_t), intent(in) :: gradients(:)
       character(*), intent(in) :: folder
@@ -151,15 +151,16 @@ contains
          end do
          call add_legend(page, names, design_row(test%table) > 0, test%kind == 'table')
       end if
-      if (has_pictures) call add_chart_set(page, charts, folder)
+      if (has_pictures) call add_charts(page, charts, number, folder)
       call add_gradients(page, test, gradients, words)
       call end_section(page)
    end subroutine add_test
 
-   !> The charts drawn by gnuplot, side by side.
-   subroutine add_chart_set(page, charts, folder)
+   !> The charts of a test drawn by gnuplot, side by side.
+   subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: test
       character(*), intent(in) :: folder
       type(error_t), allocatable :: error
       character(:), allocatable :: svg, path
@@ -167,6 +168,7 @@ contains
 
       call begin_charts(page)
       do k = 1, size(charts)
+         if (charts(k)%test /= test) cycle
          path = join_path(join_path(folder, 'figures'), picture_file(charts(k)))
          if (.not. file_exists(path)) cycle
          call read_whole(path, svg, error)
@@ -174,7 +176,7 @@ contains
          call add_chart_picture(page, svg, charts(k)%title//', '//charts(k)%y_label//', over '//charts(k)%x_label)
       end do
       call end_charts(page)
-   end subroutine add_chart_set
+   end subroutine add_charts
 
    !> The gradients of a test; left and right in one row.
    subroutine add_gradients(page, test, gradients, words)

@@ -9,8 +9,7 @@ module ek_report_pictures
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
    use ek_test_result, only: test_result_t
-   use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
+   use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_scene, only: scene_t, line_bump, line_rebound
    use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
@@ -31,18 +30,17 @@ contains
 
    !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and the charts
    !> in figures/.
-   subroutine draw_pictures(wants_plots, wants_animation, suspension, tests, films, sets, folder, has_animation, message, error)
+   subroutine draw_pictures(wants_plots, wants_animation, suspension, tests, films, charts, folder, has_animation, message, error)
       logical, intent(in) :: wants_plots, wants_animation
       type(suspension_t), intent(in) :: suspension
       type(test_result_t), intent(in) :: tests(:)
       type(film_t), intent(in) :: films(:)                   !! one per test
-      type(chart_set_t), intent(in) :: sets(:)               !! one per test
+      type(chart_t), intent(in) :: charts(:)
       character(*), intent(in) :: folder
       logical, intent(out) :: has_animation                  !! it was requested, and something moves
       character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
       type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
       type(message_list_t) :: scripts, pictures
-      type(chart_t), allocatable :: charts(:)
       type(camera_t) :: camera
 
       message = ''
@@ -52,11 +50,10 @@ contains
          call remove_file(join_path(folder, 'picture.svg'))
          call remove_file(join_path(folder, 'picture.png'))
          call remove_file(join_path(folder, 'animation.gif'))
-         call remove_drawn(sets, folder)
+         call remove_drawn(charts, folder)
          message = 'switched off by --no-plots'
          return
       end if
-      call gather_charts(sets, charts)
       call write_whole(join_path(folder, 'figures/charts.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return
       call write_picture(suspension, tests, films, folder, camera, error)

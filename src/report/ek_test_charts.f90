@@ -18,14 +18,16 @@ module ek_test_charts
 
 contains
 
-   !> All charts of a test, named <test>_<column>.
-   pure subroutine test_charts(test, charts)
+   !> Appends all charts of a test, named <test>_<column>.
+   pure subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
-      type(chart_t), allocatable, intent(out) :: charts(:)
+      type(chart_t), allocatable, intent(inout) :: charts(:)
+      integer, intent(in), optional :: number         !! of the test
       character(48), allocatable :: columns(:)
-      integer :: k
+      integer :: k, before
 
-      allocate (charts(0))
+      if (.not. allocated(charts)) allocate (charts(0))
+      before = size(charts)
       columns = quantities_of(test%kind)
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
@@ -38,6 +40,7 @@ contains
          'force, N    (+ compression)', 1.0_wp))
       call append_if_drawn(charts, ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
       call append_if_drawn(charts, bushing_chart(test))
+      if (present(number)) charts(before + 1:)%test = number
    end subroutine test_charts
 
    !> The columns drawn for a kind of test, the most important ones first.
