@@ -9,8 +9,7 @@ module ek_key_numbers
    use ek_test_result, only: test_result_t, design_row, unfolded_rows
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
-   use ek_key_number, only: key_number_t, new_number, nothing
-   use ek_place_numbers, only: place_numbers
+   use ek_place_numbers, only: key_number_t, new_number, nothing, place_numbers
    implicit none(type, external)
    private
    public :: key_number_t, key_numbers

@@ -1,19 +1,43 @@
 !> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact
 !> of a stop, and the maximum force on the rack over all tests.
 module ek_place_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, design_row, unfolded_rows
-   use ek_key_number, only: key_number_t, new_number, nothing
    implicit none(type, external)
    private
-   public :: place_numbers
+   public :: key_number_t, new_number, nothing, place_numbers
 
    real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
    character(*), parameter :: gap_ending = '_gap_mm'
 
+   !> One key number of a report.
+   type :: key_number_t
+      character(:), allocatable :: group, quantity, unit, sign
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
+      logical :: is_of_axle = .false.                !! one number, in `left`
+   end type key_number_t
+
 contains
+
+   !> The value of a missing number.
+   pure real(wp) function nothing()
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function nothing
+
+   !> A number without values.
+   subroutine new_number(group, quantity, unit, sign, number)
+      character(*), intent(in) :: group, quantity, unit, sign
+      type(key_number_t), intent(out) :: number
+
+      number%group = group
+      number%quantity = quantity
+      number%unit = unit
+      number%sign = sign
+      number%left = nothing()
+      number%right = nothing()
+   end subroutine new_number
 
    !> Appends these numbers as far as the tests provide them.
    subroutine place_numbers(tests, numbers)

@@ -5,7 +5,7 @@ module ek_table
    use ek_error, only: message_list_t
    implicit none(type, external)
    private
-   public :: table_t, new_table, column_index, column, column_range, row_count, keep_rows, name_length
+   public :: table_t, new_table, column_index, column, column_range, row_count, name_length
 
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their endings
 
@@ -81,12 +81,5 @@ contains
       type(table_t), intent(in) :: table
       row_count = size(table%values, 2)
    end function row_count
-
-   !> Keeps rows first…last only: the states reached before one did not converge.
-   pure subroutine keep_rows(table, first, last)
-      type(table_t), intent(inout) :: table
-      integer, intent(in) :: first, last
-      table%values = table%values(:, first:last)
-   end subroutine keep_rows
 
 end module ek_table
