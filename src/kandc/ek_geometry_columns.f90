@@ -39,35 +39,40 @@ contains
       type(state_t), intent(in) :: state
       integer, intent(in) :: place                 !! index of the wheel in the compliance matrix
       real(wp) :: values(size(wheel_geometry))
-      type(axis_distances_t) :: fixed, instant
-      real(wp) :: centre(3), patch(3), spin(3), twist(6), column(6), mass
+      type(axis_distances_t) :: is
+      real(wp) :: centre(3), patch(3), spin(3), twist(6), column(6), mass, fixed(4), instant(4), recession, steer_camber, frequency
 
-      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      recession = ieee_value(1.0_wp, ieee_quiet_nan)
+      fixed = recession
+      instant = recession
+      steer_camber = recession
+      frequency = recession
       associate (wheel => suspension%wheels(compliance%order(place)), &
                  pose => state%poses(suspension%wheels(compliance%order(place))%body + 1))
          centre = pose%r + rotated(pose%a, wheel%centre)
          patch = pose%r + rotated(pose%a, wheel%contact)
          spin = rotated(pose%a, wheel%spin)
-         values(1) = side_view_angle(pose%a)
          if (wheel%has_steer_axis) then
-            fixed = axis_distances(wheel%side, pose%r + rotated(pose%a, wheel%steer_axis(:, 1)), &
+            is = axis_distances(wheel%side, pose%r + rotated(pose%a, wheel%steer_axis(:, 1)), &
                rotated(pose%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), centre, patch, spin)
-            values(2:5) = [fixed%centre, fixed%patch, fixed%along, fixed%across]
+            fixed = [is%centre, is%patch, is%along, is%across]
          end if
-         if (.not. compliance%is_known) return      ! a comparison with NaN would trap
-         twist = locked_twist(compliance, place, .false.)
-         if (norm2(twist(4:6)) > least_turn) then
-            instant = axis_distances(wheel%side, centre + cross(twist(4:6), twist(1:3))/dot_product(twist(4:6), twist(4:6)), &
-               twist(4:6), centre, patch, spin)
-            values(6:9) = [instant%centre, instant%patch, instant%along, instant%across]
+         if (compliance%is_known) then      ! a comparison with NaN would trap
+            twist = locked_twist(compliance, place, .false.)
+            if (norm2(twist(4:6)) > least_turn) then
+               is = axis_distances(wheel%side, centre + cross(twist(4:6), twist(1:3))/dot_product(twist(4:6), twist(4:6)), &
+                  twist(4:6), centre, patch, spin)
+               instant = [is%centre, is%patch, is%along, is%across]
+            end if
+            column = in_phase(compliance, place)
+            recession = 1.0e3_wp*quotient(column(1), column(3), least_compliance)
+            twist = locked_twist(compliance, place, .true.)
+            steer_camber = quotient(camber_rate(axes_of(wheel, pose), twist(4:6)), steer_rate(spin, twist(4:6)), least_turn)
+            mass = 0.0_wp
+            if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, compliance%order(place))
+            if (mass > 0.0_wp) frequency = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
          end if
-         column = in_phase(compliance, place)
-         values(10) = 1.0e3_wp*quotient(column(1), column(3), least_compliance)
-         twist = locked_twist(compliance, place, .true.)
-         values(11) = quotient(camber_rate(axes_of(wheel, pose), twist(4:6)), steer_rate(spin, twist(4:6)), least_turn)
-         if (.not. wheel%tyre_rate > 0.0_wp) return
-         mass = mass_on(suspension, compliance%order(place))
-         if (mass > 0.0_wp) values(12) = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
+         values = [side_view_angle(pose%a), fixed, instant, recession, steer_camber, frequency]
       end associate
    end function wheel_geometry_values
 
@@ -77,7 +82,7 @@ contains
       type(compliance_t), intent(in) :: compliance
       type(attitude_t), intent(in) :: now(:)       !! left, right
       real(wp) :: values(size(axle_geometry))
-      real(wp) :: y(2), track, steer(2), static(2), inner, outer, ideal
+      real(wp) :: y(2), track, steer(2), static(2), inner, outer, ideal, turn(4)
       integer :: k, side
 
       values = 0.0_wp
@@ -90,17 +95,19 @@ contains
          end associate
       end do
       track = y(2) - y(1)
-      values(:2) = [track, now(1)%track_change + now(2)%track_change]
+      turn = 0.0_wp
       associate (axle => suspension%axle)
-         if (.not. axle%has_axle .or. .not. suspension%steering%has_steering) return
-         call outer_wheel(steer(1) - static(1), steer(2) - static(2), inner, outer, side)
-         ideal = ideal_outer_steer(inner, axle%wheelbase, track)
-         values(3:4) = [ideal, outer - ideal]
-         call outer_wheel(steer(1), steer(2), inner, outer, side)
-         values(5:6) = [turning_circle(steer(1), steer(2), axle%wheelbase) + &
-            suspension%wheels(compliance%order(side))%tyre_width, &
-            wall_to_wall(outer, axle%wheelbase, track, axle%front_overhang, axle%front_width)]
+         if (axle%has_axle .and. suspension%steering%has_steering) then
+            call outer_wheel(steer(1) - static(1), steer(2) - static(2), inner, outer, side)
+            ideal = ideal_outer_steer(inner, axle%wheelbase, track)
+            turn(:2) = [ideal, outer - ideal]
+            call outer_wheel(steer(1), steer(2), inner, outer, side)
+            turn(3:) = [turning_circle(steer(1), steer(2), axle%wheelbase) + &
+               suspension%wheels(compliance%order(side))%tyre_width, &
+               wall_to_wall(outer, axle%wheelbase, track, axle%front_overhang, axle%front_width)]
+         end if
       end associate
+      values = [track, now(1)%track_change + now(2)%track_change, turn]
    end function axle_geometry_values
 
    !> Of every stop the remaining wheel travel to its contact [mm], with equal travel of all wheels: its gap over the change of
