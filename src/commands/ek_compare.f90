@@ -7,8 +7,7 @@ module ek_compare
    use ek_decimal, only: decimal
    use ek_file, only: make_folder, write_whole, join_path
    use ek_table, only: column_index
-   use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: chart_set_t, gather_charts, remove_drawn, pictures_of
+   use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
@@ -64,14 +63,14 @@ contains
       call write_differences(this%results, this%rows, join_path(this%folder, 'differences.csv'), error)
       if (allocated(error)) return
 
-      call overlay(this%results, this%sets)
+      call overlay(this%results, this%charts)
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
       path = join_path(this%folder, 'compare.html')
       message = ''
       if (.not. arguments%no_plots) message = 'gnuplot has not finished'
       call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call draw(arguments, this%sets, this%folder, message, this%has_pictures, undrawn)
+      call draw(arguments, this%charts, this%folder, message, this%has_pictures, undrawn)
       if (len(message) > 0) call print_note(arguments%quiet, message)
       if (allocated(undrawn)) message = undrawn%message
       call write_whole(path, page_of(this, message), error)
@@ -257,20 +256,18 @@ contains
    end subroutine write_differences
 
    !> Draws all charts in one run of gnuplot.
-   subroutine draw(arguments, sets, folder, message, is_drawn, error)
+   subroutine draw(arguments, charts, folder, message, is_drawn, error)
       type(arguments_t), intent(in) :: arguments
-      type(chart_set_t), intent(in) :: sets(:)
+      type(chart_t), intent(in) :: charts(:)
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message    !! why there are no charts
       logical, intent(out) :: is_drawn
       type(error_t), allocatable, intent(out) :: error
       type(message_list_t) :: scripts, pictures
-      type(chart_t), allocatable :: charts(:)
 
       message = ''
       is_drawn = .false.
-      if (arguments%no_plots) call remove_drawn(sets, folder)
-      call gather_charts(sets, charts)
+      if (arguments%no_plots) call remove_drawn(charts, folder)
       if (arguments%no_plots .or. size(charts) == 0) return
       call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return

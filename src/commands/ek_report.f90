@@ -115,7 +115,7 @@ contains
       type(table_t), allocatable :: compliance
       integer :: k, failed, code
 
-      allocate (page%tests(size(planned)), page%paths(size(planned)), page%sets(size(planned)), page%gradients(0))
+      allocate (page%tests(size(planned)), page%paths(size(planned)), page%charts(0), page%gradients(0))
       if (size(suspension%wheels) > 0) allocate (compliance)
       failed = 0
       code = exit_convergence
@@ -127,7 +127,6 @@ contains
             if (trouble%code /= exit_convergence) code = trouble%code     ! the test was not run at all
             call page%warnings%add(planned(k)%title//': '//trouble%message)
          end if
-         allocate (page%sets(k)%charts(0))
          if (.not. page%tests(k)%is_run) cycle
          call write_table(page%tests(k)%table, join_path(page%folder, page%tests(k)%file), unprinted, error)
          if (allocated(error)) return
@@ -137,7 +136,7 @@ contains
             deallocate (compliance)
          end if
          call test_gradients(page%tests(k), arguments%windows, page%gradients)
-         call test_charts(page%tests(k), page%sets(k)%charts)
+         call test_charts(page%tests(k), page%charts, k)
       end do
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(planned), 'test', 'tests')// &
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')

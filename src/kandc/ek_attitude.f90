@@ -2,6 +2,7 @@
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 module ek_attitude
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
    use ek_block, only: rotated
@@ -9,7 +10,18 @@ module ek_attitude
    use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of
+   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of, axis_values
+
+   !> A steer axis relative to wheel centre and patch.
+   type :: steer_axis_t
+      logical :: is_known = .false.
+      real(wp) :: caster = 0.0_wp               !! rad, positive: top rearward
+      real(wp) :: kingpin_inclination = 0.0_wp  !! rad, positive: top inward
+      real(wp) :: scrub_radius = 0.0_wp         !! m, positive: axis meets the ground inboard of the patch
+      real(wp) :: caster_trail = 0.0_wp         !! m, positive: axis meets the ground ahead of the patch
+      real(wp) :: spindle_length = 0.0_wp       !! m, wheel centre to steer axis, lateral at its height, positive outboard
+      real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre behind the axis
+   end type steer_axis_t
 
    !> The attitude of one wheel at one state. Changes are relative to design.
    type :: attitude_t
@@ -19,22 +31,8 @@ module ek_attitude
       real(wp) :: camber = 0.0_wp        !! rad, positive: top outward
       real(wp) :: track_change = 0.0_wp       !! m, positive outward
       real(wp) :: wheelbase_change = 0.0_wp   !! m, positive rearward
-      logical :: has_steer_axis = .false.
-      real(wp) :: caster = 0.0_wp               !! rad, positive: top rearward
-      real(wp) :: kingpin_inclination = 0.0_wp  !! rad, positive: top inward
-      real(wp) :: scrub_radius = 0.0_wp         !! m, positive: axis meets the ground inboard of the patch
-      real(wp) :: caster_trail = 0.0_wp         !! m, positive: axis meets the ground ahead of the patch
-      real(wp) :: spindle_length = 0.0_wp       !! m, wheel centre to steer axis, lateral at its height, positive outboard
-      real(wp) :: spindle_offset = 0.0_wp       !! m, likewise longitudinal, positive: centre behind the axis
+      type(steer_axis_t) :: axis         !! of the two points of the deck, if any
    end type attitude_t
-
-   !> A steer axis relative to wheel centre and patch; signs as in attitude_t. [rad, m]
-   type :: steer_axis_t
-      logical :: is_known = .false.
-      real(wp) :: caster = 0.0_wp, kingpin_inclination = 0.0_wp
-      real(wp) :: scrub_radius = 0.0_wp, caster_trail = 0.0_wp
-      real(wp) :: spindle_length = 0.0_wp, spindle_offset = 0.0_wp
-   end type steer_axis_t
 
 contains
 
@@ -51,7 +49,6 @@ contains
       real(wp), intent(in) :: origin(3)     !! reference point of the carrier at design [m]
       type(pose_t), intent(in) :: now
       type(attitude_t) :: attitude
-      type(steer_axis_t) :: axis
       real(wp) :: w(3), contact(3), centre(3), lower(3)
 
       centre = now%r + rotated(now%a, wheel%centre)
@@ -63,18 +60,10 @@ contains
       attitude%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
       attitude%track_change = wheel%side*attitude%contact(2)
       attitude%wheelbase_change = attitude%contact(1)
-      attitude%has_steer_axis = wheel%has_steer_axis
       if (.not. wheel%has_steer_axis) return
-
       lower = now%r + rotated(now%a, wheel%steer_axis(:, 1))
-      axis = steer_axis_of(wheel%side, lower, rotated(now%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), centre, contact)
-      attitude%has_steer_axis = axis%is_known
-      attitude%caster = axis%caster
-      attitude%kingpin_inclination = axis%kingpin_inclination
-      attitude%scrub_radius = axis%scrub_radius
-      attitude%caster_trail = axis%caster_trail
-      attitude%spindle_length = axis%spindle_length
-      attitude%spindle_offset = axis%spindle_offset
+      attitude%axis = steer_axis_of(wheel%side, lower, rotated(now%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), &
+         centre, contact)
    end function attitude_of
 
    !> Angles of a line, and its distances from patch and wheel centre, each in the horizontal plane through the point.
@@ -102,6 +91,15 @@ contains
       axis%spindle_length = side*(centre(2) - abeam(2))
       axis%spindle_offset = centre(1) - abeam(1)
    end function steer_axis_of
+
+   !> The values of the six columns of a steer axis [rad, m]; not numbers if it is unknown.
+   pure function axis_values(axis) result(values)
+      type(steer_axis_t), intent(in) :: axis
+      real(wp) :: values(6)
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (axis%is_known) values = [axis%caster, axis%kingpin_inclination, axis%scrub_radius, axis%caster_trail, &
+         axis%spindle_length, axis%spindle_offset]
+   end function axis_values
 
    !> Attitude of wheel k of a model at a state.
    pure function wheel_attitude(suspension, state, k) result(attitude)

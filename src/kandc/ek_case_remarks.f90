@@ -5,14 +5,15 @@ module ek_case_remarks
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
-   use ek_state, only: state_t, design_state, unpack_state
+   use ek_case, only: case_t, default_tolerance
+   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
+   use ek_newton, only: outcome_t, find_equilibrium
    use ek_table, only: table_t, column, row_count
    use ek_attitude, only: attitude_t, wheel_attitude
    use ek_sweep_table, only: factor_unit
-   use ek_drift, only: drift_t, drift_at
    use ek_model_remarks, only: has_spring
    use ek_remark, only: remark_list_t, note, warning, failure, on_settling, on_drift, on_travel, on_rack, on_closure
    implicit none(type, external)
@@ -62,7 +63,8 @@ contains
          ' mm, beyond its travel of '//str(suspension%steering%travel/millimetre, 4)//' mm in &steering', furthest)
    end subroutine rack_remarks
 
-   !> Compares the linear methods with one equilibrium solution at each end of the sweep. An end without an equilibrium
+   !> Compares the linear methods at the first wheel with one equilibrium solution at each end of the sweep, found from the
+   !> state there. An end without an equilibrium
    !> nearby is a failure: the states before it are unreliable.
    subroutine drift_remarks(suspension, case, path, kkt, remarks)
       type(suspension_t), intent(in) :: suspension
@@ -70,7 +72,11 @@ contains
       type(path_t), intent(in) :: path
       type(kkt_t), intent(inout) :: kkt
       type(remark_list_t), intent(inout) :: remarks
-      type(drift_t) :: drift
+      type(state_t) :: state
+      type(demand_t) :: demand
+      type(outcome_t) :: outcome
+      type(attitude_t) :: linear, exact
+      real(wp) :: travel, toe, camber
       real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
       real(wp), parameter :: much_angle = 1.0e-3_wp*degree
       character(:), allocatable :: place
@@ -81,15 +87,23 @@ contains
       do n = 1, 2
          k = ends(n)
          if (.not. path%is_reached(k) .or. k == path%start) cycle
-         call drift_at(suspension, case, path, k, kkt, drift)
+         state = design_state(suspension)
+         call unpack_state(path%packed(:, k), state)
+         call demand_at(new_schedule(suspension, case), path%value(k), demand)
+         linear = wheel_attitude(suspension, state, 1)
+         call find_equilibrium(suspension, demand, min(case%tolerance, default_tolerance), state, kkt, outcome)
+         exact = wheel_attitude(suspension, state, 1)
+         travel = linear%centre(3) - exact%centre(3)
+         toe = linear%toe - exact%toe
+         camber = linear%camber - exact%camber
          place = str(path%value(k)/factor_unit(suspension, case))
-         if (.not. drift%is_known) then
+         if (.not. outcome%is_converged) then
             call remarks%add(failure, on_drift, case, 'no equilibrium was found near the state at factor '//place// &
                '; the linear method has left the range that the suspension can reach', path%value(k), is_of_method=.true.)
-         else if (abs(drift%travel) > much_travel .or. max(abs(drift%toe), abs(drift%camber)) > much_angle) then
+         else if (abs(travel) > much_travel .or. max(abs(toe), abs(camber)) > much_angle) then
             call remarks%add(warning, on_drift, case, 'at factor '//place//' the state is off equilibrium by '// &
-               str(drift%travel/millimetre, 3)//' mm travel, '//str(drift%toe/degree, 3)//' deg toe, '// &
-               str(drift%camber/degree, 3)//' deg camber'//advice(case), path%value(k), is_of_method=.true.)
+               str(travel/millimetre, 3)//' mm travel, '//str(toe/degree, 3)//' deg toe, '// &
+               str(camber/degree, 3)//' deg camber'//advice(case), path%value(k), is_of_method=.true.)
          end if
       end do
    end subroutine drift_remarks

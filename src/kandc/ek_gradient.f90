@@ -16,6 +16,7 @@ module ek_gradient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_text, only: str
+   use ek_quantity, only: slope_unit, unit_text
    use ek_table, only: row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
    use ek_gradient_definition, only: definition_t, definitions_of
@@ -95,7 +96,8 @@ contains
       real(wp), allocatable :: x(:), y(:)
       logical :: is_good(row_count(test%table))
       character(8) :: unit
-      real(wp) :: slope
+      character(:), allocatable :: slope_ending
+      real(wp) :: slope, factor
       integer :: over, side
 
       over = wheel_column(test, wheel, trim(definition%over))
@@ -104,11 +106,12 @@ contains
       gradient%quantity = trim(definition%quantity)
       gradient%side = ''
       if (.not. is_of_axle .and. size(test%prefixes) > 1) gradient%side = trim(merge('left ', 'right', side < 0))
-      gradient%unit = trim(definition%unit)
       gradient%sign = trim(definition%sign)
       gradient%column = trim(test%table%columns(place))
       gradient%over = trim(test%table%columns(over))
       call window_of(test%kind, definition%over, windows, gradient%window_half, unit)
+      call slope_unit(trim(definition%column), trim(definition%over), trim(unit), slope_ending, factor)
+      gradient%unit = unit_text(slope_ending)
       gradient%window = '±'//str(gradient%window_half)//' '//trim(unit)
 
       is_good = unfolded_rows(test%table)
@@ -128,7 +131,7 @@ contains
          return
       end if
       if (abs(slope)*gradient%window_half <= noise_of(gradient%column)) slope = 0.0_wp
-      gradient%value = slope*definition%size*turn_of(test, definition, side)
+      gradient%value = slope*factor*turn_of(test, definition, side)
    end function one_gradient
 
    !> Numerical noise in the unit of a column, by its ending: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a
@@ -163,7 +166,7 @@ contains
       case ('d')
          turn = merge(1.0_wp, -1.0_wp, test%is_iso)
       end select
-      if (definition%is_own) turn = -side*turn                       ! + on the left wheel
+      if (definition%y_turn == 'o') turn = -side*turn                ! + on the left wheel
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 

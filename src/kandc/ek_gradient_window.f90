@@ -5,42 +5,26 @@ module ek_gradient_window
    private
    public :: windows_t, set_window, window_of
 
-   !> Half widths of the windows, each centred on 0.
+   integer, parameter :: travel = 1, roll = 2, force = 3, torque = 4, rack = 5, wheel = 6
+   character(*), parameter :: names(6) = [character(6) :: 'travel', 'roll', 'force', 'torque', 'rack', 'wheel']
+   character(*), parameter :: units(6) = [character(3) :: 'mm', 'deg', 'N', 'N m', 'mm', 'deg']
+
+   !> Half widths of the windows in these units, each centred on 0; rack: of steering input, wheel: of the steering wheel.
    type :: windows_t
-      real(wp) :: travel = 15.0_wp      !! mm
-      real(wp) :: roll = 1.0_wp         !! deg
-      real(wp) :: force = 1000.0_wp     !! N
-      real(wp) :: torque = 100.0_wp     !! N m
-      real(wp) :: rack = 10.0_wp        !! mm of steering input
-      real(wp) :: wheel = 20.0_wp       !! deg of steering wheel
+      real(wp) :: half(6) = [15.0_wp, 1.0_wp, 1000.0_wp, 100.0_wp, 10.0_wp, 20.0_wp]
    end type windows_t
 
 contains
 
-   !> Sets the half width of one window by its name: travel, roll, force, torque, rack, wheel.
+   !> Sets the half width of one window by its name.
    pure subroutine set_window(windows, word, half, is_known)
       type(windows_t), intent(inout) :: windows
       character(*), intent(in) :: word
       real(wp), intent(in) :: half         !! mm, deg, N or N m; positive
       logical, intent(out) :: is_known
 
-      is_known = .true.
-      select case (word)
-      case ('travel')
-         windows%travel = half
-      case ('roll')
-         windows%roll = half
-      case ('force')
-         windows%force = half
-      case ('torque')
-         windows%torque = half
-      case ('rack')
-         windows%rack = half
-      case ('wheel')
-         windows%wheel = half
-      case default
-         is_known = .false.
-      end select
+      is_known = any(names == word)
+      where (names == word) windows%half = half
    end subroutine set_window
 
    !> The window of a gradient; over `factor` it is that of the quantity scaled by the test.
@@ -49,28 +33,16 @@ contains
       type(windows_t), intent(in) :: windows
       real(wp), intent(out) :: half             !! half width, in `unit`
       character(*), intent(out) :: unit         !! mm, deg, N or N m; 3 letters
+      integer :: which
 
-      select case (over)
-      case ('wheel_travel_mm')
-         half = windows%travel
-         unit = 'mm'
-      case ('axle_roll_deg')
-         half = windows%roll
-         unit = 'deg'
-      case ('steering_wheel_deg')
-         half = windows%wheel
-         unit = 'deg'
-      case default
-         half = windows%force
-         unit = 'N'
-         if (kind == 'aligning_torque') then
-            half = windows%torque
-            unit = 'N m'
-         else if (kind == 'steering') then
-            half = windows%rack
-            unit = 'mm'
-         end if
-      end select
+      which = force
+      if (kind == 'aligning_torque') which = torque
+      if (kind == 'steering') which = rack
+      if (over == 'wheel_travel_mm') which = travel
+      if (over == 'axle_roll_deg') which = roll
+      if (over == 'steering_wheel_deg') which = wheel
+      half = windows%half(which)
+      unit = units(which)
    end subroutine window_of
 
 end module ek_gradient_window

@@ -1,52 +1,132 @@
 !> The columns of the K&C quantities: those that a model defines, and their values at a state.
 !>
-!> Name, unit and value of a column are given in one line below; the list is processed once without values for the
-!> names, then once per state. input/QUANTITIES.md defines each of them.
+!> The sections of ek_quantity give names, units and conditions; each kernel here returns the values of its section in SI, in the
+!> same order. A quantity without a value at a state is not a number.
+!>
+!> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
+!> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
+!> rotation of the carrier about an axis of the deck's frame; `…_deflection` is the movement of the contact point (of the
+!> wheel centre in traction), `…_centre_deflection` that of the wheel centre.
 module ek_kandc_columns
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_units, only: pi, degree, millimetre
+   use ek_units, only: pi
+   use ek_quantity, only: wheel_rates, wheel_forces, wheel_stiffness, of_axle, of_steering, wheel_geometry, axle_geometry, &
+      of_rack, pair, tyres, axis, rack, ratio, car, front, rear, mass, sprung, width, corner
    use ek_measure, only: measure_value
    use ek_block, only: rotated
-   use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state
+   use ek_element, only: stop_spring, measure_spring, is_of_angle
+   use ek_suspension, only: suspension_t, driver_row
+   use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t
-   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t
-   use ek_vehicle, only: vehicle_t
+   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values
    use ek_wheel_side, only: is_axle, prefix_of, design_track
    use ek_wheel_force, only: vertical_force
-   use ek_compliance, only: new_compliance, wheel_compliance
-   use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, wheel_characteristics, &
-      axle_characteristics, motion_ratio, quotient
+   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
+   use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, response_t, wheel_characteristics, &
+      axle_characteristics, motion_ratio, quotient, in_phase, anti_phase, load_held, height_held
    use ek_angle_rate, only: axes_of
-   use ek_kandc_row, only: kandc_t, put, put_known, choose, begin_block, end_block
-   use ek_response_columns, only: put_rates, put_arms, put_forces
+   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
    use ek_steer_axis, only: instant_axis, locked_twist
-   use ek_geometry_columns, only: geometry_columns
+   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values, mass_on
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, choose, tell_kandc, rig_rows
+   public :: kandc_t, start_kandc, tell_kandc, rig_rows
 
-   real(wp), parameter :: nm_per_deg = 1.0_wp/degree               !! N m/deg
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
+
+   !> The columns of a model and the work space to fill them.
+   type, extends(column_list_t) :: kandc_t
+      integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
+      real(wp) :: steer_ratio = 0.0_wp         !! rack travel per revolution of the steering wheel [m], never negative
+      real(wp), allocatable :: values(:)       !! of the columns, in their units
+      type(compliance_t) :: compliance
+   end type kandc_t
 
 contains
 
-   !> The names of all columns that a model defines: self%names(:self%used).
-   subroutine start_kandc(suspension, vehicle, self)
+   !> The names of all columns that a model defines: self%names(:self%used). Blocks: each wheel, the axle with its steering,
+   !> the geometry of each wheel, that of the axle, elements, springs.
+   subroutine start_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
-      type(vehicle_t), intent(in) :: vehicle
       type(kandc_t), intent(out) :: self
+      integer :: has(size(suspension%wheels)), both, k, w, held
 
-      self%vehicle = vehicle
-      self%compliance = new_compliance(suspension, vehicle%steer_row > 0)
-      allocate (self%names(128), self%is_of_matrix(128), self%last(0), self%is_passed_over(0))
-      call list(suspension, design_state(suspension), demand_t(), self)
-      self%is_naming = .false.
+      if (suspension%steering%has_steering) then
+         self%steer_row = driver_row(suspension, suspension%steering%driver)
+         self%steer_ratio = abs(suspension%steering%ratio)
+      end if
+      self%compliance = new_compliance(suspension, self%steer_row > 0)
+      call conditions_of(suspension, self, has, both)
+      call begin_list(self, 256)
+      do k = 1, self%compliance%wheels
+         w = self%compliance%order(k)
+         call add_quantities(self, wheel_rates, prefix_of(suspension, w), has(k))
+         do held = load_held, height_held
+            call add_quantities(self, wheel_forces, prefix_of(suspension, w), has(k), held)
+         end do
+         call add_quantities(self, wheel_stiffness, prefix_of(suspension, w), has(k))
+         call end_block(self)
+      end do
+      call add_quantities(self, of_axle, '', both)
+      call add_quantities(self, of_steering, '', both)
+      call end_block(self)
+      do k = 1, self%compliance%wheels
+         call add_quantities(self, wheel_geometry, prefix_of(suspension, self%compliance%order(k)), has(k))
+         call end_block(self)
+      end do
+      call add_quantities(self, axle_geometry, '', both)
+      call end_block(self)
+      do k = 1, merge(size(suspension%elements), 0, self%compliance%wheels > 0)      ! without a wheel there is no travel
+         associate (element => suspension%elements(k))
+            if (element%kind == stop_spring) call add_column(self, element%name//'_travel_left_mm', .true.)
+            if (element%kind == measure_spring) then
+               if (.not. is_of_angle(element%measure%kind)) call add_column(self, element%name//'_motion_ratio', .true.)
+            end if
+         end associate
+      end do
+      call add_quantities(self, of_rack, '', both)
+      call end_block(self)
+      do k = 1, merge(self%compliance%springs, 0, self%compliance%wheels > 0)
+         call add_column(self, suspension%elements(self%compliance%spring(k))%name//'_motion_ratio', .true.)
+      end do
+      call end_block(self)
       allocate (self%values(self%used), source=0.0_wp)
    end subroutine start_kandc
+
+   !> The conditions of ek_quantity that a model meets.
+   subroutine conditions_of(suspension, self, has, both)
+      type(suspension_t), intent(in) :: suspension
+      type(kandc_t), intent(in) :: self
+      integer, intent(out) :: has(:), both         !! of each wheel in the order of the compliance matrix; without a wheel
+      integer :: k
+
+      both = 0
+      associate (axle => suspension%axle, wheels => suspension%wheels)
+         if (is_axle(suspension)) both = pair
+         if (self%steer_row > 0) both = both + rack
+         if (self%steer_ratio > 0.0_wp) both = both + ratio
+         if (axle%has_axle) both = both + car + merge(front, rear, axle%is_front)
+         if (axle%mass > 0.0_wp) both = both + mass
+         if (axle%front_overhang > 0.0_wp) both = both + corner
+         if (all(wheels%tyre_width > 0.0_wp)) both = both + width
+         has = both
+         if (all(wheels%tyre_rate > 0.0_wp)) both = both + tyres
+         do k = 1, size(has)
+            associate (wheel => wheels(self%compliance%order(k)))
+               if (wheel%has_steer_axis) has(k) = has(k) + axis
+               if (is_axle(suspension)) then
+                  has(k) = has(k) + iand(both, tyres)
+               else if (wheel%tyre_rate > 0.0_wp) then
+                  has(k) = has(k) + tyres
+               end if
+               if (.not. wheel%tyre_rate > 0.0_wp) cycle
+               if (mass_on(suspension, self%compliance%order(k)) > 0.0_wp) has(k) = has(k) + sprung
+            end associate
+         end do
+      end associate
+   end subroutine conditions_of
 
    !> Fills self%values at an equilibrium: all of them, or those of `choose`.
    subroutine tell_kandc(suspension, state, demand, kkt, self)
@@ -55,11 +135,55 @@ contains
       type(demand_t), intent(in) :: demand
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(kandc_t), intent(inout) :: self
+      type(attitude_t) :: now(size(suspension%wheels))
+      real(wp) :: lift(size(suspension%wheels)), springs(self%compliance%springs)
+      type(stand_t) :: stand
+      integer :: w, k, n
 
       if (self%is_matrix_wanted) &
-         call wheel_compliance(suspension, state, demand, rig_rows(suspension), self%vehicle%steer_row, kkt, self%compliance)
-      call list(suspension, state, demand, self)
+         call wheel_compliance(suspension, state, demand, rig_rows(suspension), self%steer_row, kkt, self%compliance)
+      n = size(suspension%wheels)
+      do k = 1, n
+         w = self%compliance%order(k)
+         now(k) = wheel_attitude(suspension, state, w)
+         lift(k) = vertical_force(suspension, state, demand, w)
+      end do
+      if (is_axle(suspension)) stand = stand_of(suspension, state, self)
+      do k = 1, n
+         if (self%is_wanted(k)) call fill(k, wheel_values(suspension, state, k, now(k), lift(k), stand, self))
+         if (self%is_wanted(n + 1 + k)) call fill(n + 1 + k, wheel_geometry_values(suspension, self%compliance, state, k))
+      end do
+      if (self%is_wanted(n + 1)) call fill(n + 1, [axle_values(suspension, now, lift, stand, self), &
+         steering_values(suspension, state, self)])
+      if (self%is_wanted(2*n + 2)) call fill(2*n + 2, axle_geometry_values(suspension, self%compliance, now))
+      if (self%is_wanted(2*n + 3)) call fill(2*n + 3, [element_values(suspension, self%compliance, state), &
+         rack_force(state, self%steer_row)])
+      if (.not. self%is_wanted(2*n + 4)) return
+      springs = 0.0_wp
+      if (self%compliance%is_known .and. n > 0) then
+         do k = 1, size(springs)
+            springs(k) = motion_ratio(self%compliance%response(:6*n, :6*n), self%compliance%response(6*n + k, :6*n))
+         end do
+      end if
+      call fill(2*n + 4, springs)
+
+   contains
+
+      subroutine fill(block, vector)
+         integer, intent(in) :: block
+         real(wp), intent(in) :: vector(:)
+         call fill_block(self%column_list_t, block, vector, self%compliance%is_known, self%values)
+      end subroutine fill
+
    end subroutine tell_kandc
+
+   !> Reaction of the steering driver [N].
+   pure real(wp) function rack_force(state, row)
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: row        !! 0: none
+      rack_force = 0.0_wp
+      if (row > 0) rack_force = -state%reaction(row)
+   end function rack_force
 
    !> The rows of Φ of the rig that hold a wheel at a height.
    pure function rig_rows(suspension) result(rows)
@@ -69,59 +193,6 @@ contains
 
       rows = pack([(k, k=1, size(suspension%rows))], suspension%joints(suspension%rows%joint)%is_rig)
    end function rig_rows
-
-   !> Processes all columns: wheels, then the axle, then the springs.
-   subroutine list(suspension, state, demand, self)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
-      type(kandc_t), intent(inout) :: self
-      type(attitude_t) :: now(size(suspension%wheels))
-      real(wp) :: lift(size(suspension%wheels)), ratio
-      type(stand_t) :: stand
-      integer :: w, k, n
-      logical :: is_passed_over
-
-      n = 6*size(suspension%wheels)
-      self%used = 0
-      self%blocks = 0
-      do k = 1, size(suspension%wheels)
-         w = self%compliance%order(k)
-         now(k) = wheel_attitude(suspension, state, w)
-         lift(k) = vertical_force(suspension, state, demand, w)
-      end do
-      if (is_axle(suspension)) stand = stand_of(suspension, state, self)
-      do k = 1, size(suspension%wheels)
-         call begin_block(self, is_passed_over)
-         if (is_passed_over) cycle
-         call list_wheel(suspension, state, k, now(k), lift(k), stand, self)
-         call end_block(self)
-      end do
-      call begin_block(self, is_passed_over)
-      if (.not. is_passed_over) then
-         if (is_axle(suspension)) call list_axle(suspension, now, lift, stand, self)
-         call list_steering(suspension, state, self)
-         call end_block(self)
-      end if
-      call begin_block(self, is_passed_over)
-      if (.not. is_passed_over) then
-         call geometry_columns(suspension, self%vehicle, self%compliance, state, self%geometry)
-         do k = 1, self%geometry%used
-            call put(self, trim(self%geometry%names(k)), self%geometry%values(k), self%geometry%is_of_matrix(k))
-         end do
-         call end_block(self)
-      end if
-      if (n == 0) return                                ! without a wheel there is no travel
-      call begin_block(self, is_passed_over)
-      if (is_passed_over) return
-      do k = 1, self%compliance%springs
-         ratio = 0.0_wp
-         if (self%compliance%is_known) ratio = motion_ratio(self%compliance%response(:n, :n), &
-            self%compliance%response(n + k, :n))
-         call put_known(self, suspension%elements(self%compliance%spring(k))%name//'_motion_ratio', ratio)
-      end do
-      call end_block(self)
-   end subroutine list
 
    !> Positions of both wheels of an axle, in the order of the compliance matrix.
    type(stand_t) function stand_of(suspension, state, self) result(stand)
@@ -150,118 +221,127 @@ contains
             stand%axes(at) = axes_of(wheel, pose)
             stand%centre(:, at) = pose%r + rotated(pose%a, wheel%centre)
             stand%arm(:, at) = rotated(pose%a, wheel%contact - wheel%centre)
+            stand%tyre_rate(at) = wheel%tyre_rate
          end associate
-         if (allocated(self%vehicle%tyre_rate)) stand%tyre_rate(at) = self%vehicle%tyre_rate(w)
       end associate
    end subroutine stand_up
 
-   !> The columns of one wheel.
-   subroutine list_wheel(suspension, state, place, now, lift, pair, self)
+   !> The values of wheel_rates, wheel_forces with loads and with heights held, and wheel_stiffness.
+   function wheel_values(suspension, state, place, now, lift, both, self) result(values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: place               !! index of the wheel in the compliance matrix
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: lift               !! force of the ground [N]
-      type(stand_t), intent(in) :: pair          !! both wheels of an axle
-      type(kandc_t), intent(inout) :: self
+      type(stand_t), intent(in) :: both          !! both wheels of an axle
+      type(kandc_t), intent(in) :: self
+      real(wp) :: values(size(wheel_rates) + 2*size(wheel_forces) + size(wheel_stiffness))
       type(wheel_characteristics_t) :: is
-      type(steer_axis_t) :: axis
+      type(steer_axis_t) :: instant
       type(stand_t) :: stand
-      character(:), allocatable :: prefix
-      real(wp) :: frame
-      integer :: w, at
-      logical :: is_pair, is_shod
+      real(wp) :: frame(3)
+      integer :: at
 
-      w = self%compliance%order(place)
-      prefix = prefix_of(suspension, w)
-      is_pair = is_axle(suspension)
-      frame = merge(-1.0_wp, 1.0_wp, suspension%is_iso)
-      if (is_pair) then
-         stand = pair
-         at = place
-         is_shod = all(stand%tyre_rate > 0.0_wp)
-      else
-         call stand_up(suspension, state, self, place, 1, stand)
+      frame = frame_of(suspension)
+      stand = both
+      at = place
+      if (.not. is_axle(suspension)) then
          at = 1
-         is_shod = stand%tyre_rate(1) > 0.0_wp
+         call stand_up(suspension, state, self, place, 1, stand)
       end if
-      associate (wheel => suspension%wheels(w), axle => self%vehicle%axle, c => self%compliance%response)
+      associate (side => suspension%wheels(self%compliance%order(place))%side, axle => suspension%axle, &
+                 c => self%compliance%response)
          if (self%compliance%is_known) then
-            axis = instant_axis(self%compliance, place, wheel%side, stand%centre(:, at), stand%centre(:, at) + stand%arm(:, at))
-            if (is_pair) then
+            instant = instant_axis(self%compliance, place, side, stand%centre(:, at), stand%centre(:, at) + stand%arm(:, at))
+            if (is_axle(suspension)) then
                is = wheel_characteristics(c(:12, :12), stand, place, axle)
             else
                is = wheel_characteristics(c(6*place - 5:6*place, 6*place - 5:6*place), stand, 1, axle)
             end if
          end if
-
-         call put(self, prefix//'steer_deg', steer_of(now%toe, wheel%side)/degree)
-         if (is_pair) call put(self, prefix//'inclination_deg', inclination_of(now%camber, wheel%side, stand%roll)/degree)
-         call put(self, prefix//'vertical_force_n', lift)
-         call put_axis(self, prefix//'instant_', axis)
-         call put_rates(self, prefix, is, frame, is_pair, is_shod, wheel%has_steer_axis)
-         call put_arms(self, prefix, is, frame)
-         call put_forces(self, prefix, is, frame, is_pair, wheel%has_steer_axis)
-         if (axle%has_axle .and. axle%is_front) then
-            call put_known(self, prefix//'anti_dive_percent', 100.0_wp*is%anti_brake)
-            call put_known(self, prefix//'anti_lift_drive_percent', 100.0_wp*is%anti_drive)
-         else if (axle%has_axle) then
-            call put_known(self, prefix//'anti_lift_brake_percent', 100.0_wp*is%anti_brake)
-            call put_known(self, prefix//'anti_squat_percent', 100.0_wp*is%anti_drive)
-         end if
-         if (.not. (axle%has_axle .and. axle%mass > 0.0_wp)) return
-         if (axle%is_front) then      ! the body moves down if the wheel moves up
-            call put_known(self, prefix//'brake_dive_mm_per_g', is%brake_travel/millimetre)
-            call put_known(self, prefix//'drive_lift_mm_per_g', -is%drive_travel/millimetre)
-         else
-            call put_known(self, prefix//'brake_lift_mm_per_g', -is%brake_travel/millimetre)
-            call put_known(self, prefix//'drive_squat_mm_per_g', is%drive_travel/millimetre)
-         end if
+         values = [steer_of(now%toe, side), inclination_of(now%camber, side, stand%roll), lift, axis_values(instant), &
+            is%wheel_rate, is%single_rate, is%ride_rate, is%hop_rate, &
+            is%bump%steer, is%bump%camber, is%bump%caster, is%bump%toe, frame*is%bump%rotation, &
+            is%roll%steer, is%roll%camber, is%roll%caster, 100.0_wp*is%roll%steer, frame*is%roll%rotation, &
+            is%wheel_roll%steer, is%wheel_roll%camber, is%wheel_roll%caster, 100.0_wp*is%wheel_roll%steer, &
+            frame*is%wheel_roll%rotation, &
+            is%side_arm_length, is%side_arm_angle, frame([1, 3])*is%side_arm_centre, &
+            is%front_arm_length, is%front_arm_angle, frame(2:3)*is%front_arm_centre, &
+            force_values(is, load_held, frame), force_values(is, height_held, frame), &
+            is%jacking, is%stiffness, &
+            100.0_wp*is%anti_brake, 100.0_wp*is%anti_drive, 100.0_wp*is%anti_brake, 100.0_wp*is%anti_drive, &
+            is%brake_travel, -is%drive_travel, -is%brake_travel, is%drive_travel]      ! the body moves down if the wheel moves up
       end associate
-   end subroutine list_wheel
+   end function wheel_values
 
-   !> The columns of both wheels together.
-   subroutine list_axle(suspension, now, lift, stand, self)
+   !> The values of wheel_forces under one condition.
+   pure function force_values(is, held, frame) result(values)
+      type(wheel_characteristics_t), intent(in) :: is
+      integer, intent(in) :: held
+      real(wp), intent(in) :: frame(3)
+      real(wp) :: values(size(wheel_forces))
+
+      associate (braking => is%braking(held), traction => is%traction(held))
+         values = [lateral(is%lateral(in_phase, held)), lateral(is%lateral_trail(in_phase, held)), &
+            is%aligning(in_phase, held)%steer, is%aligning(in_phase, held)%camber, &
+            lateral(is%lateral(anti_phase, held)), lateral(is%lateral_trail(anti_phase, held)), &
+            is%aligning(anti_phase, held)%steer, is%aligning(anti_phase, held)%camber, &
+            braking%patch(1), braking%steer, braking%camber, braking%caster, braking%toe, frame*braking%rotation, &
+            braking%centre(1), &
+            -traction%centre(1), traction%steer, traction%camber, traction%caster, traction%toe, frame*traction%rotation]
+      end associate
+
+   contains
+
+      pure function lateral(response)
+         type(response_t), intent(in) :: response
+         real(wp) :: lateral(4)
+         lateral = [response%patch(2), response%centre(2), response%steer, response%camber]
+      end function lateral
+
+   end function force_values
+
+   !> The values of of_axle; 0 unless there are two wheels.
+   function axle_values(suspension, now, lift, stand, self) result(values)
       type(suspension_t), intent(in) :: suspension
-      type(attitude_t), intent(in) :: now(2)             !! left, right
-      real(wp), intent(in) :: lift(2)
+      type(attitude_t), intent(in) :: now(:)             !! left, right
+      real(wp), intent(in) :: lift(:)
       type(stand_t), intent(in) :: stand
-      type(kandc_t), intent(inout) :: self
+      type(kandc_t), intent(in) :: self
+      real(wp) :: values(size(of_axle))
       type(axle_characteristics_t) :: is
-      real(wp) :: frame, left, right, ground
-      logical :: is_shod
+      real(wp) :: frame(3), ground, left, right, turn(3)
 
-      associate (c => self%compliance%response, axle => self%vehicle%axle, track => stand%track)
+      values = 0.0_wp
+      if (.not. is_axle(suspension)) return
+      associate (c => self%compliance%response, axle => suspension%axle, track => stand%track)
          if (self%compliance%is_known) is = axle_characteristics(c(:12, :12), stand)
-         is_shod = all(stand%tyre_rate > 0.0_wp)
-         frame = merge(-1.0_wp, 1.0_wp, suspension%is_iso)
+         frame = frame_of(suspension)
          ground = 0.5_wp*sum(stand%centre(3, :) + stand%arm(3, :))
-         call put_known(self, 'suspension_roll_rate_nm_per_deg', is%suspension_roll_rate/nm_per_deg)
-         if (is_shod) then
-            call put_known(self, 'total_roll_rate_nm_per_deg', is%total_roll_rate/nm_per_deg)
-            call put_known(self, 'tramp_rate_nm_per_deg', is%tramp_rate/nm_per_deg)
+         turn = 0.0_wp
+         if (axle%has_axle .and. self%steer_row > 0) then
+            left = steer_of(now(1)%toe, -1)
+            right = steer_of(now(2)%toe, 1)
+            turn(1) = turning_circle(left, right, axle%wheelbase)
+            ! the effect of the steering, without the static toe
+            left = left - steer_of(design_toe(suspension, -1), -1)
+            right = right - steer_of(design_toe(suspension, 1), 1)
+            turn(2) = ackermann_percent(left, right, axle%wheelbase, track)
+            turn(3) = ackermann_error(left, right, axle%wheelbase, track)
          end if
-         call put(self, 'roll_moment_nm', 0.5_wp*track*(lift(1) - lift(2)))
-         call put(self, 'axle_roll_deg', stand%roll/degree)
-         call put_known(self, 'roll_centre_y_mm', frame*is%roll_centre(1)/millimetre)
-         call put_known(self, 'roll_centre_z_mm', is%roll_centre(2)/millimetre)
-         call put_known(self, 'roll_centre_height_mm', (is%roll_centre(2) - ground)/millimetre)
-         if (is_shod) then
-            call put_known(self, 'roll_centre_with_tyres_y_mm', frame*is%tyre_roll_centre(1)/millimetre)
-            call put_known(self, 'roll_centre_with_tyres_height_mm', (is%tyre_roll_centre(2) - ground)/millimetre)
-         end if
-         call put_known(self, 'force_roll_centre_height_mm', is%force_roll_centre/millimetre)
-         if (.not. axle%has_axle .or. self%vehicle%steer_row == 0) return
-         left = steer_of(now(1)%toe, -1)
-         right = steer_of(now(2)%toe, 1)
-         call put(self, 'turning_circle_m', turning_circle(left, right, axle%wheelbase))
-         ! the effect of the steering, without the static toe
-         left = left - steer_of(design_toe(suspension, -1), -1)
-         right = right - steer_of(design_toe(suspension, 1), 1)
-         call put(self, 'ackermann_percent', ackermann_percent(left, right, axle%wheelbase, track))
-         call put(self, 'ackermann_error_deg', ackermann_error(left, right, axle%wheelbase, track)/degree)
+         values = [is%suspension_roll_rate, is%total_roll_rate, is%tramp_rate, 0.5_wp*track*(lift(1) - lift(2)), stand%roll, &
+            frame(2)*is%roll_centre(1), is%roll_centre(2), is%roll_centre(2) - ground, frame(2)*is%tyre_roll_centre(1), &
+            is%tyre_roll_centre(2) - ground, is%force_roll_centre, turn]
       end associate
-   end subroutine list_axle
+   end function axle_values
+
+   !> The factors from the frame of the program to that of the deck.
+   pure function frame_of(suspension) result(frame)
+      type(suspension_t), intent(in) :: suspension
+      real(wp) :: frame(3)
+      frame = 1.0_wp
+      if (suspension%is_iso) frame = [-1.0_wp, -1.0_wp, 1.0_wp]
+   end function frame_of
 
    !> Toe of the wheel of a side in the design position [rad].
    pure real(wp) function design_toe(suspension, side) result(toe)
@@ -276,16 +356,17 @@ contains
       end do
    end function design_toe
 
-   !> Ratio of steering wheel to road wheels, for a model with a rack and its ratio.
-   subroutine list_steering(suspension, state, self)
+   !> The values of of_steering; 0 without a rack and its ratio.
+   function steering_values(suspension, state, self) result(values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(kandc_t), intent(inout) :: self
-      real(wp) :: rate, twist(6), per_rack
+      type(kandc_t), intent(in) :: self
+      real(wp) :: values(size(of_steering)), rate, twist(6), per_rack
       integer :: k, w
 
-      if (self%vehicle%steer_row == 0 .or. .not. self%vehicle%steer_ratio > 0.0_wp) return
-      per_rack = 2.0_wp*pi/self%vehicle%steer_ratio
+      values = 0.0_wp
+      if (self%steer_row == 0 .or. .not. self%steer_ratio > 0.0_wp) return
+      per_rack = 2.0_wp*pi/self%steer_ratio
       rate = 0.0_wp
       if (self%compliance%is_known) then
          do k = 1, self%compliance%wheels
@@ -295,11 +376,10 @@ contains
                twist(4:6))/self%compliance%wheels
          end do
       end if
-      call put_known(self, 'steering_ratio', quotient(per_rack, abs(rate), least_rack_rate))
-      ! positive to the left for either direction of the rack
-      call put(self, 'steering_wheel_deg', sign(per_rack, rate)*row_change(suspension, state, self%vehicle%steer_row)/degree, &
-         .true.)
-   end subroutine list_steering
+      ! the angle of the steering wheel is positive to the left for either direction of the rack
+      values = [quotient(per_rack, abs(rate), least_rack_rate), &
+         sign(per_rack, rate)*row_change(suspension, state, self%steer_row)]
+   end function steering_values
 
    !> Prescribed value of a driver's row at a state, from design [m, rad]: its measure less the deflection of its compliance.
    pure real(wp) function row_change(suspension, state, row) result(change)
@@ -316,23 +396,5 @@ contains
          end associate
       end do
    end function row_change
-
-   !> The six columns of a steer axis; not a number if the axis is unknown.
-   subroutine put_axis(self, stem, axis)
-      type(kandc_t), intent(inout) :: self
-      character(*), intent(in) :: stem
-      type(steer_axis_t), intent(in) :: axis
-      real(wp) :: values(6)
-
-      values = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (axis%is_known) values = [axis%caster/degree, axis%kingpin_inclination/degree, axis%scrub_radius/millimetre, &
-         axis%caster_trail/millimetre, axis%spindle_length/millimetre, axis%spindle_offset/millimetre]
-      call put(self, stem//'caster_deg', values(1), .true.)
-      call put(self, stem//'kingpin_inclination_deg', values(2), .true.)
-      call put(self, stem//'scrub_radius_mm', values(3), .true.)
-      call put(self, stem//'caster_trail_mm', values(4), .true.)
-      call put(self, stem//'spindle_length_mm', values(5), .true.)
-      call put(self, stem//'spindle_offset_mm', values(6), .true.)
-   end subroutine put_axis
 
 end module ek_kandc_columns

@@ -1,12 +1,12 @@
 !> The columns of a state itself: wheels, springs, measures, bushings, joints. Columns that need the compliance matrix are in
 !> ek_kandc_columns.
 !>
-!> The name of every column contains its unit. Units are mm, N, deg, N m regardless of the deck's units; vectors are in the
-!> deck's frame. Names and values are two lists below; a new column is a line in both, at the same position.
-!> input/QUANTITIES.md defines each of them.
+!> Units are mm, N, deg, N m regardless of the deck's units; vectors are in the deck's frame. input/QUANTITIES.md defines each of
+!> them.
 module ek_state_columns
    use ek_kinds, only: wp
    use ek_units, only: degree, millimetre
+   use ek_quantity, only: wheel_position, axis
    use ek_measure, only: measure_value, axis_axis, rotation
    use ek_block, only: rotated
    use ek_rotation, only: cross
@@ -19,58 +19,44 @@ module ek_state_columns
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
    use ek_wheel_side, only: prefix_of
-   use ek_attitude, only: attitude_t, wheel_attitude
-   use ek_table, only: name_length
+   use ek_attitude, only: attitude_t, wheel_attitude, axis_values
+   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
    implicit none(type, external)
    private
    public :: state_columns, state_values, measure_unit
 
 contains
 
-   !> The names of the columns of a model, in the order in which state_values gives the values.
-   subroutine state_columns(suspension, names)
+   !> The columns of a model, in the order in which state_values gives the values; each wheel is a block.
+   subroutine state_columns(suspension, list)
       type(suspension_t), intent(in) :: suspension
-      character(name_length), allocatable, intent(out) :: names(:)
-      character(:), allocatable :: prefix
-      integer :: used, k
+      type(column_list_t), intent(out) :: list
+      integer :: k
 
-      allocate (names(64))
-      used = 0
+      call begin_list(list, 128)
       do k = 1, size(suspension%wheels)
-         prefix = prefix_of(suspension, k)
-         call add(prefix//'wheel_travel_mm')
-         call add(prefix//'toe_deg')
-         call add(prefix//'camber_deg')
-         call add(prefix//'track_change_mm')
-         call add(prefix//'wheelbase_change_mm')
-         call add_three(prefix//'wheel_centre_', 'mm')
-         call add_three(prefix//'contact_patch_', 'mm')
-         if (.not. suspension%wheels(k)%has_steer_axis) cycle
-         call add(prefix//'caster_deg')
-         call add(prefix//'kingpin_inclination_deg')
-         call add(prefix//'scrub_radius_mm')
-         call add(prefix//'caster_trail_mm')
-         call add(prefix//'spindle_length_mm')
-         call add(prefix//'spindle_offset_mm')
+         call add_quantities(list, wheel_position, prefix_of(suspension, k), &
+            merge(axis, 0, suspension%wheels(k)%has_steer_axis))
+         call end_block(list)
       end do
       do k = 1, suspension%scalars
          associate (element => suspension%elements(k))
             if (element_kinds(element%kind)%has_gap) then
-               call add(element%name//'_gap_mm')
+               call add_column(list, element%name//'_gap_mm')
             else
-               call add(element%name//value_ending(element%measure%kind))
+               call add_column(list, element%name//value_ending(element%measure%kind))
             end if
-            call add(element%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(element%measure%kind))))
+            call add_column(list, element%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(element%measure%kind))))
          end associate
       end do
       do k = 1, size(suspension%readouts)
          select case (suspension%readouts(k)%measure%kind)
          case (rotation)
-            call add(suspension%readouts(k)%name//'_deg')
+            call add_column(list, suspension%readouts(k)%name//'_deg')
          case (axis_axis)
-            call add(suspension%readouts(k)%name//'_cosine')
+            call add_column(list, suspension%readouts(k)%name//'_cosine')
          case default
-            call add(suspension%readouts(k)%name//'_mm')
+            call add_column(list, suspension%readouts(k)%name//'_mm')
          end select
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
@@ -82,45 +68,32 @@ contains
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
             if (joint%is_of_measures) then
-               call add(joint%name//'_reaction_'//reaction_unit(suspension, joint%first_row))
+               call add_column(list, joint%name//'_reaction_'//reaction_unit(suspension, joint%first_row))
             else
                call add_three(joint%name//'_f', 'n')
                if (has_moment(suspension, joint)) call add_three(joint%name//'_m', 'nm')
             end if
          end associate
       end do
-      names = names(:used)
 
    contains
 
-      subroutine add(name)
-         character(*), intent(in) :: name
-         character(name_length), allocatable :: more(:)
-
-         if (used == size(names)) then
-            allocate (more(2*used))
-            more(:used) = names
-            call move_alloc(more, names)
-         end if
-         used = used + 1
-         names(used) = name
-      end subroutine add
-
       subroutine add_three(stem, unit)
          character(*), intent(in) :: stem, unit
-         call add(stem//'x_'//unit)
-         call add(stem//'y_'//unit)
-         call add(stem//'z_'//unit)
+         call add_column(list, stem//'x_'//unit)
+         call add_column(list, stem//'y_'//unit)
+         call add_column(list, stem//'z_'//unit)
       end subroutine add_three
 
    end subroutine state_columns
 
    !> The values of the columns at a state.
-   pure subroutine state_values(suspension, state, kkt, row)
+   pure subroutine state_values(suspension, state, kkt, list, row)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(in) :: kkt             !! assembled at this state; provides the gradients of the rows
-      real(wp), intent(inout) :: row(:)          !! one per name; values that a horizontal steer axis lacks are not set
+      type(column_list_t), intent(in) :: list    !! of state_columns
+      real(wp), intent(inout) :: row(:)          !! one per column
       type(attitude_t) :: now
       type(bushing_view_t) :: view
       real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
@@ -128,20 +101,13 @@ contains
 
       frame = 1.0_wp
       if (suspension%is_iso) frame = [-1.0_wp, -1.0_wp, 1.0_wp]
-      at = 0
       do k = 1, size(suspension%wheels)
          now = wheel_attitude(suspension, state, k)
-         row(at + 1:at + 5) = [now%centre(3)/millimetre, now%toe/degree, now%camber/degree, &
-            now%track_change/millimetre, now%wheelbase_change/millimetre]
-         row(at + 6:at + 8) = frame*now%centre/millimetre
-         row(at + 9:at + 11) = frame*now%contact/millimetre
-         at = at + 11
-         if (.not. suspension%wheels(k)%has_steer_axis) cycle
-         if (now%has_steer_axis) row(at + 1:at + 6) = [now%caster/degree, now%kingpin_inclination/degree, &
-            now%scrub_radius/millimetre, now%caster_trail/millimetre, now%spindle_length/millimetre, &
-            now%spindle_offset/millimetre]
-         at = at + 6
+         call fill_block(list, k, [now%centre(3), now%toe, now%camber, now%track_change, now%wheelbase_change, &
+            frame*now%centre, frame*now%contact, axis_values(now%axis)], .true., row)
       end do
+      at = 0
+      if (size(suspension%wheels) > 0) at = list%last(size(suspension%wheels))
       do k = 1, suspension%scalars
          associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
             length = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))

@@ -8,7 +8,7 @@ module ek_steer_angle
    implicit none(type, external)
    private
    public :: steer_of, steer_rate, axle_roll, inclination_of
-   public :: ackermann_angle, ackermann_percent, ackermann_error, turning_circle
+   public :: ackermann_angle, ackermann_percent, ackermann_error, turning_circle, ideal_outer_steer, outer_wheel, wall_to_wall
 
    ! Below one degree the static toe, not the linkage, determines the difference of the two wheels: (δA − δo) is then
    ! 0.01 deg, a toe of 0.1 deg ten times that
@@ -49,17 +49,20 @@ contains
       inclination = camber - side*roll
    end function inclination_of
 
-   !> Steer angles of the inner and the outer wheel of the turn, both positive into it.
-   pure subroutine sort(left, right, inner, outer)
-      real(wp), intent(in) :: left, right
+   !> Steer angles, positive into the turn, and the side of the outer wheel.
+   pure subroutine outer_wheel(left, right, inner, outer, side)
+      real(wp), intent(in) :: left, right      !! positive to the left
       real(wp), intent(out) :: inner, outer
+      integer, intent(out) :: side             !! of the outer wheel: 1 left, 2 right
+
       inner = left
       outer = right
-      if (left + right < 0.0_wp) then
-         inner = -right
-         outer = -left
-      end if
-   end subroutine sort
+      side = 2
+      if (left + right >= 0.0_wp) return
+      inner = -right
+      outer = -left
+      side = 1
+   end subroutine outer_wheel
 
    !> Inner angle at which both wheels roll about one point on the line of the rear axle:
    !>
@@ -74,8 +77,9 @@ contains
    pure real(wp) function ackermann_percent(left, right, wheelbase, track) result(percent)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer, wanted
+      integer :: side
 
-      call sort(left, right, inner, outer)
+      call outer_wheel(left, right, inner, outer, side)
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
       if (outer < least_steer) return
       wanted = ackermann_angle(outer, wheelbase, track) - outer
@@ -86,8 +90,9 @@ contains
    pure real(wp) function ackermann_error(left, right, wheelbase, track) result(error)
       real(wp), intent(in) :: left, right, wheelbase, track
       real(wp) :: inner, outer
+      integer :: side
 
-      call sort(left, right, inner, outer)
+      call outer_wheel(left, right, inner, outer, side)
       error = inner - ackermann_angle(outer, wheelbase, track)
    end function ackermann_error
 
@@ -96,11 +101,30 @@ contains
    pure real(wp) function turning_circle(left, right, wheelbase) result(diameter)
       real(wp), intent(in) :: left, right, wheelbase
       real(wp) :: inner, outer
+      integer :: side
 
-      call sort(left, right, inner, outer)
+      call outer_wheel(left, right, inner, outer, side)
       diameter = ieee_value(1.0_wp, ieee_quiet_nan)
       if (sin(outer)*widest_circle <= 2.0_wp*wheelbase) return
       diameter = 2.0_wp*wheelbase/sin(outer)
    end function turning_circle
+
+   !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from that of the inner one:
+   !> atan(L/(L/tan δi + t)), written without a division.
+   pure real(wp) function ideal_outer_steer(inner, wheelbase, track) result(outer)
+      real(wp), intent(in) :: inner, wheelbase, track
+      outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))
+   end function ideal_outer_steer
+
+   !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 beside the middle.
+   !>
+   !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point on the line of the rear axle
+   pure real(wp) function wall_to_wall(outer, wheelbase, track, overhang, width) result(diameter)
+      real(wp), intent(in) :: outer                             !! steer of the outer wheel into the turn, including static toe
+      real(wp), intent(in) :: wheelbase, track, overhang, width
+      diameter = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (sin(outer)*widest_circle <= 2.0_wp*wheelbase) return
+      diameter = 2.0_wp*sqrt((wheelbase/tan(outer) - 0.5_wp*track + 0.5_wp*width)**2 + (wheelbase + overhang)**2)
+   end function wall_to_wall
 
 end module ek_steer_angle

@@ -11,9 +11,9 @@ module ek_sweep_table
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
-   use ek_vehicle, only: vehicle_of
    use ek_state_columns, only: state_columns, state_values, measure_unit
-   use ek_kandc_columns, only: kandc_t, start_kandc, choose, tell_kandc
+   use ek_column_list, only: column_list_t, choose
+   use ek_kandc_columns, only: kandc_t, start_kandc, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
@@ -39,6 +39,7 @@ contains
       type(state_t) :: state
       type(schedule_t) :: schedule
       type(demand_t) :: demand
+      type(column_list_t) :: list
       type(kandc_t) :: kandc
       character(name_length), allocatable :: columns(:)
       logical, allocatable :: is_kept(:)
@@ -47,7 +48,7 @@ contains
       real(wp) :: unit
       integer :: first, last, k, row, shown, told, ended
 
-      call list_columns(suspension, case, columns, kandc)
+      call list_columns(suspension, case, columns, list, kandc)
       ended = size(columns)
       told = ended - ends_of(case)    ! the last column before the ending columns
       shown = told - kandc%used       ! the last column of the state itself
@@ -75,7 +76,7 @@ contains
             values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
             call unpack_state(path%packed(:, k), state)
             call assemble(suspension, state, demand, residual_only, kkt)
-            if (any(is_kept(3:shown))) call state_values(suspension, state, kkt, values(3:shown))
+            if (any(is_kept(3:shown))) call state_values(suspension, state, kkt, list, values(3:shown))
             values(ended) = norm2(kkt%values)
             if (norm2(kkt%values) > open_joints) values(told + 1) = 0.0_wp
             if (any(is_kept(shown + 1:told))) then
@@ -92,28 +93,29 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       character(name_length), allocatable, intent(out) :: columns(:)
+      type(column_list_t) :: list
       type(kandc_t) :: kandc
 
-      call list_columns(suspension, case, columns, kandc)
+      call list_columns(suspension, case, columns, list, kandc)
    end subroutine sweep_columns
 
    !> The heads, and the work space of the K&C columns if the case requests them.
-   subroutine list_columns(suspension, case, columns, kandc)
+   subroutine list_columns(suspension, case, columns, list, kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       character(name_length), allocatable, intent(out) :: columns(:)
+      type(column_list_t), intent(out) :: list          !! of the state itself
       type(kandc_t), intent(out) :: kandc
-      character(name_length), allocatable :: names(:)
       integer :: shown, told
 
-      if (case%has_all) call start_kandc(suspension, vehicle_of(suspension), kandc)
-      call state_columns(suspension, names)
-      shown = 2 + size(names)
+      if (case%has_all) call start_kandc(suspension, kandc)
+      call state_columns(suspension, list)
+      shown = 2 + list%used
       told = shown + kandc%used
       allocate (columns(told + ends_of(case)))
       columns(1) = 'state'
       columns(2) = 'factor'
-      columns(3:shown) = names
+      columns(3:shown) = list%names(:list%used)
       if (case%has_all) columns(shown + 1:told) = kandc%names(:kandc%used)
       columns(told + 1) = 'converged'
       if (knows_stability(case)) columns(told + 2) = 'stable'
@@ -140,13 +142,14 @@ contains
       integer, parameter :: of_a_path = 6             ! numbers per state besides its coordinates
       integer(i8), parameter :: margin = 20000000_i8  ! bytes: all storage that does not grow with the states
       character(name_length), allocatable :: names(:)
+      type(column_list_t) :: list
       type(kandc_t) :: kandc
       integer :: columns
 
       if (present(wanted)) then
          columns = size(wanted) + 7
       else
-         call list_columns(suspension, case, names, kandc)
+         call list_columns(suspension, case, names, list, kandc)
          columns = size(names)
       end if
       ! the table twice: working copy and result

@@ -13,6 +13,7 @@ module ek_target
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
    use ek_branch, only: branch_t, new_branch, leave
+   use ek_quantity, only: unit_of
    use ek_table, only: table_t, column, column_range, row_count
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
@@ -239,7 +240,7 @@ contains
       several = ''
       do k = 1, size(columns)
          if (index(columns(k), name//'_') /= 1) cycle
-         if (.not. is_unit(trim(columns(k)(len(name) + 2:)))) cycle
+         if (unit_of(trim(columns(k))) /= columns(k)(len(name) + 2:)) cycle
          place = k
          alike = alike + 1
          if (alike > 1) several = several//' and '
@@ -278,11 +279,5 @@ contains
       if (found > most) words = words//', …'
       if (found > 0) words = ' (columns with this in their name: '//words//')'
    end function holders
-
-   !> 'mm', 'deg', 'n_per_mm' …
-   pure logical function is_unit(text)
-      character(*), intent(in) :: text
-      is_unit = any(text == [character(10) :: 'mm', 'deg', 'n', 'nm', 'm', 'percent']) .or. index(text, '_per_') > 0
-   end function is_unit
 
 end module ek_target

@@ -1,4 +1,4 @@
-!> A wheel relative to its steer axis, turning circles, and ride frequency: pure functions.
+!> A wheel relative to its steer axis, and ride frequency: pure functions.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. SI and radians.
 module ek_wheel_geometry
@@ -8,11 +8,9 @@ module ek_wheel_geometry
    use ek_rotation, only: cross
    implicit none(type, external)
    private
-   public :: axis_distances_t, axis_distances, side_view_angle, camber_rate
-   public :: ideal_outer_steer, outer_wheel, wall_to_wall, ride_frequency
+   public :: axis_distances_t, axis_distances, side_view_angle, ride_frequency
 
    real(wp), parameter :: parallel = 1.0e-9_wp        !! sine of the angle of spin and steer axis: parallel below
-   real(wp), parameter :: widest_circle = 1000.0_wp   !! m: as for the turning circle
 
    !> A wheel centre, a patch and a spin axis relative to a line [m].
    type :: axis_distances_t
@@ -58,45 +56,6 @@ contains
       real(wp), intent(in) :: a(3, 3)      !! its axes, global
       angle = atan2(a(1, 3), a(3, 3))
    end function side_view_angle
-
-   !> Change of camber = asin(−w_z) with a rotation θ of the carrier: −(θ×w)_z/√(1 − w_z²).
-   pure real(wp) function camber_rate(spin, turn) result(rate)
-      real(wp), intent(in) :: spin(3), turn(3)
-      rate = -(turn(1)*spin(2) - turn(2)*spin(1))/sqrt(spin(1)**2 + spin(2)**2)
-   end function camber_rate
-
-   !> Steer of the outer wheel at which both roll about one point on the line of the rear axle, from that of the inner one:
-   !> atan(L/(L/tan δi + t)), written without a division.
-   pure real(wp) function ideal_outer_steer(inner, wheelbase, track) result(outer)
-      real(wp), intent(in) :: inner, wheelbase, track
-      outer = atan2(wheelbase*tan(inner), wheelbase + track*tan(inner))
-   end function ideal_outer_steer
-
-   !> Steer angles, positive into the turn, and the side of the outer wheel.
-   pure subroutine outer_wheel(left, right, inner, outer, side)
-      real(wp), intent(in) :: left, right      !! positive to the left
-      real(wp), intent(out) :: inner, outer
-      integer, intent(out) :: side             !! of the outer wheel: 1 left, 2 right
-
-      inner = left
-      outer = right
-      side = 2
-      if (left + right >= 0.0_wp) return
-      inner = -right
-      outer = -left
-      side = 1
-   end subroutine outer_wheel
-
-   !> Diameter of the circle of the outer front corner of the car: f ahead of the wheels, b/2 beside the middle.
-   !>
-   !>     2 √((L/tan δo − t/2 + b/2)² + (L + f)²)        about a point on the line of the rear axle
-   pure real(wp) function wall_to_wall(outer, wheelbase, track, overhang, width) result(diameter)
-      real(wp), intent(in) :: outer                             !! steer of the outer wheel into the turn, including static toe
-      real(wp), intent(in) :: wheelbase, track, overhang, width
-      diameter = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (sin(outer)*widest_circle <= 2.0_wp*wheelbase) return
-      diameter = 2.0_wp*sqrt((wheelbase/tan(outer) - 0.5_wp*track + 0.5_wp*width)**2 + (wheelbase + overhang)**2)
-   end function wall_to_wall
 
    !> √(k/m)/2π [Hz]
    pure real(wp) function ride_frequency(rate, mass) result(frequency)

@@ -5,6 +5,8 @@
 module ek_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_file, only: join_path, remove_file
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
@@ -13,6 +15,7 @@ module ek_chart
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
+   public :: pictures_of, remove_drawn
 
    character(25), parameter :: dashes(0:3) = [character(25) :: '', ' dashtype (10, 6)', ' dashtype (2, 4)', &
       ' dashtype (10, 4, 2, 4)']
@@ -28,6 +31,7 @@ module ek_chart
    end type trace_t
 
    type :: chart_t
+      integer :: test = 0                    !! number of the test that it belongs to
       character(:), allocatable :: name      !! of the SVG, without extension
       character(:), allocatable :: title     !! the quantity
       character(:), allocatable :: y_label   !! its unit and sign
@@ -214,5 +218,31 @@ contains
       end if
       call script%add(number(:used))
    end subroutine add_coordinate
+
+   !> The picture files of these charts. A chart without curves is not drawn; every name is listed once.
+   subroutine pictures_of(charts, pictures)
+      type(chart_t), intent(in) :: charts(:)
+      type(message_list_t), intent(inout) :: pictures
+      integer :: k, n
+
+      do k = 1, size(charts)
+         if (size(charts(k)%traces) == 0) cycle
+         do n = 1, pictures%count()
+            if (pictures%line(n) == picture_file(charts(k))) exit
+         end do
+         if (n > pictures%count()) call pictures%add(picture_file(charts(k)))
+      end do
+   end subroutine pictures_of
+
+   !> Removes pictures of these charts from an earlier run, for a page without pictures.
+   subroutine remove_drawn(charts, folder)
+      type(chart_t), intent(in) :: charts(:)
+      character(*), intent(in) :: folder        !! of the page
+      integer :: k
+
+      do k = 1, size(charts)
+         call remove_file(join_path(folder, 'figures/'//picture_file(charts(k))))
+      end do
+   end subroutine remove_drawn
 
 end module ek_chart

@@ -1,18 +1,18 @@
 !> The page of a comparison: charts of the curves of all results, and the table of gradients.
 module ek_compare_page
+   use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_version, only: version
    use ek_test_result, only: design_row
-   use ek_quantity, only: quantity_t, all_quantities, quantities_of, quantity_named
-   use ek_test_charts, only: quantity_chart
+   use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
+   use ek_test_charts, only: quantity_chart, quantities_of
    use ek_chart, only: chart_t, add_trace, append_chart
    use ek_comparison, only: difference_t, difference, percent
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
       begin_row, add_cell, end_row, add_group, end_table, add_legend, page_text, page_number
    use ek_report_files, only: results_t
-   use ek_chart_set, only: chart_set_t
-   use ek_report_page, only: add_chart_set
+   use ek_report_page, only: add_charts
    implicit none(type, external)
    private
    public :: comparison_t, overlay, page_of, test_number, letter_of
@@ -22,7 +22,7 @@ module ek_compare_page
       character(:), allocatable :: folder               !! of the page
       type(results_t), allocatable :: results(:)        !! the first is the one compared with
       type(difference_t), allocatable :: rows(:)
-      type(chart_set_t), allocatable :: sets(:)         !! charts of each test of the first
+      type(chart_t), allocatable :: charts(:)           !! of the tests of the first
       type(message_list_t) :: missing                   !! from some results
       logical :: has_pictures = .false.                 !! those in the folder belong to this comparison
    end type comparison_t
@@ -30,22 +30,21 @@ module ek_compare_page
 contains
 
    !> Charts of every test of the first result: one per column that another result also has, with one curve per result.
-   subroutine overlay(results, sets)
+   subroutine overlay(results, charts)
       type(results_t), intent(in) :: results(:)
-      type(chart_set_t), allocatable, intent(out) :: sets(:)
+      type(chart_t), allocatable, intent(out) :: charts(:)
       character(48), allocatable :: columns(:)
       integer :: t, k
 
-      allocate (sets(size(results(1)%tests)))
-      do t = 1, size(sets)
-         allocate (sets(t)%charts(0))
+      allocate (charts(0))
+      do t = 1, size(results(1)%tests)
          columns = quantities_of(results(1)%tests(t)%kind)
          do k = 1, size(columns)
-            call overlay_quantity(results, t, quantity_named(columns(k)), sets(t)%charts)
+            call overlay_quantity(results, t, quantity_named(columns(k)), charts)
          end do
          do k = 1, size(all_quantities)
-            if (.not. any(columns == all_quantities(k)%column)) &
-               call overlay_quantity(results, t, all_quantities(k), sets(t)%charts)
+            if (.not. all_quantities(k)%span > 0.0_wp .or. any(columns == held_name(all_quantities(k)%name, 1))) cycle
+            call overlay_quantity(results, t, quantity_named(held_name(all_quantities(k)%name, 1)), charts)
          end do
       end do
    end subroutine overlay
@@ -60,7 +59,7 @@ contains
       type(chart_t) :: chart
       integer :: r, side, u, k, drawn
 
-      if (quantity%column == results(1)%tests(test)%abscissa) return
+      if (quantity%name == results(1)%tests(test)%abscissa) return
       allocate (own(size(results)))
       own(1) = quantity_chart(results(1)%tests(test), quantity)
       do r = 2, size(results)
@@ -69,6 +68,7 @@ contains
       end do
       do side = 1, size(own(1)%traces)
          chart = own(1)
+         chart%test = test
          deallocate (chart%traces)
          allocate (chart%traces(0))
          associate (name => own(1)%traces(side)%title)
@@ -117,12 +117,12 @@ contains
       end if
       call add_warnings(page, 'Missing from some results', this%missing)
       if (size(this%rows) > 0) call add_gradients(page, this%results, this%rows, labels)
-      do t = 1, size(this%sets)
-         if (size(this%sets(t)%charts) == 0) cycle
+      do t = 1, size(this%results(1)%tests)
+         if (.not. any(this%charts%test == t)) cycle
          call begin_section(page, 'test-'//str(t), this%results(1)%tests(t)%title)
          call add_legend(page, labels, design_row(this%results(1)%tests(t)%table) > 0, &
             this%results(1)%tests(t)%kind == 'table')
-         if (this%has_pictures) call add_chart_set(page, this%sets(t)%charts, this%folder)
+         if (this%has_pictures) call add_charts(page, this%charts, t, this%folder)
          call end_section(page)
       end do
       text = page_text(page)

@@ -1,20 +1,44 @@
 !> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact
 !> of a stop, and the maximum force on the rack over all tests.
 module ek_place_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_text, only: spaced
    use ek_table, only: column_index
    use ek_test_result, only: test_result_t, design_row, unfolded_rows
-   use ek_key_number, only: key_number_t, nothing
    implicit none(type, external)
    private
-   public :: place_numbers, value_where
+   public :: key_number_t, new_number, nothing, place_numbers
 
    real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
    character(*), parameter :: gap_ending = '_gap_mm'
 
+   !> One key number of a report.
+   type :: key_number_t
+      character(:), allocatable :: group, quantity, unit, sign
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
+      logical :: is_of_axle = .false.                !! one number, in `left`
+   end type key_number_t
+
 contains
+
+   !> The value of a missing number.
+   pure real(wp) function nothing()
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function nothing
+
+   !> A number without values.
+   subroutine new_number(group, quantity, unit, sign, number)
+      character(*), intent(in) :: group, quantity, unit, sign
+      type(key_number_t), intent(out) :: number
+
+      number%group = group
+      number%quantity = quantity
+      number%unit = unit
+      number%sign = sign
+      number%left = nothing()
+      number%right = nothing()
+   end subroutine new_number
 
    !> Appends these numbers as far as the tests provide them.
    subroutine place_numbers(tests, numbers)
@@ -45,7 +69,7 @@ contains
       real(wp) :: value
       integer :: k
 
-      call begin('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', number)
+      call new_number('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', number)
       do k = 1, size(test%prefixes)
          value = value_where(test, trim(test%prefixes(k))//'steer_deg', -test%sides(k)*inner_steer, column)
          if (test%sides(k) > 0 .and. size(test%prefixes) > 1) then
@@ -75,8 +99,8 @@ contains
          prefix = side_of(stop)
          if (prefix == 'right_' .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle   ! with the left one
          value = travel_to(test, stop, prefix)
-         call begin('Ride', 'wheel travel to '//spaced(stop(len(prefix) + 1:)), 'mm', 'from design to contact, parallel travel', &
-            number)
+         call new_number('Ride', 'wheel travel to '//spaced(stop(len(prefix) + 1:)), 'mm', &
+            'from design to contact, parallel travel', number)
          number%left = value
          number%is_of_axle = len(prefix) == 0 .and. size(test%prefixes) > 1
          if (prefix == 'right_') then
@@ -112,7 +136,7 @@ contains
       type(key_number_t) :: number
       integer :: t, place
 
-      call begin('Steering', 'maximum rack force', 'N', 'magnitude, over all tests', number)
+      call new_number('Steering', 'maximum rack force', 'N', 'magnitude, over all tests', number)
       do t = 1, size(tests)
          place = column_index(tests(t)%table, 'steering_rack_force_n')
          if (place == 0) cycle
@@ -172,17 +196,6 @@ contains
       if (index(name, 'right_') == 1) prefix = 'right_'
    end function side_of
 
-   subroutine begin(group, quantity, unit, sign, number)
-      character(*), intent(in) :: group, quantity, unit, sign
-      type(key_number_t), intent(out) :: number
-
-      number%group = group
-      number%quantity = quantity
-      number%unit = unit
-      number%sign = sign
-      number%left = nothing()
-      number%right = nothing()
-   end subroutine begin
 
    !> Inserts a number behind the last of its group, if it has a value.
    subroutine append(number, numbers)

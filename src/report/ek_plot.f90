@@ -2,27 +2,15 @@
 module ek_plot
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_quantity, only: quantity_t, quantity_named, label_of
    use ek_table, only: table_t, name_length, column, column_index, column_range, row_count
    use ek_test_result, only: wheel_word, least_stroke, travel => travel_column
-   use ek_quantity, only: quantity_t
    use ek_figure, only: figure_t, panel_t, curve_t, new_figure, new_panel, new_curve, add_curve, add_panel
+   use ek_test_charts, only: largest_forces, most_curves
    use ek_file, only: base_name
    implicit none(type, external)
    private
    public :: run_figures
-
-   integer, parameter :: most_curves = 8          !! in one panel, for legibility
-
-   ! Drawn for every wheel; the label has unit and sign
-   type(quantity_t), parameter :: wheel_quantities(8) = [ &
-      quantity_t('toe_deg', 'Toe', 'toe [deg]    (+ front edge inward)', 0.01_wp), &
-      quantity_t('camber_deg', 'Camber', 'camber [deg]    (+ top outward)', 0.01_wp), &
-      quantity_t('track_change_mm', 'Lateral movement', 'contact patch, lateral [mm]    (+ outward)', 0.1_wp), &
-      quantity_t('wheelbase_change_mm', 'Longitudinal movement', 'contact patch, longitudinal [mm]    (+ rearward)', 0.1_wp), &
-      quantity_t('caster_deg', 'Caster', 'caster [deg]    (+ top rearward)', 0.01_wp), &
-      quantity_t('kingpin_inclination_deg', 'Kingpin inclination', 'kingpin inclination [deg]    (+ top inward)', 0.01_wp), &
-      quantity_t('scrub_radius_mm', 'Scrub radius', 'scrub radius [mm]    (+ axis inboard of the patch)', 0.1_wp), &
-      quantity_t('caster_trail_mm', 'Caster trail', 'caster trail [mm]    (+ axis ahead of the patch)', 0.1_wp)]
 
    !> The properties of a run that its figures use.
    type :: view_t
@@ -80,14 +68,16 @@ contains
          view%label = 'load factor'
       end if
       if (present(abscissa_label)) view%label = abscissa_label
-      call add_quantities(figures, table, view, 'overview', 'Overview', wheel_quantities(:4))
-      call add_quantities(figures, table, view, 'toe', 'Toe', wheel_quantities(1:1))
-      call add_quantities(figures, table, view, 'camber', 'Camber', wheel_quantities(2:2))
+      call add_quantities(figures, table, view, 'overview', 'Overview', [character(23) :: 'toe_deg', 'camber_deg', &
+         'track_change_mm', 'wheelbase_change_mm'])
+      call add_quantities(figures, table, view, 'toe', 'Toe', ['toe_deg'])
+      call add_quantities(figures, table, view, 'camber', 'Camber', ['camber_deg'])
       call add_quantities(figures, table, view, 'lateral', 'Lateral movement of the contact patch', &
-         wheel_quantities(3:3))
+         ['track_change_mm'])
       call add_quantities(figures, table, view, 'longitudinal', 'Longitudinal movement of the contact patch', &
-         wheel_quantities(4:4))
-      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', wheel_quantities(5:))
+         ['wheelbase_change_mm'])
+      call add_quantities(figures, table, view, 'steer_axis', 'Steer axis', [character(23) :: 'caster_deg', &
+         'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm'])
       call add_springs(figures, table, view)
       call add_bushings(figures, table, view, elements)
       if (present(has_points)) then
@@ -105,12 +95,13 @@ contains
    end subroutine run_figures
 
    !> One figure with a panel for every quantity that has a column.
-   pure subroutine add_quantities(figures, table, view, name, title, quantities)
+   pure subroutine add_quantities(figures, table, view, name, title, columns)
       type(figure_t), allocatable, intent(inout) :: figures(:)
       type(table_t), intent(in) :: table
       type(view_t), intent(in) :: view
       character(*), intent(in) :: name, title
-      type(quantity_t), intent(in) :: quantities(:)
+      character(*), intent(in) :: columns(:)
+      type(quantity_t) :: quantity
       type(figure_t) :: figure
       type(panel_t) :: panel
       character(name_length) :: wanted
@@ -118,13 +109,14 @@ contains
       integer :: k, wheel
 
       figure = new_figure(view%stem//'_'//name, title, view%subtitle)
-      do k = 1, size(quantities)
-         panel = view_panel(view, trim(quantities(k)%title), trim(quantities(k)%label))
-         if (size(quantities) == 1) panel%title = ''
+      do k = 1, size(columns)
+         quantity = quantity_named(columns(k))
+         panel = view_panel(view, trim(quantity%title), trim(quantity%title)//', '//label_of(quantity))
+         if (size(columns) == 1) panel%title = ''
          middle = 0.0_wp
          width = 0.0_wp
          do wheel = 1, size(view%wheels)
-            wanted = trim(view%wheels(wheel))//quantities(k)%column
+            wanted = trim(view%wheels(wheel))//columns(k)
             range = column_range(table, wanted)
             if (.not. ieee_is_finite(range(1))) cycle
             middle = sum(range)/2
@@ -133,12 +125,12 @@ contains
                wheel_word(view%wheels(wheel)), trim(merge('dashed', 'line  ', wheel > 1)), wheel))
          end do
          if (size(panel%curves) == 0) cycle
-         if (width < quantities(k)%noise) panel%least_y = middle + quantities(k)%noise*[-1.0_wp, 1.0_wp]
+         if (width < quantity%span) panel%least_y = middle + quantity%span*[-1.0_wp, 1.0_wp]
          call mark_design(panel, view)
          call add_panel(figure, panel)
       end do
       if (size(figure%panels) == 0) return
-      if (size(figure%panels) == 1 .and. size(quantities) > 1) return    ! a single quantity already has its own figure
+      if (size(figure%panels) == 1 .and. size(columns) > 1) return    ! a single quantity already has its own figure
       figures = [figures, figure]
    end subroutine add_quantities
 
@@ -176,37 +168,18 @@ contains
       type(table_t), intent(in) :: table
       type(view_t), intent(in) :: view
       character(*), intent(in), optional :: elements(:)
-      character(*), parameter :: tail = '_fx_n'
       character(name_length), allocatable :: names(:)
-      real(wp), allocatable :: peak(:)
+      real(wp), allocatable :: force(:, :)
       type(figure_t) :: figure
       type(panel_t) :: panel
-      real(wp) :: least
-      integer :: k, place
+      logical :: is_cut
+      integer :: k
 
-      allocate (names(0))
-      do k = 1, size(table%columns)
-         place = len_trim(table%columns(k)) - len(tail)
-         if (place < 1) cycle
-         if (table%columns(k) (place + 1:) /= tail) cycle
-         if (present(elements)) then
-            if (.not. any(elements == table%columns(k) (:place))) cycle
-         end if
-         names = [character(name_length) :: names, table%columns(k) (:place)]
-      end do
-      allocate (peak(size(names)))
-      do k = 1, size(names)
-         peak(k) = force_peak(table, trim(names(k)))
-      end do
-      least = 0.0_wp
-      do while (count(peak > least) > most_curves)
-         least = minval(peak, mask=peak > least)
-      end do
+      call largest_forces(table, spread(.true., 1, row_count(table)), names, force, is_cut, elements)
       figure = new_figure(view%stem//'_bushing_force', 'Bushing force', view%subtitle)
-      if (count(peak > 0.0_wp) > most_curves) figure%title = 'Bushing force, largest'
+      if (is_cut) figure%title = 'Bushing force, largest'
       panel = view_panel(view, '', 'force, magnitude [N]')
       do k = 1, size(names)
-         if (.not. peak(k) > least) cycle
          call add_curve(panel, new_curve(view%file, abscissa_of(view, names(k)), &
             '(sqrt(column("'//trim(names(k))//'_fx_n")**2 + column("'//trim(names(k))//'_fy_n")**2 + column("'// &
             trim(names(k))//'_fz_n")**2))', trim(names(k))))
@@ -217,21 +190,6 @@ contains
       figures = [figures, figure]
    end subroutine add_bushings
 
-   !> Largest magnitude of an element's force [N]; 0 when a component is missing.
-   pure real(wp) function force_peak(table, name)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: name
-
-      integer :: place(3), row
-
-      place = [column_index(table, name//'_fx_n'), column_index(table, name//'_fy_n'), column_index(table, name//'_fz_n')]
-      force_peak = 0.0_wp
-      if (any(place == 0)) return
-      do row = 1, row_count(table)
-         if (.not. all(ieee_is_finite(table%values(place, row)))) cycle
-         force_peak = max(force_peak, norm2(table%values(place, row)))
-      end do
-   end function force_peak
 
    !> Empty axes: wheel travel upward, a load factor to the right.
    pure type(panel_t) function view_panel(view, title, label) result(panel)

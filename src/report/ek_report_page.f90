@@ -7,7 +7,6 @@ module ek_report_page
    use ek_path, only: path_t
    use ek_test_result, only: test_result_t, design_row, converged_rows, wheel_word
    use ek_chart, only: chart_t, picture_file
-   use ek_chart_set, only: chart_set_t
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
    use ek_page, only: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts, &
@@ -15,7 +14,7 @@ module ek_report_page
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
-   public :: report_t, add_fact, report_page, add_chart_set
+   public :: report_t, add_fact, report_page, add_charts
 
    !> A report: its tests, and what its page shows besides.
    type :: report_t
@@ -24,7 +23,7 @@ module ek_report_page
       type(message_list_t) :: warnings                 !! on the model as a whole
       type(test_result_t), allocatable :: tests(:)
       type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if it was not run
-      type(chart_set_t), allocatable :: sets(:)        !! charts of each test
+      type(chart_t), allocatable :: charts(:)          !! of all tests
       type(gradient_t), allocatable :: gradients(:)
       logical :: has_pictures = .false., has_animation = .false.     !! those in the folder belong to this report
    end type report_t
@@ -53,7 +52,7 @@ contains
       if (report%has_pictures) call add_scene(page, report)
       call add_key_numbers(page, report%tests, report%gradients)
       do k = 1, size(report%tests)
-         call add_test(page, report, report%tests(k), report%sets(k)%charts)
+         call add_test(page, report, report%tests(k), k)
       end do
       text = page_text(page)
    end function report_page
@@ -146,11 +145,11 @@ contains
    end subroutine add_values
 
    !> Section of a test: warnings, charts, gradients.
-   subroutine add_test(page, report, test, charts)
+   subroutine add_test(page, report, test, number)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
       type(test_result_t), intent(in) :: test
-      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: number              !! of the test
       character(16), allocatable :: names(:)
       integer :: k, found
 
@@ -167,15 +166,16 @@ contains
          end do
          call add_legend(page, names, design_row(test%table) > 0, test%kind == 'table')
       end if
-      if (report%has_pictures) call add_chart_set(page, charts, report%folder)
+      if (report%has_pictures) call add_charts(page, report%charts, number, report%folder)
       call add_gradients(page, test%name, report%gradients)
       call end_section(page)
    end subroutine add_test
 
-   !> The charts drawn by gnuplot, side by side.
-   subroutine add_chart_set(page, charts, folder)
+   !> The charts of a test drawn by gnuplot, side by side.
+   subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: test
       character(*), intent(in) :: folder
       type(error_t), allocatable :: error
       character(:), allocatable :: svg, path
@@ -183,6 +183,7 @@ contains
 
       call begin_charts(page)
       do k = 1, size(charts)
+         if (charts(k)%test /= test) cycle
          path = join_path(join_path(folder, 'figures'), picture_file(charts(k)))
          if (.not. file_exists(path)) cycle
          call read_whole(path, svg, error)
@@ -190,7 +191,7 @@ contains
          call add_picture(page, svg, charts(k)%title//', '//charts(k)%y_label//', over '//charts(k)%x_label)
       end do
       call end_charts(page)
-   end subroutine add_chart_set
+   end subroutine add_charts
 
    !> The gradients of a test; left and right in one row.
    subroutine add_gradients(page, test, list)

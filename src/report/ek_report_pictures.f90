@@ -8,8 +8,7 @@ module ek_report_pictures
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
-   use ek_chart, only: chart_t, charts_script
-   use ek_chart_set, only: gather_charts, remove_drawn, pictures_of
+   use ek_chart, only: charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_scene, only: scene_t, line_bump, line_rebound
    use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
@@ -34,7 +33,6 @@ contains
       character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
       type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
       type(message_list_t) :: scripts, pictures
-      type(chart_t), allocatable :: charts(:)
       type(camera_t) :: camera
 
       message = ''
@@ -43,18 +41,17 @@ contains
          call remove_file(join_path(report%folder, 'picture.svg'))
          call remove_file(join_path(report%folder, 'picture.png'))
          call remove_file(join_path(report%folder, 'animation.gif'))
-         call remove_drawn(report%sets, report%folder)
+         call remove_drawn(report%charts, report%folder)
          message = 'switched off by --no-plots'
          return
       end if
-      call gather_charts(report%sets, charts)
-      call write_whole(join_path(report%folder, 'figures/charts.gp'), charts_script(charts), error, can_be_redrawn=.true.)
+      call write_whole(join_path(report%folder, 'figures/charts.gp'), charts_script(report%charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return
       call write_picture(report, suspension, camera, error)
       if (allocated(error)) return
       call scripts%add('charts.gp')
       call scripts%add('picture.gp')
-      call pictures_of(charts, pictures)
+      call pictures_of(report%charts, pictures)
       call pictures%add('../picture.svg')
       call pictures%add('../picture.png')
       if (wants_animation) then

@@ -1,31 +1,33 @@
-!> The standard charts of a test, side by side, in the order of ek_quantity: one per quantity, then motion ratios, springs,
+!> The standard charts of a test, side by side, in the order of quantities_of: one per quantity, then motion ratios, springs,
 !> anti-roll bars and bushings together.
 !>
 !> Quantities without a column or without a value are omitted.
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_table, only: name_length, column_index, row_count
+   use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
-   use ek_quantity, only: quantity_t, quantities_of, quantity_named, without_phase
+   use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
    use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
    implicit none(type, external)
    private
-   public :: test_charts, quantity_chart
+   public :: test_charts, quantity_chart, quantities_of, largest_forces, most_curves
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
    integer, parameter :: most_curves = 8       !! in one chart, for legibility
 
 contains
 
-   !> All charts of a test, named <test>_<column>.
-   pure subroutine test_charts(test, charts)
+   !> Appends all charts of a test, named <test>_<column>.
+   pure subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
-      type(chart_t), allocatable, intent(out) :: charts(:)
+      type(chart_t), allocatable, intent(inout) :: charts(:)
+      integer, intent(in), optional :: number         !! of the test
       character(48), allocatable :: columns(:)
-      integer :: k
+      integer :: k, before
 
-      allocate (charts(0))
+      if (.not. allocated(charts)) allocate (charts(0))
+      before = size(charts)
       columns = quantities_of(test%kind)
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
@@ -38,7 +40,51 @@ contains
          'force, N    (+ compression)', 1.0_wp))
       call append_if_drawn(charts, ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
       call append_if_drawn(charts, bushing_chart(test))
+      if (present(number)) charts(before + 1:)%test = number
    end subroutine test_charts
+
+   !> The columns drawn for a kind of test, the most important ones first.
+   pure function quantities_of(kind) result(columns)
+      character(*), intent(in) :: kind
+      character(48), allocatable :: columns(:)
+
+      select case (kind)
+      case ('roll')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
+            'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
+            'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
+      case ('steering')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
+            'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
+            'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
+            'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
+            'wall_to_wall_m', 'steering_rack_force_n']
+      case ('lateral_force')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+            'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
+      case ('aligning_torque')
+         columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
+      case ('braking', 'traction')
+         columns = [character(48) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
+            'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
+      case ('vertical_force')
+         columns = [character(48) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
+            'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
+      case default
+         columns = [character(48) :: 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', 'caster_deg', &
+            'kingpin_inclination_deg', 'vertical_force_n', 'wheel_rate_n_per_mm', 'ride_rate_n_per_mm', 'roll_centre_height_mm', &
+            'scrub_radius_mm', 'caster_trail_mm', 'bump_steer_deg_per_m', 'side_view_arm_angle_deg', &
+            'side_view_arm_length_mm', 'front_view_arm_length_mm', 'anti_dive_percent', 'anti_lift_brake_percent', &
+            'anti_squat_percent', 'anti_lift_drive_percent', 'instant_caster_deg', 'instant_kingpin_inclination_deg', &
+            'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
+            'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
+            'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
+         if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(48) :: columns(:13), &
+            'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
+         if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
+         if (kind == 'table') columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
+      end select
+   end function quantities_of
 
    pure subroutine append_if_drawn(charts, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
@@ -60,19 +106,30 @@ contains
    pure type(chart_t) function quantity_chart(test, quantity) result(chart)
       type(test_result_t), intent(in) :: test
       type(quantity_t), intent(in) :: quantity
-      integer :: wheel, place
+      character(:), allocatable :: title, label
+      integer :: wheel, place, at
 
-      chart = chart_of(test, trim(quantity%column), trim(quantity%title), trim(quantity%label))
-      if (size(test%prefixes) < 2) chart%y_label = without_phase(chart%y_label)
-      chart%noise = quantity%noise
-      if (index(quantity%column, '_arm_length_mm') > 0) chart%cap = longest_arm
-      place = column_index(test%table, quantity%column)
+      title = trim(quantity%title)
+      label = label_of(quantity)
+      if (size(test%prefixes) < 2) then
+         title = without_phase(title)
+         label = without_phase(label)
+      end if
+      at = index(title, ', parallel')
+      if (at > 0) then                ! too long for a heading
+         label = unit_text(unit_of(trim(quantity%name)))//'    ('//title(at + 2:)//')'
+         title = title(:at - 1)
+      end if
+      chart = chart_of(test, trim(quantity%name), title, label)
+      chart%noise = quantity%span
+      if (index(quantity%name, '_arm_length_mm') > 0) chart%cap = longest_arm
+      place = column_index(test%table, quantity%name)
       if (place > 0) then
          call add_column(chart, test, 1, place, '', merge(1, 3, size(test%prefixes) < 2), 0)
          return
       end if
       do wheel = 1, size(test%prefixes)
-         place = column_index(test%table, trim(test%prefixes(wheel))//quantity%column)
+         place = column_index(test%table, trim(test%prefixes(wheel))//quantity%name)
          if (place > 0) call add_column(chart, test, wheel, place, wheel_word(test%prefixes(wheel)), wheel, merge(1, 0, wheel > 1))
       end do
    end function quantity_chart
@@ -118,48 +175,20 @@ contains
    !> Magnitude of the force of every bushing; of many bushings those with the largest force.
    pure type(chart_t) function bushing_chart(test) result(chart)
       type(test_result_t), intent(in) :: test
-      character(*), parameter :: ending = '_fx_n'
       type(trace_t) :: trace
-      real(wp), allocatable :: force(:, :), peak(:)
+      real(wp), allocatable :: force(:, :)
       character(name_length), allocatable :: names(:)
-      integer, allocatable :: places(:, :)
-      logical :: is_good(row_count(test%table))
-      real(wp) :: least
-      integer :: k, place, row, n, design
+      logical :: is_cut
+      integer :: k, design
 
       chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
       chart%noise = 1.0_wp
-      n = size(test%table%columns)
-      allocate (names(n), places(3, n), peak(n), force(row_count(test%table), n))
-      n = 0
-      is_good = converged_rows(test%table)
-      do k = 1, size(test%table%columns)
-         place = len_trim(test%table%columns(k)) - len(ending)
-         if (place < 1) cycle
-         if (test%table%columns(k) (place + 1:) /= ending) cycle
-         places(:, n + 1) = [k, column_index(test%table, test%table%columns(k) (:place)//'_fy_n'), &
-            column_index(test%table, test%table%columns(k) (:place)//'_fz_n')]
-         if (any(places(:, n + 1) == 0)) cycle
-         n = n + 1
-         names(n) = test%table%columns(k) (:place)
-         peak(n) = 0.0_wp
-         do row = 1, row_count(test%table)
-            force(row, n) = ieee_value(1.0_wp, ieee_quiet_nan)
-            if (.not. is_good(row) .or. .not. all(ieee_is_finite(test%table%values(places(:, n), row)))) cycle
-            force(row, n) = norm2(test%table%values(places(:, n), row))
-            peak(n) = max(peak(n), force(row, n))
-         end do
-      end do
-      least = 0.0_wp
-      do while (count(peak(:n) > least) > most_curves)
-         least = minval(peak(:n), mask=peak(:n) > least)
-      end do
+      call largest_forces(test%table, converged_rows(test%table), names, force, is_cut)
       design = design_row(test%table)
-      do k = 1, n
-         if (.not. peak(k) > least) cycle
+      do k = 1, size(names)
          trace%title = trim(names(k))      ! gfortran 12 leaks it in a structure constructor
-         trace%colour = size(chart%traces) + 1
+         trace%colour = k
          trace%x = abscissa_of(test, side_of(test, names(k)))
          if (size(trace%x) == 0) return
          trace%y = force(:, k)
@@ -167,6 +196,50 @@ contains
          call add_trace(chart, trace)
       end do
    end function bushing_chart
+
+   !> The elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
+   !> elements than fit in a chart those with the largest force.
+   pure subroutine largest_forces(table, is_good, names, force, is_cut, elements)
+      type(table_t), intent(in) :: table
+      logical, intent(in) :: is_good(:)                    !! rows to consider
+      character(name_length), allocatable, intent(out) :: names(:)
+      real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); not a number elsewhere
+      logical, intent(out) :: is_cut                       !! others have a force as well
+      character(*), intent(in), optional :: elements(:)    !! only these
+      character(*), parameter :: ending = '_fx_n'
+      real(wp) :: peak(size(table%columns)), least
+      integer :: places(3), k, row, n, at
+
+      n = size(table%columns)
+      allocate (names(n), force(row_count(table), n))
+      force = ieee_value(1.0_wp, ieee_quiet_nan)
+      n = 0
+      do k = 1, size(table%columns)
+         at = len_trim(table%columns(k)) - len(ending)
+         if (at < 1) cycle
+         if (table%columns(k) (at + 1:) /= ending) cycle
+         if (present(elements)) then
+            if (.not. any(elements == table%columns(k) (:at))) cycle
+         end if
+         places = [k, column_index(table, table%columns(k) (:at)//'_fy_n'), column_index(table, table%columns(k) (:at)//'_fz_n')]
+         if (any(places == 0)) cycle
+         n = n + 1
+         names(n) = table%columns(k) (:at)
+         peak(n) = 0.0_wp
+         do row = 1, row_count(table)
+            if (.not. is_good(row) .or. .not. all(ieee_is_finite(table%values(places, row)))) cycle
+            force(row, n) = norm2(table%values(places, row))
+            peak(n) = max(peak(n), force(row, n))
+         end do
+      end do
+      least = 0.0_wp
+      is_cut = count(peak(:n) > least) > most_curves
+      do while (count(peak(:n) > least) > most_curves)
+         least = minval(peak(:n), mask=peak(:n) > least)
+      end do
+      names = pack(names(:n), peak(:n) > least)
+      force = force(:, pack([(k, k=1, n)], peak(:n) > least))
+   end subroutine largest_forces
 
    !> Adds a column as a curve if it has a value.
    pure subroutine add_column(chart, test, wheel, place, title, colour, dash)

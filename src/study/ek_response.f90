@@ -6,6 +6,7 @@ module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, nearest_name, plural
+   use ek_quantity, only: slope_unit
    use ek_table, only: table_t, column_index
    use ek_study, only: response_t
    implicit none(type, external)
@@ -185,65 +186,6 @@ contains
       if (mark == 0) return
       if (column_index(table, column(:mark)//travel) > 0) over = column(:mark)//travel
    end function usual_over
-
-   !> Unit of a slope as the end of a column name, 'deg_per_m', and the factor for the slope of the columns.
-   pure subroutine slope_unit(column, over, factor_unit, unit, size)
-      character(*), intent(in) :: column, over, factor_unit
-      character(:), allocatable, intent(out) :: unit
-      real(wp), intent(out) :: size
-      character(:), allocatable :: upper, lower
-
-      upper = unit_of(column)
-      lower = unit_of(over)
-      if (over == 'factor') then
-         select case (factor_unit)
-         case ('mm', 'deg')
-            lower = factor_unit
-         case ('N')
-            lower = 'n'
-         case ('N m')
-            lower = 'nm'
-         end select
-      end if
-      size = 1.0_wp
-      select case (lower)
-      case ('mm')
-         if (upper == 'deg' .and. ends_with(over, travel)) then
-            lower = 'm'
-            size = 1.0e3_wp
-         end if
-      case ('n')
-         if (upper /= 'n') then
-            lower = 'kn'
-            size = 1.0e3_wp
-         end if
-      case ('nm')
-         if (upper /= 'nm') then
-            lower = '100nm'
-            size = 100.0_wp
-         end if
-      case ('')
-         lower = over
-      end select
-      unit = 'per_'//lower
-      if (upper /= '') unit = upper//'_'//unit
-   end subroutine slope_unit
-
-   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if it has none.
-   pure function unit_of(column) result(unit)
-      character(*), intent(in) :: column
-      character(:), allocatable :: unit
-      character(*), parameter :: units(6) = [character(7) :: 'mm', 'deg', 'n', 'nm', 'm', 'percent']
-      integer :: mark
-
-      mark = index(column, '_per_')
-      if (mark > 0) then
-         unit = column(index(column(:mark - 1), '_', back=.true.) + 1:)
-      else
-         unit = column(index(column, '_', back=.true.) + 1:)
-         if (.not. any(units == unit)) unit = ''
-      end if
-   end function unit_of
 
    pure logical function ends_with(text, ending)
       character(*), intent(in) :: text, ending

@@ -147,7 +147,7 @@ contains
          now = wheel_attitude(probed, near, rest%order(w))
          slope%toe(w) = slope%toe(w) + share*now%toe
          slope%camber(w) = slope%camber(w) + share*now%camber
-         slope%caster(w) = slope%caster(w) + share*now%caster
+         slope%caster(w) = slope%caster(w) + share*now%axis%caster
          slope%centre(:, w) = slope%centre(:, w) + share*now%centre
          slope%patch(:, w) = slope%patch(:, w) + share*now%contact
          body = probed%wheels(rest%order(w))%body + 1

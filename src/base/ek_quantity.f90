@@ -1,0 +1,349 @@
+!> The quantities of the results: name, unit, what a model needs to have them, title, sign, least span of a chart.
+!>
+!> A row stands at the place of its column in the table of results, section by section. The kernel of a section returns the
+!> values in SI, in the same order: ek_state_columns (wheel_position), ek_kandc_columns (wheel_rates to of_steering),
+!> ek_geometry_columns (wheel_geometry, axle_geometry). So a new quantity is a row here and its value there, at the same place;
+!> its unit is the end of its name. Heads, charts, key numbers and reserved names follow from the row. input/QUANTITIES.md
+!> defines each of them.
+module ek_quantity
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   implicit none(type, external)
+   private
+   public :: quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
+   public :: unit_of, unit_text, unit_size, slope_unit
+
+   type :: quantity_t
+      character(52) :: name = ''      !! column without the wheel's name; '*': load_held and height_held
+      integer :: needs = 0            !! sum of the conditions below
+      character(56) :: title = ''
+      character(49) :: sign = ''      !! meaning of a positive value, or a condition
+      real(wp) :: span = 0.0_wp       !! of a chart, in the unit: a smaller span is drawn flat; 0: no chart
+   end type quantity_t
+
+   ! Conditions: without one of them the model has no such column; without a known matrix the value is not a number
+   integer, parameter, public :: matrix = 1, pair = 2, tyres = 4, axis = 8, rack = 16, ratio = 32, car = 64, front = 128, &
+      rear = 256, mass = 512, sprung = 1024, width = 2048, corner = 4096
+   integer, parameter :: turning = pair + car + rack, own = matrix + pair, shod = matrix + tyres, steered = matrix + axis
+
+   real(wp), parameter :: fine = 0.01_wp, tenth = 0.1_wp, whole = 1.0_wp
+   character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
+      right = '+ patch moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
+      parallel = ', parallel (in phase), *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
+      body_up = '+ body moves up', shortest = 'shortest distance'
+
+   type(quantity_t), parameter, public :: wheel_position(*) = [ &
+      quantity_t('wheel_travel_mm', 0, 'Wheel travel', '+ bump', tenth), &
+      quantity_t('toe_deg', 0, 'Toe', '+ front edge inward', fine), &
+      quantity_t('camber_deg', 0, 'Camber', outward, fine), &
+      quantity_t('track_change_mm', 0, 'Half-track change', 'contact patch, + outward', tenth), &
+      quantity_t('wheelbase_change_mm', 0, 'Wheelbase change', 'contact patch, + rearward', tenth), &
+      quantity_t('wheel_centre_x_mm', 0, 'Wheel centre, longitudinal', 'x of the deck', tenth), &
+      quantity_t('wheel_centre_y_mm'), quantity_t('wheel_centre_z_mm'), &
+      quantity_t('contact_patch_x_mm'), quantity_t('contact_patch_y_mm'), quantity_t('contact_patch_z_mm'), &
+      quantity_t('caster_deg', axis, 'Caster', rearward, fine), &
+      quantity_t('kingpin_inclination_deg', axis, 'Kingpin inclination', inward, fine), &
+      quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the patch', tenth), &
+      quantity_t('caster_trail_mm', axis, 'Caster trail', '+ axis meets the ground ahead of the patch', tenth), &
+      quantity_t('spindle_length_mm', axis, 'Spindle length', '+ wheel centre outboard of the axis', tenth), &
+      quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre behind the axis')]
+
+   type(quantity_t), parameter, public :: wheel_rates(*) = [ &
+      quantity_t('steer_deg', 0, 'Steer', to_left, fine), &
+      quantity_t('inclination_deg', pair, 'Camber relative to the road', outward, fine), &
+      quantity_t('vertical_force_n', 0, 'Wheel load', 'ground on wheel', whole), &
+      quantity_t('instant_caster_deg', matrix, 'Caster, instant axis', rearward, fine), &
+      quantity_t('instant_kingpin_inclination_deg', matrix, 'Kingpin inclination, instant axis', inward, fine), &
+      quantity_t('instant_scrub_radius_mm', matrix, 'Scrub radius, instant axis', '+ inboard of the patch', tenth), &
+      quantity_t('instant_caster_trail_mm', matrix, 'Caster trail, instant axis', '+ ahead of the patch', tenth), &
+      quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix), &
+      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels parallel (in phase)', tenth), &
+      quantity_t('single_wheel_rate_load_held_n_per_mm', own), quantity_t('single_wheel_rate_height_held_n_per_mm', own), &
+      quantity_t('ride_rate_n_per_mm', shod, 'Ride rate', 'with the tyre', tenth), &
+      quantity_t('hop_rate_n_per_mm', shod, 'Hop rate', 'tyre in parallel'), &
+      quantity_t('bump_steer_deg_per_m', matrix, 'Bump steer, local slope', '+ to the left in bump', tenth), &
+      quantity_t('bump_camber_deg_per_m', matrix), quantity_t('bump_caster_deg_per_m', steered), &
+      quantity_t('bump_toe_deg_per_m', matrix), quantity_t('bump_rotation_x_deg_per_m', matrix), &
+      quantity_t('bump_rotation_y_deg_per_m', matrix), quantity_t('bump_rotation_z_deg_per_m', matrix), &
+      quantity_t('roll_steer_deg_per_deg', shod + pair, 'Roll steer with tyres, local slope', '', 0.001_wp), &
+      quantity_t('roll_camber_deg_per_deg', shod + pair), quantity_t('roll_caster_deg_per_deg', shod + pair + axis), &
+      quantity_t('roll_steer_percent', shod + pair), quantity_t('roll_rotation_x_deg_per_deg', shod + pair), &
+      quantity_t('roll_rotation_y_deg_per_deg', shod + pair), quantity_t('roll_rotation_z_deg_per_deg', shod + pair), &
+      quantity_t('wheel_roll_steer_deg_per_deg', own), quantity_t('wheel_roll_camber_deg_per_deg', own), &
+      quantity_t('wheel_roll_caster_deg_per_deg', own + axis), quantity_t('wheel_roll_steer_percent', own), &
+      quantity_t('wheel_roll_rotation_x_deg_per_deg', own), quantity_t('wheel_roll_rotation_y_deg_per_deg', own), &
+      quantity_t('wheel_roll_rotation_z_deg_per_deg', own), &
+      quantity_t('side_view_arm_length_mm', matrix, 'Side-view swing arm length', '', whole), &
+      quantity_t('side_view_arm_angle_deg', matrix, 'Side-view swing arm angle', '', fine), &
+      quantity_t('side_view_arm_centre_x_mm', matrix), quantity_t('side_view_arm_centre_z_mm', matrix), &
+      quantity_t('front_view_arm_length_mm', matrix, 'Front-view swing arm length', '', whole), &
+      quantity_t('front_view_arm_angle_deg', matrix, 'Front-view swing arm angle', '', fine), &
+      quantity_t('front_view_arm_centre_y_mm', matrix), quantity_t('front_view_arm_centre_z_mm', matrix)]
+
+   ! twice: load_held: constant vertical forces; height_held: constant heights of the wheel centres
+   type(quantity_t), parameter, public :: wheel_forces(*) = [ &
+      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//parallel, right, 1.0e-3_wp), &
+      quantity_t('lateral_in_*_centre_deflection_mm_per_kn', matrix), &
+      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//parallel, to_left//under, 1.0e-4_wp), &
+      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//parallel, outward//under, 1.0e-4_wp), &
+      quantity_t('lateral_in_trail_*_deflection_mm_per_kn', matrix), &
+      quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', matrix), &
+      quantity_t('lateral_in_trail_*_steer_deg_per_kn', matrix), quantity_t('lateral_in_trail_*_camber_deg_per_kn', matrix), &
+      quantity_t('aligning_in_*_steer_deg_per_100nm', matrix, 'Aligning torque steer'//parallel, &
+      '+ to the left under a torque to the left'), &
+      quantity_t('aligning_in_*_camber_deg_per_100nm', matrix), &
+      quantity_t('lateral_anti_*_deflection_mm_per_kn', own), quantity_t('lateral_anti_*_centre_deflection_mm_per_kn', own), &
+      quantity_t('lateral_anti_*_steer_deg_per_kn', own), quantity_t('lateral_anti_*_camber_deg_per_kn', own), &
+      quantity_t('lateral_anti_trail_*_deflection_mm_per_kn', own), &
+      quantity_t('lateral_anti_trail_*_centre_deflection_mm_per_kn', own), &
+      quantity_t('lateral_anti_trail_*_steer_deg_per_kn', own), quantity_t('lateral_anti_trail_*_camber_deg_per_kn', own), &
+      quantity_t('aligning_anti_*_steer_deg_per_100nm', own), quantity_t('aligning_anti_*_camber_deg_per_100nm', own), &
+      quantity_t('braking_*_deflection_mm_per_kn', matrix, 'Braking deflection, *', '+ patch moves rearward'), &
+      quantity_t('braking_*_steer_deg_per_kn', matrix, 'Braking steer, *', to_left), &
+      quantity_t('braking_*_camber_deg_per_kn', matrix), quantity_t('braking_*_caster_deg_per_kn', steered), &
+      quantity_t('braking_*_toe_deg_per_kn', matrix), quantity_t('braking_*_rotation_x_deg_per_kn', matrix), &
+      quantity_t('braking_*_rotation_y_deg_per_kn', matrix), quantity_t('braking_*_rotation_z_deg_per_kn', matrix), &
+      quantity_t('braking_*_centre_deflection_mm_per_kn', matrix), quantity_t('traction_*_deflection_mm_per_kn', matrix), &
+      quantity_t('traction_*_steer_deg_per_kn', matrix), quantity_t('traction_*_camber_deg_per_kn', matrix), &
+      quantity_t('traction_*_caster_deg_per_kn', steered), quantity_t('traction_*_toe_deg_per_kn', matrix), &
+      quantity_t('traction_*_rotation_x_deg_per_kn', matrix), &
+      quantity_t('traction_*_rotation_y_deg_per_kn', matrix, 'Traction wind-up, *', 'rotation of the carrier about y'), &
+      quantity_t('traction_*_rotation_z_deg_per_kn', matrix)]
+
+   type(quantity_t), parameter, public :: wheel_stiffness(*) = [ &
+      quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, parallel (in phase)', '+ the ground pushes up'//under), &
+      quantity_t('lateral_anti_jacking_n_per_kn', own), &
+      quantity_t('fore_aft_stiffness_n_per_mm', matrix, 'Fore-aft stiffness', at_centre), &
+      quantity_t('lateral_stiffness_n_per_mm', matrix, 'Lateral stiffness', at_centre), &
+      quantity_t('vertical_stiffness_n_per_mm', matrix, 'Vertical stiffness', at_centre), &
+      quantity_t('rotational_stiffness_x_nm_per_deg', matrix), quantity_t('rotational_stiffness_y_nm_per_deg', matrix), &
+      quantity_t('rotational_stiffness_z_nm_per_deg', matrix), &
+      quantity_t('anti_dive_percent', matrix + front, 'Anti-dive', 'braking, front', tenth), &
+      quantity_t('anti_lift_drive_percent', matrix + front, 'Anti-lift, drive', 'drive, front', tenth), &
+      quantity_t('anti_lift_brake_percent', matrix + rear, 'Anti-lift, braking', 'braking, rear', tenth), &
+      quantity_t('anti_squat_percent', matrix + rear, 'Anti-squat', 'drive, rear', tenth), &
+      quantity_t('brake_dive_mm_per_g', matrix + front + mass, 'Dive, braking', body_down), &
+      quantity_t('drive_lift_mm_per_g', matrix + front + mass, 'Lift, drive', body_up), &
+      quantity_t('brake_lift_mm_per_g', matrix + rear + mass, 'Lift, braking', body_up), &
+      quantity_t('drive_squat_mm_per_g', matrix + rear + mass, 'Squat, drive', body_down)]
+
+   type(quantity_t), parameter, public :: of_axle(*) = [ &
+      quantity_t('suspension_roll_rate_nm_per_deg', own, 'Suspension roll rate', '', whole), &
+      quantity_t('total_roll_rate_nm_per_deg', own + tyres, 'Total roll rate', 'with the tyres', whole), &
+      quantity_t('tramp_rate_nm_per_deg', own + tyres, 'Tramp rate', 'tyres in parallel'), &
+      quantity_t('roll_moment_nm', pair, 'Roll moment', '+ left wheel loaded', whole), quantity_t('axle_roll_deg', pair), &
+      quantity_t('roll_centre_y_mm', own, 'Roll centre, lateral', 'y of the deck', tenth), &
+      quantity_t('roll_centre_z_mm', own, 'Roll centre, vertical', 'z of the deck', tenth), &
+      quantity_t('roll_centre_height_mm', own, 'Roll centre height', '+ above the ground', tenth), &
+      quantity_t('roll_centre_with_tyres_y_mm', own + tyres), quantity_t('roll_centre_with_tyres_height_mm', own + tyres), &
+      quantity_t('force_roll_centre_height_mm', own, 'Force-based roll centre height', '+ above the ground'), &
+      quantity_t('turning_circle_m', turning, 'Turning circle', '', tenth), &
+      quantity_t('ackermann_percent', turning, 'Ackermann', '100: wheels roll about one point', tenth), &
+      quantity_t('ackermann_error_deg', turning, 'Ackermann error', '', fine)]
+
+   type(quantity_t), parameter, public :: of_steering(*) = [ &
+      quantity_t('steering_ratio', matrix + rack + ratio, 'Steering ratio', 'steering wheel over road wheel', fine), &
+      quantity_t('steering_wheel_deg', matrix + rack + ratio, 'Steering wheel', '+ left', tenth)]
+
+   type(quantity_t), parameter, public :: wheel_geometry(*) = [ &
+      quantity_t('side_view_angle_deg', 0, 'Side-view angle', rearward, fine), &
+      quantity_t('centre_axis_distance_mm', axis, 'Steer-axis offset, wheel centre', shortest), &
+      quantity_t('patch_axis_distance_mm', axis, 'Steer-axis offset, patch', shortest), &
+      quantity_t('along_spindle_length_mm', axis, 'Spindle length, along', '+ wheel centre outboard, along the spin axis'), &
+      quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis behind the steer axis'), &
+      quantity_t('instant_centre_axis_distance_mm', matrix), quantity_t('instant_patch_axis_distance_mm', matrix), &
+      quantity_t('instant_along_spindle_length_mm', matrix), quantity_t('instant_across_spindle_offset_mm', matrix), &
+      quantity_t('recession_gradient_mm_per_m', matrix, 'Recession gradient', '+ rearward in bump', tenth), &
+      quantity_t('steer_camber_deg_per_deg', matrix + rack, 'Camber per steer', '+ top outward, steer to the left', 0.001_wp), &
+      quantity_t('ride_frequency_hz', matrix + sprung, 'Ride frequency', 'ride rate and sprung mass', 0.001_wp)]
+
+   type(quantity_t), parameter, public :: axle_geometry(*) = [ &
+      quantity_t('total_track_mm', pair, 'Total track', 'distance of the patches', tenth), &
+      quantity_t('total_track_change_mm', pair), quantity_t('ideal_outer_steer_deg', turning), &
+      quantity_t('outer_steer_error_deg', turning, 'Deviation of the outer wheel', '+ steers more than ideal', fine), &
+      quantity_t('curb_to_curb_m', turning + width, 'Turning circle, curb to curb', '', tenth), &
+      quantity_t('wall_to_wall_m', turning + corner, 'Turning circle, wall to wall', '', tenth)]
+
+   type(quantity_t), parameter, public :: of_rack(*) = [ &
+      quantity_t('steering_rack_force_n', rack, 'Rack force', 'reaction of the driver', whole)]
+
+   type(quantity_t), parameter, public :: of_state(*) = [quantity_t('state'), quantity_t('factor'), quantity_t('converged'), &
+      quantity_t('stable'), quantity_t('near_singular'), quantity_t('iterations'), quantity_t('constraint_error')]
+
+   type(quantity_t), parameter, public :: all_quantities(*) = [wheel_position, wheel_rates, wheel_forces, wheel_stiffness, &
+      of_axle, of_steering, wheel_geometry, axle_geometry, of_rack, of_state]
+
+   character(*), parameter :: conditions(2) = [character(11) :: 'load_held', 'height_held']
+
+   !> Endings of the columns of elements, measures and joints behind the name in the deck.
+   character(*), parameter, public :: element_endings(*) = [character(15) :: '_mm', '_deg', '_cosine', '_length_mm', '_force_n', &
+      '_angle_deg', '_moment_nm', '_motion_ratio', '_gap_mm', '_travel_left_mm', '_reaction_n', '_reaction_nm', '_fx_n', '_mx_nm']
+
+   !> A unit as the end of a column's name, in texts, and its size in SI.
+   type :: unit_t
+      character(13) :: ending
+      character(12) :: text
+      real(wp) :: size = 1.0_wp
+   end type unit_t
+
+   type(unit_t), parameter :: units(*) = [unit_t('mm', 'mm', millimetre), unit_t('deg', 'deg', degree), unit_t('n', 'N'), &
+      unit_t('nm', 'N m'), unit_t('m', 'm'), unit_t('percent', '%'), unit_t('hz', 'Hz'), unit_t('n_per_mm', 'N/mm', 1.0e3_wp), &
+      unit_t('nm_per_deg', 'N m/deg', 1.0_wp/degree), unit_t('deg_per_m', 'deg/m', degree), unit_t('deg_per_deg', 'deg/deg'), &
+      unit_t('deg_per_kn', 'deg/kN', degree/1.0e3_wp), unit_t('mm_per_kn', 'mm/kN', 1.0e-6_wp), &
+      unit_t('deg_per_100nm', 'deg/100 N m', degree/100.0_wp), unit_t('n_per_kn', 'N/kN', 1.0e-3_wp), &
+      unit_t('mm_per_m', 'mm/m'), unit_t('mm_per_g', 'mm/g', millimetre), unit_t('mm_per_mm', 'mm/mm'), &
+      unit_t('deg_per_mm', 'deg/mm'), unit_t('n_per_deg', 'N/deg')]
+
+contains
+
+   !> The quantity of a column; without a declared title the column name is the title.
+   pure type(quantity_t) function quantity_named(name) result(quantity)
+      character(*), intent(in) :: name
+      integer :: k, c
+
+      do k = 1, size(all_quantities)
+         do c = 1, size(conditions)
+            if (held_name(all_quantities(k)%name, c) /= name) cycle
+            quantity = all_quantities(k)
+            quantity%name = name
+            if (index(quantity%title, '*') > 0) quantity%title = &
+               quantity%title(:index(quantity%title, '*') - 1)//trim(merge('load held  ', 'height held', c == 1))
+            if (quantity%title /= '') return
+         end do
+      end do
+      quantity%name = name
+      quantity%title = name
+   end function quantity_named
+
+   !> A name with its '*' replaced: 1 load_held, 2 height_held.
+   pure function held_name(name, condition) result(full)
+      character(*), intent(in) :: name
+      integer, intent(in) :: condition
+      character(:), allocatable :: full
+      integer :: star
+
+      full = trim(name)
+      star = index(name, '*')
+      if (star > 0) full = name(:star - 1)//trim(conditions(condition))//trim(name(star + 1:))
+   end function held_name
+
+   !> Label of an axis: unit and sign.
+   pure function label_of(quantity) result(label)
+      type(quantity_t), intent(in) :: quantity
+      character(:), allocatable :: label
+      label = unit_text(unit_of(trim(quantity%name)))
+      if (quantity%sign /= '') label = label//'    ('//trim(quantity%sign)//')'
+   end function label_of
+
+   !> A title or label for a single wheel: without its note on the phase of two wheels.
+   pure function without_phase(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+      ! the longest first: each contains parts of the next ones
+      character(*), parameter :: phases(*) = [character(32) :: '    (wheels parallel (in phase))', &
+         'wheels parallel (in phase)', ', parallel (in phase)']
+      integer :: k, at, length
+
+      words = trim(text)
+      do k = 1, size(phases)
+         length = len_trim(phases(k))
+         at = index(words, phases(k) (:length))
+         if (at > 0) words = words(:at - 1)//words(at + length:)
+      end do
+   end function without_phase
+
+   !> The unit at the end of a column name: 'mm', 'n_per_mm'; '' if it has none.
+   pure function unit_of(column) result(unit)
+      character(*), intent(in) :: column
+      character(:), allocatable :: unit
+      integer :: mark
+
+      mark = index(column, '_per_')
+      if (mark > 0) then
+         unit = column(index(column(:mark - 1), '_', back=.true.) + 1:)
+      else
+         unit = column(index(column, '_', back=.true.) + 1:)
+         if (.not. any(units%ending == unit)) unit = ''
+      end if
+   end function unit_of
+
+   !> A unit in texts: 'N/mm' for 'n_per_mm'; '–' for none.
+   pure function unit_text(unit) result(text)
+      character(*), intent(in) :: unit
+      character(:), allocatable :: text
+      integer :: k
+
+      k = findloc(units%ending, unit, dim=1)
+      text = '–'
+      if (k > 0) text = trim(units(k)%text)
+   end function unit_text
+
+   !> The unit of a column in SI; 1 without a unit. Percent, mm/m and slopes without a dimension are values as they are.
+   pure real(wp) function unit_size(column) result(size_of)
+      character(*), intent(in) :: column
+      integer :: k
+
+      k = findloc(units%ending, unit_of(column), dim=1)
+      size_of = 1.0_wp
+      if (k > 0) size_of = units(k)%size
+   end function unit_size
+
+   !> Unit of a slope as the end of a column name, 'deg_per_m', and the factor on the slope in the units of its two columns:
+   !> deg/m over wheel travel, per kN over a force, per 100 N m over a moment, otherwise those of the columns.
+   pure subroutine slope_unit(column, over, factor_unit, unit, factor)
+      character(*), intent(in) :: column, over
+      character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
+      character(:), allocatable, intent(out) :: unit
+      real(wp), intent(out) :: factor
+      character(:), allocatable :: upper, lower
+      integer :: k
+
+      upper = unit_of(column)
+      lower = unit_of(over)
+      if (over == 'factor') then
+         k = findloc(units%text, factor_unit, dim=1)
+         if (k > 0) lower = trim(units(k)%ending)
+      end if
+      factor = 1.0_wp
+      select case (lower)
+      case ('mm')
+         if (upper == 'deg' .and. index(over//' ', trim(wheel_position(1)%name)//' ') > 0) then
+            lower = 'm'
+            factor = 1.0e3_wp
+         end if
+      case ('n')
+         if (upper /= 'n') then
+            lower = 'kn'
+            factor = 1.0e3_wp
+         end if
+      case ('nm')
+         if (upper /= 'nm') then
+            lower = '100nm'
+            factor = 100.0_wp
+         end if
+      case ('')
+         lower = over
+      end select
+      unit = 'per_'//lower
+      if (upper /= '') unit = upper//'_'//unit
+   end subroutine slope_unit
+
+   !> The quantity whose column an element of this name could have as well; '' if there is none.
+   pure function column_of_stem(stem) result(column)
+      character(*), intent(in) :: stem      !! lower case, without left_ and right_
+      character(:), allocatable :: column
+      integer :: k, e
+
+      column = ''
+      do k = 1, size(all_quantities)
+         if (index(all_quantities(k)%name, stem) /= 1) cycle
+         column = trim(all_quantities(k)%name)
+         if (column == stem) return
+         do e = 1, size(element_endings)
+            if (column == stem//element_endings(e)) return
+         end do
+      end do
+      column = ''
+   end function column_of_stem
+
+end module ek_quantity

@@ -1,0 +1,128 @@
+!> The columns of a model, block by block, and their values at a state. A block is a wheel, the axle, …: several sections of the
+!> table of quantities, whose values come from one kernel and are computed only if one of them is wanted.
+module ek_column_list
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_quantity, only: quantity_t, held_name, unit_size, matrix
+   use ek_table, only: name_length
+   implicit none(type, external)
+   private
+   public :: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, choose
+
+   type :: column_list_t
+      integer :: used = 0                              !! number of columns
+      character(name_length), allocatable :: names(:)
+      logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
+      logical :: is_matrix_wanted = .true.             !! a column that is wanted needs the compliance matrix
+      integer, allocatable :: place(:)                 !! of the value of each column in the vector of its block
+      real(wp), allocatable :: unit(:)                 !! of each column, in SI
+      integer :: offered = 0                           !! length of the vector of the block that is being added
+      integer, allocatable :: last(:)                  !! last column of each block
+      logical, allocatable :: is_wanted(:)             !! of each block
+   end type column_list_t
+
+contains
+
+   !> An empty list with room for n columns at first.
+   pure subroutine begin_list(list, n)
+      class(column_list_t), intent(inout) :: list
+      integer, intent(in) :: n
+
+      allocate (list%names(n), list%is_of_matrix(n), list%place(n), list%unit(n), list%last(0), list%is_wanted(0))
+   end subroutine begin_list
+
+   !> Adds the quantities of a section that a model defines to the current block.
+   pure subroutine add_quantities(list, section, prefix, has, condition)
+      class(column_list_t), intent(inout) :: list
+      type(quantity_t), intent(in) :: section(:)
+      character(*), intent(in) :: prefix               !! 'left_', 'right_' or ''
+      integer, intent(in) :: has                       !! sum of the conditions that the model meets
+      integer, intent(in), optional :: condition       !! of held_name; absent: names without '*'
+      integer :: k, held
+
+      held = 1
+      if (present(condition)) held = condition
+      do k = 1, size(section)
+         if (iand(section(k)%needs, not(ior(has, matrix))) /= 0) then
+            list%offered = list%offered + 1
+            cycle
+         end if
+         call add_column(list, prefix//held_name(section(k)%name, held), iand(section(k)%needs, matrix) /= 0)
+         list%unit(list%used) = unit_size(section(k)%name)
+      end do
+   end subroutine add_quantities
+
+   !> Adds a column to the current block, with its value in the unit of the column.
+   pure subroutine add_column(list, name, is_of_matrix)
+      class(column_list_t), intent(inout) :: list
+      character(*), intent(in) :: name
+      logical, intent(in), optional :: is_of_matrix    !! default .false.
+      type(column_list_t) :: more
+      integer :: n
+
+      n = list%used
+      if (n == size(list%names)) then
+         call begin_list(more, 2*n)
+         more%names(:n) = list%names
+         more%is_of_matrix(:n) = list%is_of_matrix
+         more%place(:n) = list%place
+         more%unit(:n) = list%unit
+         call move_alloc(more%names, list%names)
+         call move_alloc(more%is_of_matrix, list%is_of_matrix)
+         call move_alloc(more%place, list%place)
+         call move_alloc(more%unit, list%unit)
+      end if
+      list%offered = list%offered + 1
+      list%used = n + 1
+      list%names(n + 1) = name
+      list%is_of_matrix(n + 1) = .false.
+      if (present(is_of_matrix)) list%is_of_matrix(n + 1) = is_of_matrix
+      list%place(n + 1) = list%offered
+      list%unit(n + 1) = 1.0_wp
+   end subroutine add_column
+
+   !> Ends a block.
+   pure subroutine end_block(list)
+      class(column_list_t), intent(inout) :: list
+
+      list%last = [list%last, list%used]
+      list%is_wanted = [list%is_wanted, .true.]
+      list%offered = 0
+   end subroutine end_block
+
+   !> Sets the values of a block from its vector; those from an unknown matrix are not numbers.
+   pure subroutine fill_block(list, block, vector, is_known, values)
+      class(column_list_t), intent(in) :: list
+      integer, intent(in) :: block
+      real(wp), intent(in) :: vector(:)                !! values of all quantities of the sections of the block, SI
+      logical, intent(in) :: is_known                  !! the compliance matrix
+      real(wp), intent(inout) :: values(:)             !! of all columns, in their units
+      integer :: k, first
+
+      first = 1
+      if (block > 1) first = list%last(block - 1) + 1
+      do k = first, list%last(block)
+         if (list%is_of_matrix(k) .and. .not. is_known) then
+            values(k) = ieee_value(1.0_wp, ieee_quiet_nan)
+         else
+            values(k) = vector(list%place(k))/list%unit(k)
+         end if
+      end do
+   end subroutine fill_block
+
+   !> Restricts the columns that are filled: blocks without a wanted column are passed over, and the matrix is solved
+   !> only for a column that needs it.
+   pure subroutine choose(list, is_wanted)
+      class(column_list_t), intent(inout) :: list
+      logical, intent(in) :: is_wanted(:)              !! of each column
+      integer :: k, first
+
+      list%is_matrix_wanted = any(is_wanted .and. list%is_of_matrix(:list%used))
+      first = 1
+      do k = 1, size(list%last)
+         list%is_wanted(k) = any(is_wanted(first:list%last(k)))
+         first = list%last(k) + 1
+      end do
+   end subroutine choose
+
+end module ek_column_list
