@@ -173,7 +173,6 @@ contains
       path = result%path
       call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
-      if (.not. allocated(test%prefixes)) call find_wheels(test)
       call choose_abscissa(test)
    end subroutine run_planned
 

@@ -153,11 +153,7 @@ contains
       keys = 0
       if (chart%has_key) keys = size(chart%traces)
       if (keys > 0) then
-         across = 3
-         do k = 1, keys
-            if (len(chart%traces(k)%title) > 13) across = 2
-         end do
-         across = min(across, keys)
+         across = min(keys, merge(2, 3, any([(len(chart%traces(k)%title) > 13, k=1, keys)])))
          rows = (keys + across - 1)/across
          call script%line('set key at screen 0.02, screen 0.845 left top vertical Left reverse samplen 1.6 spacing 1.0 '// &
             "width -1 font ',11' textcolor rgb '#404040' maxrows "//str(rows))

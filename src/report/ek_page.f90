@@ -303,11 +303,7 @@ contains
       if (abs(value) >= 1.0e7_wp) then
          text = str(value, 4)
       else
-         decimals = 4
-         if (abs(value) >= 1.0_wp) decimals = 3
-         if (abs(value) >= 10.0_wp) decimals = 2
-         if (abs(value) >= 100.0_wp) decimals = 1
-         if (abs(value) >= 1000.0_wp) decimals = 0
+         decimals = 4 - count(abs(value) >= [1.0_wp, 10.0_wp, 100.0_wp, 1000.0_wp])
          write (form, '(a,i0,a)') '(f32.', decimals, ')'
          write (buffer, form) value
          text = trim(adjustl(buffer))

@@ -57,7 +57,6 @@ contains
       integer, intent(in) :: kind
       real(wp), intent(in) :: at(:, :)
       real(wp), allocatable :: more(:, :)
-      integer, allocatable :: first(:), kinds(:)
       integer :: n
 
       n = size(at, 2)
@@ -71,11 +70,8 @@ contains
          call move_alloc(more, list%at)
       end if
       if (list%runs == size(list%kind)) then
-         allocate (first(2*list%runs + 1), kinds(2*list%runs))
-         first(:list%runs + 1) = list%first
-         kinds(:list%runs) = list%kind
-         call move_alloc(first, list%first)
-         call move_alloc(kinds, list%kind)
+         list%first = [list%first, list%first]
+         list%kind = [list%kind, list%kind]
       end if
       list%at(:, list%used + 1:list%used + n) = at
       list%used = list%used + n

@@ -183,26 +183,17 @@ contains
       character(:), allocatable :: escaped
       character(:), allocatable :: text
       type(buffer_t) :: out
-      integer :: k
+      character(*), parameter :: special = '&<>"'//"'"
+      character(*), parameter :: entities(5) = [character(6) :: '&amp;', '&lt;', '&gt;', '&quot;', '&#39;']
+      integer :: k, n
 
       text = as_utf8(words)
       escaped = text
-      if (scan(text, '&<>"'//"'") == 0) return
+      if (scan(text, special) == 0) return
       do k = 1, len(text)
-         select case (text(k:k))
-         case ('&')
-            call out%add('&amp;')
-         case ('<')
-            call out%add('&lt;')
-         case ('>')
-            call out%add('&gt;')
-         case ('"')
-            call out%add('&quot;')
-         case ("'")
-            call out%add('&#39;')
-         case default
-            call out%add(text(k:k))
-         end select
+         n = index(special, text(k:k))
+         if (n > 0) call out%add(trim(entities(n)))
+         if (n == 0) call out%add(text(k:k))
       end do
       escaped = out%text()
    end function escape_html

@@ -46,7 +46,7 @@ contains
       filled = 0
       do k = 1, size(values)
          value = values(k)
-         if (is_whole(k) .and. abs(value) < 1e15_wp) value = anint(value)      ! a larger one has no fraction; nan stays nan
+         if (is_whole(k)) value = whole(value)
          call put_decimal(value, line, filled)
          filled = filled + 1
          line(filled:filled) = ','
@@ -55,6 +55,14 @@ contains
       line(filled:filled) = line_end
       text = line(:filled)
    end function csv_row
+
+   !> The nearest whole number, for values small enough to have a fraction; nan stays nan.
+   elemental real(wp) function whole(value)
+      real(wp), intent(in) :: value
+
+      whole = value
+      if (abs(value) < 1e15_wp) whole = anint(value)
+   end function whole
 
    !> The header lines and the line of column names.
    pure function csv_head(table) result(text)
