@@ -214,7 +214,7 @@ contains
                figures%design = 0.0_wp
                return
             end if
-            call solve_case(subject%suspension, subject%case, options, result)
+            call solve_case(subject%suspension, subject%case, options, result, observer=subject%observer)
          end do
          figures%design = min(figures%design, (seconds() - start)/designs)
          start = seconds()

@@ -19,10 +19,10 @@ contains
    subroutine read_arguments(arguments, error)
       type(arguments_t), intent(out) :: arguments
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
-      type(setting_t) :: texts(command_argument_count())      ! names and values of options
-      type(setting_t), allocatable :: windows(:)
+      type(setting_t), allocatable :: texts(:), windows(:)    ! texts: names and values of options
       integer :: kinds(command_argument_count()), k           ! of_none, of_name or the number of the option
 
+      allocate (texts(size(kinds)))
       arguments%command = ''
       arguments%file = ''
       kinds = of_none

@@ -7,14 +7,14 @@ module ek_case_result
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
-   use ek_memory, only: ask_memory
+   use ek_memory, only: has_memory, memory_words
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep, progress_procedure
    use ek_rig, only: mount
    use ek_wheel_side, only: single_side
-   use ek_sweep_table, only: sweep_table, sweep_bytes
+   use ek_sweep_table, only: observer_t, make_observer, observe, sweep_bytes
    use ek_failure_words, only: failure_words, stability_remarks
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks
    use ek_curve_reach, only: curve_reach_remarks
@@ -64,13 +64,16 @@ contains
    end function is_run
 
    !> Puts a suspension on the rig for a case, solves its path and tabulates it.
-   subroutine solve_case(base, case, options, result, progress)
+   subroutine solve_case(base, case, options, result, progress, observer)
       type(suspension_t), intent(in) :: base           !! balanced; it is not changed
       type(case_t), intent(in) :: case                 !! of the deck; it is not changed
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(out) :: result
       procedure(progress_procedure), optional :: progress
-      type(error_t), allocatable :: error
+      type(observer_t), intent(inout), optional, target :: observer   !! kept from design to design of a deck
+      type(observer_t), target :: own
+      type(observer_t), pointer :: tells
+      integer(i8) :: bytes
 
       if (allocated(options%fault)) then
          if (len(options%fault) > 0) then
@@ -84,17 +87,20 @@ contains
       end if
       call mount(base, case, result%suspension, result%case)
       result%kkt = new_kkt(result%suspension)
-      call ask_memory(sweep_bytes(result%suspension, result%case, options%columns), 'case '//quoted(case%name)//' with '// &
-         plural(result%case%increments, 'increment', 'increments'), error)
-      if (allocated(error)) then
-         call give_up(out_of_memory, error%message)
+      tells => own
+      if (present(observer)) tells => observer
+      call make_observer(result%suspension, result%case, tells, options%columns)
+      bytes = sweep_bytes(result%suspension, result%case, tells)
+      if (.not. has_memory(bytes)) then
+         call give_up(out_of_memory, memory_words(bytes, 'case '//quoted(case%name)//' with '// &
+            plural(result%case%increments, 'increment', 'increments')))
          return
       end if
       call sweep(result%suspension, result%case, result%path, result%kkt, progress)
       if (options%has_remarks) call remark_on_path(options, result)
-      call sweep_table(result%suspension, result%case, result%path, result%kkt, result%table, options%columns)
+      call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
       if (options%has_remarks) call closure_remarks(result%suspension, result%case, result%table, result%remarks)
-      if (any(result%path%failure%state > 0) .or. len(result%remarks%failures()) > 0) result%outcome = partly_solved
+      if (any(result%path%failure%state > 0) .or. result%remarks%has_failed()) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
 
    contains

@@ -3,11 +3,15 @@
 module ek_column_list
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_quantity, only: quantity_t, held_name, unit_size, matrix
+   use ek_quantity, only: quantity_t, held_name, unit_size, matrix, pair, tyres, axis, rack, ratio, &
+      car, front, rear, mass, sprung, width, corner
+   use ek_suspension, only: suspension_t
+   use ek_wheel_side, only: is_axle
+   use ek_geometry_columns, only: mass_on
    use ek_table, only: name_length
    implicit none(type, external)
    private
-   public :: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, choose
+   public :: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, choose, conditions_of
 
    type :: column_list_t
       integer :: used = 0                              !! number of columns
@@ -124,5 +128,40 @@ contains
          first = list%last(k) + 1
       end do
    end subroutine choose
+
+   !> The conditions of ek_quantity that a model meets.
+   subroutine conditions_of(suspension, order, has_rack, has)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: order(:)      !! of the wheels in the compliance matrix
+      logical, intent(in) :: has_rack      !! a rack steers
+      integer, intent(out) :: has(0:)      !! of each wheel in the order of the compliance matrix; 0: without a wheel
+      integer :: both, k
+
+      both = 0
+      associate (axle => suspension%axle, wheels => suspension%wheels)
+         if (is_axle(suspension)) both = pair
+         if (has_rack) both = both + rack
+         if (suspension%steering%has_steering) both = both + merge(ratio, 0, abs(suspension%steering%ratio) > 0.0_wp)
+         if (axle%has_axle) both = both + car + merge(front, rear, axle%is_front)
+         if (axle%mass > 0.0_wp) both = both + mass
+         if (axle%front_overhang > 0.0_wp) both = both + corner
+         if (all(wheels%tyre_width > 0.0_wp)) both = both + width
+         has = both
+         if (all(wheels%tyre_rate > 0.0_wp)) both = both + tyres
+         has(0) = both
+         do k = 1, size(wheels)
+            associate (wheel => wheels(order(k)))
+               if (wheel%has_steer_axis) has(k) = has(k) + axis
+               if (is_axle(suspension)) then
+                  has(k) = has(k) + iand(both, tyres)
+               else if (wheel%tyre_rate > 0.0_wp) then
+                  has(k) = has(k) + tyres
+               end if
+               if (.not. wheel%tyre_rate > 0.0_wp) cycle
+               if (mass_on(suspension, order(k)) > 0.0_wp) has(k) = has(k) + sprung
+            end associate
+         end do
+      end associate
+   end subroutine conditions_of
 
 end module ek_column_list

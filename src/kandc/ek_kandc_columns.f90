@@ -11,7 +11,7 @@ module ek_kandc_columns
    use ek_kinds, only: wp
    use ek_units, only: pi
    use ek_quantity, only: wheel_rates, wheel_forces, wheel_stiffness, of_axle, of_steering, wheel_geometry, axle_geometry, &
-      of_rack, pair, tyres, axis, rack, ratio, car, front, rear, mass, sprung, width, corner
+      of_rack
    use ek_measure, only: measure_value
    use ek_block, only: rotated
    use ek_element, only: stop_spring, measure_spring, is_of_angle
@@ -25,14 +25,14 @@ module ek_kandc_columns
    use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, response_t, wheel_characteristics, &
       axle_characteristics, motion_ratio, quotient, in_phase, anti_phase, load_held, height_held
    use ek_angle_rate, only: axes_of
-   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
+   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, conditions_of
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
    use ek_steer_axis, only: instant_axis, locked_twist
-   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values, mass_on
+   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, tell_kandc, rig_rows
+   public :: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc, rig_rows
 
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
 
@@ -40,6 +40,7 @@ module ek_kandc_columns
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
       real(wp) :: steer_ratio = 0.0_wp         !! rack travel per revolution of the steering wheel [m], never negative
+      integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
       real(wp), allocatable :: values(:)       !! of the columns, in their units
       type(compliance_t) :: compliance
    end type kandc_t
@@ -51,29 +52,29 @@ contains
    subroutine start_kandc(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(out) :: self
-      integer :: has(size(suspension%wheels)), both, k, w, held
+      integer :: both, k, w, held
 
-      if (suspension%steering%has_steering) then
-         self%steer_row = driver_row(suspension, suspension%steering%driver)
-         self%steer_ratio = abs(suspension%steering%ratio)
-      end if
+      if (suspension%steering%has_steering) self%steer_row = driver_row(suspension, suspension%steering%driver)
       self%compliance = new_compliance(suspension, self%steer_row > 0)
-      call conditions_of(suspension, self, has, both)
+      call renew_kandc(suspension, self)
+      allocate (self%has(0:size(suspension%wheels)))
+      call conditions_of(suspension, self%compliance%order, self%steer_row > 0, self%has)
+      both = self%has(0)
       call begin_list(self, 256)
       do k = 1, self%compliance%wheels
          w = self%compliance%order(k)
-         call add_quantities(self, wheel_rates, prefix_of(suspension, w), has(k))
+         call add_quantities(self, wheel_rates, prefix_of(suspension, w), self%has(k))
          do held = load_held, height_held
-            call add_quantities(self, wheel_forces, prefix_of(suspension, w), has(k), held)
+            call add_quantities(self, wheel_forces, prefix_of(suspension, w), self%has(k), held)
          end do
-         call add_quantities(self, wheel_stiffness, prefix_of(suspension, w), has(k))
+         call add_quantities(self, wheel_stiffness, prefix_of(suspension, w), self%has(k))
          call end_block(self)
       end do
       call add_quantities(self, of_axle, '', both)
       call add_quantities(self, of_steering, '', both)
       call end_block(self)
       do k = 1, self%compliance%wheels
-         call add_quantities(self, wheel_geometry, prefix_of(suspension, self%compliance%order(k)), has(k))
+         call add_quantities(self, wheel_geometry, prefix_of(suspension, self%compliance%order(k)), self%has(k))
          call end_block(self)
       end do
       call add_quantities(self, axle_geometry, '', both)
@@ -95,38 +96,25 @@ contains
       allocate (self%values(self%used), source=0.0_wp)
    end subroutine start_kandc
 
-   !> The conditions of ek_quantity that a model meets.
-   subroutine conditions_of(suspension, self, has, both)
+   !> Takes the numbers of another design with the same columns.
+   subroutine renew_kandc(suspension, self)
+      type(suspension_t), intent(in) :: suspension
+      type(kandc_t), intent(inout) :: self
+
+      if (suspension%steering%has_steering) self%steer_ratio = abs(suspension%steering%ratio)
+   end subroutine renew_kandc
+
+   !> Whether another design of the same parts has the columns of `self`.
+   logical function same_columns(suspension, self)
       type(suspension_t), intent(in) :: suspension
       type(kandc_t), intent(in) :: self
-      integer, intent(out) :: has(:), both         !! of each wheel in the order of the compliance matrix; without a wheel
-      integer :: k
+      integer :: has(0:size(suspension%wheels))
 
-      both = 0
-      associate (axle => suspension%axle, wheels => suspension%wheels)
-         if (is_axle(suspension)) both = pair
-         if (self%steer_row > 0) both = both + rack
-         if (self%steer_ratio > 0.0_wp) both = both + ratio
-         if (axle%has_axle) both = both + car + merge(front, rear, axle%is_front)
-         if (axle%mass > 0.0_wp) both = both + mass
-         if (axle%front_overhang > 0.0_wp) both = both + corner
-         if (all(wheels%tyre_width > 0.0_wp)) both = both + width
-         has = both
-         if (all(wheels%tyre_rate > 0.0_wp)) both = both + tyres
-         do k = 1, size(has)
-            associate (wheel => wheels(self%compliance%order(k)))
-               if (wheel%has_steer_axis) has(k) = has(k) + axis
-               if (is_axle(suspension)) then
-                  has(k) = has(k) + iand(both, tyres)
-               else if (wheel%tyre_rate > 0.0_wp) then
-                  has(k) = has(k) + tyres
-               end if
-               if (.not. wheel%tyre_rate > 0.0_wp) cycle
-               if (mass_on(suspension, self%compliance%order(k)) > 0.0_wp) has(k) = has(k) + sprung
-            end associate
-         end do
-      end associate
-   end subroutine conditions_of
+      same_columns = .false.
+      if (size(has) /= size(self%has)) return
+      call conditions_of(suspension, self%compliance%order, self%steer_row > 0, has)
+      same_columns = all(has == self%has)
+   end function same_columns
 
    !> Fills self%values at an equilibrium: all of them, or those of `choose`.
    subroutine tell_kandc(suspension, state, demand, kkt, self)

@@ -42,6 +42,7 @@ module ek_remark
       procedure :: line => list_line         !! text of remark number k, without its head
       procedure :: text => list_text         !! all texts, one after the other
       procedure :: failures => list_failures
+      procedure :: has_failed => list_has_failed
    end type remark_list_t
 
 contains
@@ -115,6 +116,13 @@ contains
          text = text//self%remarks(k)%text
       end do
    end function list_text
+
+   pure logical function list_has_failed(self)
+      class(remark_list_t), intent(in) :: self
+
+      list_has_failed = self%used > 0
+      if (list_has_failed) list_has_failed = any(self%remarks(:self%used)%severity == failure)
+   end function list_has_failed
 
    !> All failures, one after the other; '' if there are none.
    pure function list_failures(self) result(text)

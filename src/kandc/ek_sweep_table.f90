@@ -13,82 +13,150 @@ module ek_sweep_table
    use ek_path, only: path_t
    use ek_state_columns, only: state_columns, state_values, measure_unit
    use ek_column_list, only: column_list_t, choose
-   use ek_kandc_columns, only: kandc_t, start_kandc, tell_kandc
+   use ek_kandc_columns, only: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
+   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
 
+   !> What a table of states holds: its columns, and the work space to fill them.
+   type :: observer_t
+      character(name_length), allocatable :: columns(:)     !! heads of the table
+      integer, private :: shown = 0, told = 0, ended = 0    !! last column of the state, of the quantities, of all that there are
+      integer, allocatable, private :: kept(:)              !! the columns of the table among all
+      logical, allocatable, private :: is_kept(:)
+      type(column_list_t), private :: list                  !! columns of the state
+      type(kandc_t), private :: kandc                       !! K&C columns, if the case requests them
+      character(name_length), allocatable, private :: wanted(:)
+      logical, private :: has_wanted = .false., has_all = .false., has_stability = .false.
+   end type observer_t
+
 contains
+
+   !> Prepares the table of a case. Nothing is done where it is prepared for this model, case and these columns already; so in
+   !> designs after the first there is no text at all: gfortran keeps the length of the text that a function returns in one
+   !> place for all threads.
+   subroutine make_observer(suspension, case, self, wanted)
+      type(suspension_t), intent(in) :: suspension          !! on the rig
+      type(case_t), intent(in) :: case
+      type(observer_t), intent(inout) :: self
+      character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
+      character(name_length), allocatable :: columns(:)
+      integer :: k
+
+      if (is_for(self, suspension, case, wanted)) then
+         if (case%has_all) call renew_kandc(suspension, self%kandc)
+         return
+      end if
+      call list_columns(suspension, case, columns, self%list, self%kandc)
+      self%has_all = case%has_all
+      self%has_stability = knows_stability(case)
+      self%ended = size(columns)
+      self%told = self%ended - ends_of(case)
+      self%shown = self%told - self%kandc%used
+      if (allocated(self%is_kept)) deallocate (self%is_kept)
+      allocate (self%is_kept(self%ended), source=.true.)
+      self%wanted = [character(name_length) ::]
+      self%has_wanted = present(wanted)
+      if (present(wanted)) then
+         self%wanted = wanted
+         self%is_kept(3:self%told) = [(any(wanted == columns(k)), k=3, self%told)]
+      end if
+      self%kept = pack([(k, k=1, self%ended)], self%is_kept)
+      self%columns = columns(self%kept)
+      if (self%kandc%used > 0) call choose(self%kandc, self%is_kept(self%shown + 1:self%told))
+   end subroutine make_observer
+
+   !> Whether an observer was prepared for these columns of such a model.
+   logical function is_for(self, suspension, case, wanted)
+      type(observer_t), intent(in) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      character(*), intent(in), optional :: wanted(:)
+
+      is_for = .false.
+      if (.not. allocated(self%columns)) return
+      if (self%has_all .neqv. case%has_all) return
+      if (self%has_stability .neqv. knows_stability(case)) return
+      if (self%has_wanted .neqv. present(wanted)) return
+      if (present(wanted)) then
+         if (size(wanted) /= size(self%wanted)) return
+         if (any(wanted /= self%wanted)) return
+      end if
+      is_for = .true.
+      if (case%has_all) is_for = same_columns(suspension, self%kandc)
+   end function is_for
 
    !> The table of a sweep: all states that were reached, and on either side the first that was not,
    !> marked by converged = 0 and values that are not numbers.
    !>
    !> If the case requests all columns, the K&C quantities precede the last columns, from the compliance matrix
-   !> at every state. With `wanted` the table has these quantities only, and the matrix is solved only if one of them needs it.
+   !> at every state; it is solved only if one of the columns of the observer needs it.
+   subroutine observe(suspension, case, path, kkt, observer, table)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt          !! work space
+      type(observer_t), intent(inout) :: observer   !! of make_observer
+      type(table_t), intent(out) :: table
+      type(state_t) :: state
+      type(schedule_t) :: schedule
+      type(demand_t) :: demand
+      real(wp), allocatable :: values(:)         ! all columns of a row
+      real(wp) :: unit
+      integer :: first, last, k, row
+
+      call reached_rows(path, first, last)
+      table = new_table(observer%columns, last - first + 1)
+      allocate (values(observer%ended))
+      state = design_state(suspension)
+      schedule = new_schedule(suspension, case)
+      unit = factor_unit(suspension, case)
+      associate (shown => observer%shown, told => observer%told, ended => observer%ended)
+         do k = first, last
+            row = k - first + 1
+            call demand_at(schedule, path%value(k), demand)
+            values = ieee_value(1.0_wp, ieee_quiet_nan)
+            values(1) = k - 1
+            values(2) = path%value(k)/unit
+            values(told + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
+            values(ended - 1) = path%iterations(k)
+            if (path%is_reached(k)) then
+               if (observer%has_stability) values(told + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
+               values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
+               call unpack_state(path%packed(:, k), state)
+               call assemble(suspension, state, demand, residual_only, kkt)
+               if (any(observer%is_kept(3:shown))) call state_values(suspension, state, kkt, observer%list, values(3:shown))
+               values(ended) = norm2(kkt%values)
+               if (norm2(kkt%values) > open_joints) values(told + 1) = 0.0_wp
+               if (any(observer%is_kept(shown + 1:told))) then
+                  call tell_kandc(suspension, state, demand, kkt, observer%kandc)
+                  values(shown + 1:told) = observer%kandc%values
+               end if
+            end if
+            table%values(:, row) = values(observer%kept)
+         end do
+      end associate
+   end subroutine observe
+
+   !> The table of a single path, as observe with an observer of its own.
    subroutine sweep_table(suspension, case, path, kkt, table, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(table_t), intent(out) :: table
-      character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
-      type(state_t) :: state
-      type(schedule_t) :: schedule
-      type(demand_t) :: demand
-      type(column_list_t) :: list
-      type(kandc_t) :: kandc
-      character(name_length), allocatable :: columns(:)
-      logical, allocatable :: is_kept(:)
-      integer, allocatable :: kept(:)
-      real(wp), allocatable :: values(:)         ! all columns of a row
-      real(wp) :: unit
-      integer :: first, last, k, row, shown, told, ended
+      character(*), intent(in), optional :: wanted(:)   !! as for make_observer
+      type(observer_t) :: observer
 
-      call list_columns(suspension, case, columns, list, kandc)
-      ended = size(columns)
-      told = ended - ends_of(case)    ! the last column before the ending columns
-      shown = told - kandc%used       ! the last column of the state itself
-      allocate (is_kept(ended), source=.true.)
-      if (present(wanted)) is_kept(3:told) = [(any(wanted == columns(k)), k=3, told)]
-      kept = pack([(k, k=1, ended)], is_kept)
-      if (kandc%used > 0) call choose(kandc, is_kept(shown + 1:told))
-
-      call reached_rows(path, first, last)
-      table = new_table(columns(kept), last - first + 1)
-      allocate (values(ended))
-      state = design_state(suspension)
-      schedule = new_schedule(suspension, case)
-      unit = factor_unit(suspension, case)
-      do k = first, last
-         row = k - first + 1
-         call demand_at(schedule, path%value(k), demand)
-         values = ieee_value(1.0_wp, ieee_quiet_nan)
-         values(1) = k - 1
-         values(2) = path%value(k)/unit
-         values(told + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
-         values(ended - 1) = path%iterations(k)
-         if (path%is_reached(k)) then
-            if (knows_stability(case)) values(told + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
-            values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
-            call unpack_state(path%packed(:, k), state)
-            call assemble(suspension, state, demand, residual_only, kkt)
-            if (any(is_kept(3:shown))) call state_values(suspension, state, kkt, list, values(3:shown))
-            values(ended) = norm2(kkt%values)
-            if (norm2(kkt%values) > open_joints) values(told + 1) = 0.0_wp
-            if (any(is_kept(shown + 1:told))) then
-               call tell_kandc(suspension, state, demand, kkt, kandc)
-               values(shown + 1:told) = kandc%values
-            end if
-         end if
-         table%values(:, row) = values(kept)
-      end do
+      call make_observer(suspension, case, observer, wanted)
+      call observe(suspension, case, path, kkt, observer, table)
    end subroutine sweep_table
 
-   !> The heads of the table of a case, as in sweep_table.
+   !> The heads of the table of a case, as in observe.
    subroutine sweep_columns(suspension, case, columns)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -135,25 +203,15 @@ contains
    end function ends_of
 
    !> Memory for the sweep of a case and its table, with a margin [bytes].
-   integer(i8) function sweep_bytes(suspension, case, wanted) result(bytes)
+   pure integer(i8) function sweep_bytes(suspension, case, observer) result(bytes)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      character(*), intent(in), optional :: wanted(:)       !! as for sweep_table
+      type(observer_t), intent(in) :: observer        !! of this case
       integer, parameter :: of_a_path = 6             ! numbers per state besides its coordinates
       integer(i8), parameter :: margin = 20000000_i8  ! bytes: all storage that does not grow with the states
-      character(name_length), allocatable :: names(:)
-      type(column_list_t) :: list
-      type(kandc_t) :: kandc
-      integer :: columns
 
-      if (present(wanted)) then
-         columns = size(wanted) + 7
-      else
-         call list_columns(suspension, case, names, list, kandc)
-         columns = size(names)
-      end if
       ! the table twice: working copy and result
-      bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*columns)
+      bytes = margin + 8*int(case%increments + 2, i8)*(coordinates(suspension) + of_a_path + 2*size(observer%columns))
    end function sweep_bytes
 
    !> The states in the table: those reached, and one more on a side that failed; of a load table every row.

@@ -95,7 +95,7 @@ module ek_suspension
 
    type :: suspension_t
       character(:), allocatable :: name, title, where
-      type(units_t) :: units              !! units of the deck, used in remarks on its numbers
+      type(units_t) :: units = units_t()  !! units of the deck, used in remarks on its numbers
       logical :: is_plausible_wanted = .true.   !! report implausible numbers
       real(wp) :: gravity = 0.0_wp        !! m/s²
       logical :: is_iso = .false.         !! the deck uses ISO 8855 axes: vectors are written in that frame
@@ -111,8 +111,8 @@ module ek_suspension
       type(load_t), allocatable :: loads(:)
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
-      type(axle_t) :: axle
-      type(steering_t) :: steering
+      type(axle_t) :: axle = axle_t()
+      type(steering_t) :: steering = steering_t()
       real(wp), allocatable :: vectors(:, :)   !! (3, 0:n) design points [m] and directions of the blueprint, see ek_realise
    contains
       procedure :: unknowns                    !! 6 × bodies

@@ -132,7 +132,7 @@ contains
       if (allocated(error) .or. allocated(trouble)) return
       options%has_remarks = .false.
       options%columns = wanted
-      call solve_case(subject%suspension, subject%case, options, result)
+      call solve_case(subject%suspension, subject%case, options, result, observer=subject%observer)
       if (.not. result%is_run()) call failure_of(result, trouble)
       if (allocated(trouble)) return
       unit = result%case%unit_name

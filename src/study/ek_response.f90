@@ -31,26 +31,27 @@ contains
       character(*), intent(inout), allocatable :: names(:)      !! those that are needed are added
       integer :: mark
 
-      call add(asked%column)
+      call add(names, asked%column)
       if (asked%of /= 'slope') return
-      call add(asked%over)
+      call add(names, asked%over)
       if (asked%over /= '') return
-      call add(travel)                                          ! as in usual_over
-      call add('left_'//travel)
+      call add(names, travel)                                   ! as in usual_over
+      call add(names, 'left_'//travel)
       mark = index(asked%column, '_')
-      call add(asked%column(:mark)//travel)
+      call add(names, asked%column(:mark)//travel)
 
    contains
 
-      pure subroutine add(name)
+      pure subroutine add(list, name)
+         character(*), intent(inout), allocatable :: list(:)
          character(*), intent(in) :: name
-         character(len(names)), allocatable :: more(:)
+         character(len(list)), allocatable :: more(:)
 
-         if (any(names == name)) return
-         allocate (more(size(names) + 1))
-         more(:size(names)) = names
+         if (any(list == name)) return
+         allocate (more(size(list) + 1))
+         more(:size(list)) = list
          more(size(more)) = name
-         call move_alloc(more, names)
+         call move_alloc(more, list)
       end subroutine add
 
    end subroutine needed_columns

@@ -14,6 +14,7 @@ module ek_subject
    use ek_load_table, only: take_table
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
+   use ek_sweep_table, only: observer_t
    use ek_examination, only: examine_case, known_case_t
    implicit none(type, external)
    private
@@ -31,6 +32,7 @@ module ek_subject
       type(design_t) :: design
       integer :: number = 0                !! of the case in the deck
       type(known_case_t) :: known          !! what the first design has proved about the others
+      type(observer_t), allocatable :: observer   !! of the columns of its results, for solve_case
       real(wp), allocatable :: x(:)        !! work space
    end type subject_t
 
@@ -47,6 +49,8 @@ contains
       logical :: is_good
       integer :: k
 
+      if (allocated(subject%observer)) deallocate (subject%observer)
+      allocate (subject%observer)
       call read_design(deck, subject%design, error)
       if (allocated(error)) return
       call new_design(subject%design%plan, subject%suspension)

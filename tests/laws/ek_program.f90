@@ -64,10 +64,10 @@ contains
    function listing(folder) result(names)
       character(*), intent(in) :: folder
       character(:), allocatable :: names
-      integer :: status
+      integer :: status, started
 
       call execute_command_line('ls -A '//shell_quoted(folder)//' >'//shell_quoted(scratch('listing'))//' 2>/dev/null', &
-         exitstat=status)
+         exitstat=status, cmdstat=started)
       names = content(scratch('listing'))
    end function listing
 

@@ -83,7 +83,8 @@ contains
       column = 0
       at = 1
       do while (at <= len(text))
-         last = at + index(text(at:)//nl, nl) - 2
+         last = at + index(text(at:), nl) - 2
+         if (last == at - 2) last = len(text)
          line = text(at:last)
          if (column == 0) then
             first = index(','//line//',', ','//name//',')
@@ -131,16 +132,19 @@ contains
       character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_#%0123456789'
       character(24) :: number
       real(wp) :: value
-      integer :: at, last, status
+      integer :: at, last, status, used
       logical :: is_alone
 
-      plain = ''
+      allocate (character(8*len(text)) :: plain)      ! at most 12 characters for two; grown piece by piece it fills flang's stack
+      used = 0
       at = 1
       do while (at <= len(text))
-         last = verify(text(at:)//' ', part) + at - 2
+         last = verify(text(at:), part) + at - 2
+         if (last == at - 2) last = len(text)
          if (last < at) then
-            last = scan(text(at:)//'0', part) + at - 2
-            plain = plain//text(at:last)
+            last = scan(text(at:), part) + at - 2
+            if (last == at - 2) last = len(text)
+            call append(text(at:last))
             at = last + 1
             cycle
          end if
@@ -150,18 +154,28 @@ contains
          status = 1
          if (is_alone) read (text(at:last), *, iostat=status) value
          if (status /= 0) then
-            plain = plain//text(at:last)
+            call append(text(at:last))
          else if (abs(value) < 1.0e-9_wp) then
-            if (len(plain) >= len(minus)) then
-               if (plain(len(plain) - len(minus) + 1:) == minus) plain = plain(:len(plain) - len(minus))
+            if (used >= len(minus)) then
+               if (plain(used - len(minus) + 1:used) == minus) used = used - len(minus)
             end if
-            plain = plain//'0'
+            call append('0')
          else
             write (number, '(es12.5)') value
-            plain = plain//trim(adjustl(number))
+            call append(trim(adjustl(number)))
          end if
          at = last + 1
       end do
+      plain = plain(:used)
+
+   contains
+
+      subroutine append(piece)
+         character(*), intent(in) :: piece
+         plain(used + 1:used + len(piece)) = piece
+         used = used + len(piece)
+      end subroutine append
+
    end function rounded
 
    !> Whether the references are to be written anew: tests/support/renew_references.sh asks for it.
@@ -177,7 +191,7 @@ contains
       character(:), allocatable :: differences, kept
       type(error_t), allocatable :: error
       character(*), parameter :: folder = 'tests/reference/'
-      integer :: status
+      integer :: status, started
 
       differences = ''
       if (is_renewing()) then
@@ -190,7 +204,7 @@ contains
       if (kept == text .and. len(kept) == len(text)) return
       call write_whole(scratch('found'), text, error)
       call execute_command_line('diff -u '//shell_quoted(folder//name)//' '//shell_quoted(scratch('found'))//' >'// &
-         shell_quoted(scratch('differences'))//' 2>&1', exitstat=status)
+         shell_quoted(scratch('differences'))//' 2>&1', exitstat=status, cmdstat=started)
       call read_whole(scratch('differences'), differences, error)
       differences = folder//name//' is another; if that is meant: tests/support/renew_references.sh'//nl// &
          differences(:min(len(differences), 6000))
