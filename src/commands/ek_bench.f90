@@ -5,7 +5,7 @@
 !> speed or load of the machine. The minimum time of several rounds is reported for each.
 module ek_bench
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
+   use ek_error, only: error_t, message_list_t, fail, exit_convergence, exit_file
    use ek_text, only: str, quoted
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
@@ -17,13 +17,13 @@ module ek_bench
    use ek_balance, only: balance
    use ek_path, only: path_t, new_path, walk, sweep
    use ek_rig, only: mount
-   use ek_examination, only: examination_t, examine_cases
+   use ek_examination, only: examination_t
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t
    use ek_csv, only: csv_text
-   use ek_arguments, only: arguments_t
-   use ek_load_deck, only: load_deck, chosen_cases, unsolvable_words, apply_settings
-   use ek_deck, only: deck_t, read_deck
+   use ek_command_line, only: command_line_t
+   use ek_load_deck, only: load_deck, chosen_cases, examine_chosen, read_changed
+   use ek_deck, only: deck_t
    use ek_parameter, only: choice_t
    use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
    use ek_case_result, only: case_result_t, solve_options_t, solve_case
@@ -40,6 +40,12 @@ module ek_bench
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
    integer, parameter :: designs = 40         !! timed together
 
+   type :: settings_t
+      character(:), allocatable :: file, case
+      type(message_list_t) :: changes         !! --set path=value
+      integer :: increments = 0               !! 0: as in the deck
+   end type settings_t
+
    !> What was measured.
    type :: figures_t
       real(wp) :: unit = 0.0_wp              !! dsysv [s]
@@ -54,9 +60,10 @@ module ek_bench
 contains
 
    !> Prints the table of ratios to standard output, or with --json an object.
-   subroutine bench(arguments, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine bench(line, error)
+      type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
+      type(settings_t) :: settings
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -66,7 +73,11 @@ contains
       real(wp) :: together, copying, start
       integer :: k, m
 
-      call load_case(arguments, suspension, case, error)
+      settings%file = line%files%line(1)
+      settings%changes = line%values('--set')
+      settings%case = line%value('--case')
+      settings%increments = line%number('--increments')
+      call load_case(settings, suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
       case%method = 'equilibrium'
@@ -100,15 +111,15 @@ contains
       case%tolerance = 1.0e-13_wp     ! m, a thousand times tighter than the default
       call sweep(suspension, case, exact, kkt)
       figures%distance = largest_distance(path, exact, kkt%nq/6)
-      if (case%test /= 'table') call time_designs(arguments, case%name, figures, error)
+      if (case%test /= 'table') call time_designs(settings, case%name, figures, error)
       if (allocated(error)) return
-      if (arguments%json) then
+      if (line%has('--json')) then
          call put(json_of(suspension, case, kkt%n, figures), error)
          return
       end if
       call print_table(suspension, case, kkt%n, figures, error)
-      if (arguments%quiet .or. allocated(error)) return
-      call whole_way(arguments, error)
+      if (line%has('--quiet') .or. allocated(error)) return
+      call whole_way(settings, error)
    end subroutine bench
 
    !> The figures as lines.
@@ -174,8 +185,8 @@ contains
 
    !> Times whole designs, as a study runs them: numbers to suspension, examination, balance, states and one column; and the
    !> states alone. The first given number of the deck is changed in its tenth digit.
-   subroutine time_designs(arguments, case_name, figures, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine time_designs(settings, case_name, figures, error)
+      type(settings_t), intent(in) :: settings
       character(*), intent(in) :: case_name
       type(figures_t), intent(inout) :: figures
       type(error_t), allocatable, intent(out) :: error
@@ -188,8 +199,7 @@ contains
       logical :: is_done
       integer :: k, d
 
-      call read_deck(arguments%file, deck, error)
-      if (.not. allocated(error)) call apply_settings(arguments, deck, error)
+      call read_changed(settings%file, settings%changes, deck, error)
       if (.not. allocated(error)) call make_subject(deck, case_name, subject, error)
       if (allocated(error)) return
       associate (list => subject%design%parameters%list, x => subject%design%parameters%x)
@@ -209,7 +219,7 @@ contains
       do k = 1, 3
          start = seconds()
          do d = 1, designs
-            call change_subject(arguments%file, paths, [value*(1.0_wp + 1.0e-10_wp*d)], subject, is_done, error)
+            call change_subject(settings%file, paths, [value*(1.0_wp + 1.0e-10_wp*d)], subject, is_done, error)
             if (allocated(error) .or. .not. is_done) then      ! such a model has no design from numbers
                figures%design = 0.0_wp
                return
@@ -226,8 +236,8 @@ contains
    end subroutine time_designs
 
    !> The first chosen case of a deck on the rig, examined and balanced.
-   subroutine load_case(arguments, suspension, case, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine load_case(settings, suspension, case, error)
+      type(settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
@@ -236,16 +246,11 @@ contains
       type(examination_t) :: found
       character(:), allocatable :: checksum
 
-      call load_deck(arguments, base, cases, checksum, error)
-      if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
-      call examine_cases(base, chosen(1:1), found)
-      if (found%none_solvable()) then
-         call fail(error, exit_model, unsolvable_words(arguments%file, found))
-         return
-      end if
-      call balance(base, chosen(1)%tolerance, error)
+      call load_deck(settings%file, settings%changes, base, cases, checksum, error, needs_tables=.false.)
+      if (.not. allocated(error)) &
+         call chosen_cases(settings%file, settings%case, '', settings%increments, cases, chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, base, chosen(1:1), found, error)
+      if (.not. allocated(error)) call balance(base, chosen(1)%tolerance, error)
       if (allocated(error)) return
       if (.not. is_mountable(chosen(1))) then
          call fail(error, exit_file, chosen(1)%table%fault)
@@ -354,8 +359,8 @@ contains
    end function largest_distance
 
    !> Times all steps from deck to CSV text within this process.
-   subroutine whole_way(arguments, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine whole_way(settings, error)
+      type(settings_t), intent(in) :: settings
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
       type(case_t) :: case
@@ -367,7 +372,7 @@ contains
       real(wp) :: marks(5)
 
       marks(1) = seconds()
-      call load_case(arguments, suspension, case, error)
+      call load_case(settings, suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
       marks(2) = seconds()

@@ -1,203 +1,246 @@
-!> Reads the command line by the tables of ek_command. Every error message states the expected form.
+!> The command line: a command, its files and its options. It is read by the tables of ek_command, so that it holds only what
+!> its command takes. Every error message states the expected form.
 module ek_command_line
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_usage
+   use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: nearest_name, quoted
    use ek_decimal, only: get_decimal
    use ek_gradient_window, only: windows_t, set_window
-   use ek_arguments, only: arguments_t, setting_t
-   use ek_command, only: commands, options, uses, option_number, command_names
    implicit none(type, external)
    private
-   public :: read_arguments
+   public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows
 
-   integer, parameter :: of_none = -1, of_name = 0     !! what a word is, if not the number of an option
+   !> A command, as --help describes it.
+   type :: command_t
+      character(7) :: name
+      character(80) :: usage      !! after 'elastokin'; options without a line of help are appended
+      character(15) :: brief      !! the same in the overview
+      character(60) :: summary    !! line of the overview
+      character(420) :: text      !! description
+      character(180) :: ending    !! after the options
+      integer :: files = 1        !! 1: one file; 2: two or more
+   end type command_t
+
+   !> An option that a command takes.
+   type :: option_t
+      character(7) :: command     !! '' for every command
+      character(19) :: label      !! '--plot', '--out DIR': the name, and what follows it; N: a number, a=b: may be repeated
+      character(190) :: help      !! its line in the help of the command; '' if the line of usage suffices
+   end type option_t
+
+   type :: command_line_t
+      character(:), allocatable :: command        !! '' if there is none
+      type(message_list_t) :: files
+      type(message_list_t), private :: names, texts     !! of the options in order, and their values
+   contains
+      procedure :: has
+      procedure :: value => last_value
+      procedure :: values => all_values
+      procedure :: number => number_of
+   end type command_line_t
 
 contains
 
-   !> Reads the command line of this process.
-   subroutine read_arguments(arguments, error)
-      type(arguments_t), intent(out) :: arguments
-      type(error_t), allocatable, intent(out) :: error        !! exit_usage
-      type(setting_t), allocatable :: texts(:), windows(:)    ! texts: names and values of options
-      integer :: kinds(command_argument_count()), k           ! of_none, of_name or the number of the option
+   !> Whether an option is given.
+   pure logical function has(self, name)
+      class(command_line_t), intent(in) :: self
+      character(*), intent(in) :: name
+      integer :: k
 
-      allocate (texts(size(kinds)))
-      arguments%command = ''
-      arguments%file = ''
-      kinds = of_none
+      has = .false.
+      do k = 1, self%names%count()
+         has = has .or. self%names%line(k) == name
+      end do
+   end function has
+
+   !> The last value of an option; `default` (or '') if it is not given.
+   pure function last_value(self, name, default) result(value)
+      class(command_line_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(*), intent(in), optional :: default
+      character(:), allocatable :: value
+      integer :: k
+
+      value = ''
+      if (present(default)) value = default
+      do k = 1, self%names%count()
+         if (self%names%line(k) == name) value = self%texts%line(k)
+      end do
+   end function last_value
+
+   !> All values of an option, in order.
+   pure type(message_list_t) function all_values(self, name) result(values)
+      class(command_line_t), intent(in) :: self
+      character(*), intent(in) :: name
+      integer :: k
+
+      do k = 1, self%names%count()
+         if (self%names%line(k) == name) call values%add(self%texts%line(k))
+      end do
+   end function all_values
+
+   !> The whole number of an option; 0 if it is not given.
+   pure integer function number_of(self, name) result(number)
+      class(command_line_t), intent(in) :: self
+      character(*), intent(in) :: name
+
+      number = 0
+      if (self%has(name)) call read_number(self%value(name), number)
+   end function number_of
+
+   !> A whole number of at least 1; 0 if the text is something else.
+   pure subroutine read_number(text, number)
+      character(*), intent(in) :: text
+      integer, intent(out) :: number
+      integer :: status
+
+      number = 0
+      status = 1
+      if (len(text) > 0 .and. verify(text, '0123456789') == 0) read (text, *, iostat=status) number
+      if (status /= 0) number = 0
+   end subroutine read_number
+
+   !> '--out' of '--out DIR'.
+   elemental character(12) function option_name(option) result(name)
+      type(option_t), intent(in) :: option
+      name = option%label(:index(option%label, ' ') - 1)
+   end function option_name
+
+   !> Reads the command line of this process. Nothing is checked against the command if help or the version is asked for.
+   subroutine read_command_line(commands, options, line, error)
+      type(command_t), intent(in) :: commands(:)
+      type(option_t), intent(in) :: options(:)
+      type(command_line_t), intent(out) :: line
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage
+      character(:), allocatable :: word
+      integer :: k, n
+
+      line%command = ''
+      n = 0
       k = 0
-      do while (k < size(texts))
+      do while (k < command_argument_count())
          k = k + 1
-         texts(k)%text = argument(k)
-         if (len(texts(k)%text) > 1 .and. index(texts(k)%text, '-') == 1) then
-            call take_option(k, texts, kinds, arguments%increments, error)
-         else if (len(arguments%command) == 0) then
-            arguments%command = texts(k)%text
-            if (.not. any(commands%name == arguments%command)) call fail(error, exit_usage, 'unknown command '// &
-               quoted(arguments%command)//suggestion(arguments%command, commands%name)//'; expected '//command_names())
-         else if (len(arguments%file) > 0 .and. arguments%command /= 'compare') then
-            call fail(error, exit_usage, 'expected one file, found '//quoted(arguments%file)//' and '//quoted(texts(k)%text))
+         word = argument(k)
+         if (len(word) > 1 .and. index(word, '-') == 1) then
+            call take_option(options, word, k, line, error)
+         else if (n == 0) then
+            line%command = word
+            n = findloc(commands%name == word, .true., dim=1)
+            if (n == 0) call fail(error, exit_usage, 'unknown command '//quoted(word)//suggestion(word, commands%name)// &
+               '; expected '//names_of(commands))
+         else if (line%files%count() > 0 .and. commands(n)%files == 1) then
+            call fail(error, exit_usage, 'expected one file, found '//quoted(line%files%line(1))//' and '//quoted(word))
          else
-            if (len(arguments%file) == 0) arguments%file = texts(k)%text
-            kinds(k) = of_name
+            call line%files%add(word)
          end if
          if (allocated(error)) return
       end do
-      arguments%help = has('--help') .or. size(texts) == 0
-      arguments%version = has('--version')
-      arguments%plot = has('--plot')
-      arguments%compliance = has('--compliance')
-      arguments%json = has('--json')
-      arguments%no_plots = has('--no-plots')
-      arguments%animate = has('--animate')
-      arguments%quiet = has('--quiet')
-      arguments%out = last_of('--out')
-      arguments%method = last_of('--method')
-      arguments%case = last_of('--case')
-      call collect(of_name, arguments%files)
-      call collect(option_number('--set'), arguments%settings)
-      call collect(option_number('--window'), windows)
-      if (arguments%help .or. arguments%version) return
-      if (len(arguments%command) == 0) then
-         call fail(error, exit_usage, 'no command: expected '//command_names())
-      else if (arguments%command == 'compare' .and. size(arguments%files) < 2) then
-         call fail(error, exit_usage, 'compare needs at least two results: elastokin compare A.csv B.csv, or two report folders')
-      else if (len(arguments%file) == 0) then
-         call fail(error, exit_usage, arguments%command//' needs a file: elastokin '//arguments%command//' FILE')
-      else
-         call check_options(arguments, kinds, error)
+      if (k == 0 .or. line%has('--help') .or. line%has('--version')) return
+      if (n == 0) then
+         call fail(error, exit_usage, 'no command: expected '//names_of(commands))
+      else if (line%files%count() < commands(n)%files) then
+         call fail(error, exit_usage, line%command//' needs '//trim(merge('a file              ', 'at least two results', &
+            commands(n)%files == 1))//': elastokin '//trim(commands(n)%brief))
       end if
-      if (.not. allocated(error)) call read_windows(windows, arguments%windows, error)
-      if (len(arguments%out) == 0 .and. arguments%command /= 'study') arguments%out = 'out'
-
-   contains
-
-      pure logical function has(option)
-         character(*), intent(in) :: option
-         has = any(kinds == option_number(option))
-      end function has
-
-      !> The last value of an option, '' if it is not given.
-      pure function last_of(option) result(value)
-         character(*), intent(in) :: option
-         character(:), allocatable :: value
-         integer :: k
-
-         value = ''
-         do k = 1, size(kinds)
-            if (kinds(k) == option_number(option)) value = texts(k)%text
-         end do
-      end function last_of
-
-      subroutine collect(kind, found)
-         integer, intent(in) :: kind
-         type(setting_t), allocatable, intent(out) :: found(:)
-         integer :: k, n
-
-         allocate (found(count(kinds == kind)))
-         n = 0
-         do k = 1, size(kinds)
-            if (kinds(k) /= kind) cycle
-            n = n + 1
-            found(n)%text = texts(k)%text
-         end do
-      end subroutine collect
-
-   end subroutine read_arguments
+      do k = 1, line%names%count()
+         word = line%names%line(k)
+         if (allocated(error)) return
+         if (.not. any(options%command == line%command .and. option_name(options) == word)) &
+            call fail(error, exit_usage, line%command//' takes no '//word)
+      end do
+   end subroutine read_command_line
 
    !> Takes an option, and its value: --out DIR or --out=DIR.
-   subroutine take_option(k, texts, kinds, increments, error)
+   subroutine take_option(options, word, k, line, error)
+      type(option_t), intent(in) :: options(:)
+      character(*), intent(in) :: word
       integer, intent(inout) :: k                           !! number of the word, then of its value
-      type(setting_t), intent(inout) :: texts(:)
-      integer, intent(inout) :: kinds(:), increments
+      type(command_line_t), intent(inout) :: line
       type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: name
-      integer :: equals, number, status
+      character(:), allocatable :: name, value, expected
+      integer :: equals, n, number
 
-      name = texts(k)%text
+      name = word
       equals = 0
-      if (index(name, '--') == 1 .and. index(name, '=') > 3) equals = index(name, '=')
-      if (equals > 0) name = name(:equals - 1)
+      if (index(word, '--') == 1 .and. index(word, '=') > 3) equals = index(word, '=')
+      if (equals > 0) name = word(:equals - 1)
       if (name == '-q') name = '--quiet'
       if (name == '-h') name = '--help'
-      number = option_number(name)
-      if (number == 0) then
-         call fail(error, exit_usage, 'unknown option '//quoted(name)//suggestion(name, options%name))
-      else if (options(number)%value == '') then
-         if (equals > 0) call fail(error, exit_usage, name//' takes no value, found '//quoted(texts(k)%text(equals + 1:)))
-      else if (equals > 0) then
-         texts(k)%text = texts(k)%text(equals + 1:)
-      else if (k == size(texts)) then
+      n = findloc(option_name(options) == name, .true., dim=1)
+      if (n == 0) then
+         call fail(error, exit_usage, 'unknown option '//quoted(name)//suggestion(name, option_name(options)))
+         return
+      end if
+      expected = trim(options(n)%label(len(name) + 2:))
+      value = ''
+      if (equals > 0) then
+         value = word(equals + 1:)
+         if (expected == '') call fail(error, exit_usage, name//' takes no value, found '//quoted(value))
+      else if (expected /= '' .and. k == command_argument_count()) then
          call fail(error, exit_usage, name//' needs a value after it')
-      else
+      else if (expected /= '') then
          k = k + 1
-         texts(k)%text = argument(k)
+         value = argument(k)
       end if
       if (allocated(error)) return
-      kinds(k) = number
-      if (options(number)%value == '') return
-      associate (value => texts(k)%text)
-         if (len_trim(value) == 0) then      ! for instance an unset variable of the shell
-            call fail(error, exit_usage, name//' needs a value, found an empty one')
-         else if (name == '--increments') then
-            read (value, *, iostat=status) increments
-            if (status /= 0 .or. verify(value, '0123456789') /= 0 .or. increments < 1) &
-               call fail(error, exit_usage, '--increments: expected a whole number of at least 1, found '//quoted(value))
-         end if
-      end associate
+      call read_number(value, number)
+      if (expected /= '' .and. len_trim(value) == 0) then      ! for instance an unset variable of the shell
+         call fail(error, exit_usage, name//' needs a value, found an empty one')
+      else if (expected == 'N' .and. number < 1) then
+         call fail(error, exit_usage, name//': expected a whole number of at least 1, found '//quoted(value))
+      end if
+      call line%names%add(name)
+      call line%texts%add(value)
    end subroutine take_option
 
-   !> Refuses options that the command does not take, and those that exclude each other.
-   subroutine check_options(arguments, kinds, error)
-      type(arguments_t), intent(in) :: arguments
-      integer, intent(in) :: kinds(:)
+   !> Refuses --out - for a command that writes several files.
+   subroutine refuse_stream(line, error)
+      type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      integer :: k
 
-      do k = 1, size(options)
-         if (.not. any(kinds == k) .or. any(uses%command == arguments%command .and. uses%option == options(k)%name)) cycle
-         call fail(error, exit_usage, arguments%command//' takes no '//trim(options(k)%name))
-         return
-      end do
-      if (arguments%plot .and. arguments%out == '-') then
-         call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
-      else if (arguments%compliance .and. arguments%out == '-') then
-         call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
-      else if (arguments%out == '-' .and. any(arguments%command == [character(7) :: 'report', 'compare'])) then
-         call fail(error, exit_usage, arguments%command// &
-            ' writes several files: it needs an output folder and cannot be used with --out -')
-      else if (arguments%no_plots .and. arguments%animate) then
-         call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
-      end if
-   end subroutine check_options
+      if (line%value('--out') == '-') call fail(error, exit_usage, line%command// &
+         ' writes several files: it needs an output folder and cannot be used with --out -')
+   end subroutine refuse_stream
 
-   !> The half widths of gradient windows: travel=15.
-   subroutine read_windows(texts, windows, error)
-      type(setting_t), intent(in) :: texts(:)
+   !> The half widths of gradient windows: --window travel=15.
+   subroutine read_windows(line, windows, error)
+      type(command_line_t), intent(in) :: line
       type(windows_t), intent(inout) :: windows
       type(error_t), allocatable, intent(out) :: error     !! unknown window, or no positive number
+      type(message_list_t) :: texts
+      character(:), allocatable :: text
       real(wp) :: half
       integer :: k, equals
       logical :: is_number, is_known
 
-      do k = 1, size(texts)
-         associate (text => texts(k)%text)
-            equals = index(text, '=')
-            call get_decimal(text(equals + 1:), half, is_number)
-            if (equals < 2 .or. verify(text(equals + 1:), '0123456789.') > 0 .or. .not. half > 0.0_wp) then
-               call fail(error, exit_usage, '--window: expected window=half width with a positive number, as in travel=15, '// &
-                  'found '//quoted(text))
-               return
-            end if
-            call set_window(windows, text(:equals - 1), half, is_known)
-            if (is_known) cycle
-            call fail(error, exit_usage, '--window: expected travel, roll, force, torque, rack or wheel, found '// &
-               quoted(text(:equals - 1)))
+      texts = line%values('--window')
+      do k = 1, texts%count()
+         text = texts%line(k)
+         equals = index(text, '=')
+         call get_decimal(text(equals + 1:), half, is_number)
+         if (equals < 2 .or. verify(text(equals + 1:), '0123456789.') > 0 .or. .not. half > 0.0_wp) then
+            call fail(error, exit_usage, '--window: expected window=half width with a positive number, as in travel=15, '// &
+               'found '//quoted(text))
             return
-         end associate
+         end if
+         call set_window(windows, text(:equals - 1), half, is_known)
+         if (.not. is_known) call fail(error, exit_usage, &
+            '--window: expected travel, roll, force, torque, rack or wheel, found '//quoted(text(:equals - 1)))
+         if (allocated(error)) return
       end do
    end subroutine read_windows
+
+   !> 'run, check, report, compare, study or bench'
+   pure function names_of(commands) result(text)
+      type(command_t), intent(in) :: commands(:)
+      character(:), allocatable :: text
+      integer :: k
+
+      text = trim(commands(1)%name)
+      do k = 2, size(commands)
+         text = text//trim(merge(' or', ',  ', k == size(commands)))//' '//trim(commands(k)%name)
+      end do
+   end function names_of
 
    !> '; did you mean …?', or '' without a similar name.
    function suggestion(word, names) result(text)

@@ -12,7 +12,8 @@ module ek_compare
    use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results
-   use ek_arguments, only: arguments_t
+   use ek_gradient_window, only: windows_t
+   use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_console, only: print_note, print_text
    use ek_compare_page, only: comparison_t, overlay, page_of, test_number, letter_of
    implicit none(type, external)
@@ -22,18 +23,25 @@ module ek_compare
 contains
 
    !> Compares CSV files of one case, or report folders.
-   subroutine compare(arguments, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine compare(line, error)
+      type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
+      type(windows_t) :: windows             !! of gradients, if they are computed from CSV files
       type(comparison_t) :: this
       type(gradient_set_t), allocatable :: sets(:)
       type(error_t), allocatable :: undrawn, unprinted
       character(:), allocatable :: message, path
       integer :: k, l
+      logical :: is_quiet, has_plots
 
-      allocate (this%results(size(arguments%files)), sets(size(arguments%files)))
+      is_quiet = line%has('--quiet')
+      has_plots = .not. line%has('--no-plots')
+      call refuse_stream(line, error)
+      if (.not. allocated(error)) call read_windows(line, windows, error)
+      if (allocated(error)) return
+      allocate (this%results(line%files%count()), sets(line%files%count()))
       do k = 1, size(this%results)
-         call read_results(arguments%files(k)%text, arguments%windows, this%results(k), error)
+         call read_results(line%files%line(k), windows, this%results(k), error)
          if (allocated(error)) return
          if (this%results(k)%is_report .neqv. this%results(1)%is_report) then
             call fail(error, exit_usage, 'compare takes CSV files or report folders, not both: '//quoted(this%results(1)%path)// &
@@ -49,7 +57,7 @@ contains
             this%results(l)%label = this%results(l)%path
          end do
       end do
-      this%folder = arguments%out
+      this%folder = line%value('--out', 'out')
       call make_folder(this%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(this%folder, 'figures'), error)
       if (allocated(error)) return
@@ -58,7 +66,7 @@ contains
       call find_missing(this%results, this%rows, this%missing)
       call print_text(text_of(this%results, this%rows), unprinted)     ! the files are written even if it is closed
       do k = 1, this%missing%count()
-         call print_note(arguments%quiet, this%missing%line(k))
+         call print_note(is_quiet, this%missing%line(k))
       end do
       call write_differences(this%results, this%rows, join_path(this%folder, 'differences.csv'), error)
       if (allocated(error)) return
@@ -67,15 +75,15 @@ contains
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
       path = join_path(this%folder, 'compare.html')
       message = ''
-      if (.not. arguments%no_plots) message = 'gnuplot has not finished'
+      if (has_plots) message = 'gnuplot has not finished'
       call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call draw(arguments, this%charts, this%folder, message, this%has_pictures, undrawn)
-      if (len(message) > 0) call print_note(arguments%quiet, message)
+      call draw(has_plots, this%charts, this%folder, message, this%has_pictures, undrawn)
+      if (len(message) > 0) call print_note(is_quiet, message)
       if (allocated(undrawn)) message = undrawn%message
       call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
-      call print_note(arguments%quiet, join_path(this%folder, 'differences.csv')//', '//path)
+      call print_note(is_quiet, join_path(this%folder, 'differences.csv')//', '//path)
       if (allocated(undrawn)) then
          call move_alloc(undrawn, error)
       else if (allocated(unprinted)) then
@@ -256,8 +264,8 @@ contains
    end subroutine write_differences
 
    !> Draws all charts in one run of gnuplot.
-   subroutine draw(arguments, charts, folder, message, is_drawn, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine draw(is_wanted, charts, folder, message, is_drawn, error)
+      logical, intent(in) :: is_wanted
       type(chart_t), intent(in) :: charts(:)
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message    !! why there are no charts
@@ -267,8 +275,8 @@ contains
 
       message = ''
       is_drawn = .false.
-      if (arguments%no_plots) call remove_drawn(charts, folder)
-      if (arguments%no_plots .or. size(charts) == 0) return
+      if (.not. is_wanted) call remove_drawn(charts, folder)
+      if (.not. is_wanted .or. size(charts) == 0) return
       call write_whole(join_path(folder, 'figures/compare.gp'), charts_script(charts), error, can_be_redrawn=.true.)
       if (allocated(error)) return
       call scripts%add('compare.gp')

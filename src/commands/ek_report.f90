@@ -1,6 +1,6 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
-   use ek_error, only: error_t, message_list_t, fail, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
    use ek_units, only: millimetre
    use ek_text, only: str, plural
    use ek_version, only: version
@@ -17,7 +17,8 @@ module ek_report
    use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
    use ek_report_page, only: report_t, report_page, add_fact
    use ek_report_pictures, only: draw_pictures
-   use ek_arguments, only: arguments_t
+   use ek_gradient_window, only: windows_t
+   use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
@@ -25,13 +26,23 @@ module ek_report
    private
    public :: report
 
+   type :: settings_t
+      character(:), allocatable :: file, out
+      character(:), allocatable :: case, method      !! '' for all, as in the deck
+      integer :: increments = 0                      !! 0: as in the deck
+      type(message_list_t) :: changes                !! --set path=value
+      type(windows_t) :: windows                     !! of gradients
+      logical :: has_plots = .true., is_animated = .false., is_quiet = .false.
+   end type settings_t
+
 contains
 
    !> Runs the tests of a deck and writes all files. Of a test that fails part way the converged states are written; the
    !> error at the end then has code exit_convergence.
-   subroutine report(arguments, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine report(line, error)
+      type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
+      type(settings_t) :: settings
       type(report_t) :: page
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)      ! of the deck; those of this report
@@ -41,25 +52,26 @@ contains
       type(error_t), allocatable :: undrawn, unprinted, incomplete
       character(:), allocatable :: checksum, message
 
-      call load_deck(arguments, suspension, cases, checksum, error)
+      call read_settings(line, settings, error)
+      if (.not. allocated(error)) &
+         call load_deck(settings%file, settings%changes, suspension, cases, checksum, error, needs_tables=.false.)
       if (allocated(error)) return
       call report_cases(suspension, cases, all_cases)
-      call chosen_cases(arguments, all_cases, chosen, error)
+      call chosen_cases(settings%file, settings%case, settings%method, settings%increments, all_cases, chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
       if (allocated(error)) return
-      call examine_chosen(arguments, suspension, chosen, found, error)
-      if (allocated(error)) return
-      page%folder = arguments%out
+      page%folder = settings%out
       call make_folder(page%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
       if (.not. allocated(error)) call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call planned_tests(suspension, chosen, planned)
-      call print_model_remarks(arguments%quiet, suspension, cases, planned%case, page%warnings)
+      call print_model_remarks(settings%is_quiet, suspension, cases, planned%case, page%warnings)
       call remove_file(join_path(page%folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))
       call remove_file(join_path(page%folder, compliance_file))
 
-      call run_tests(arguments, suspension, planned, found, checksum, page, unprinted, incomplete, error)
+      call run_tests(settings%windows, suspension, planned, found, checksum, page, unprinted, incomplete, error)
       if (allocated(error)) return
       call write_gradients(page%gradients, suspension%name, checksum, join_path(page%folder, gradients_file), &
          join_path(page%folder, 'gradients.json'), error)
@@ -69,21 +81,21 @@ contains
       call write_contents(page%tests, join_path(page%folder, contents_file), error)
       if (allocated(error)) return
 
-      call set_head(arguments, suspension, checksum, page)
+      call set_head(settings, suspension, checksum, page)
       ! first the page without pictures: it then exists even if gnuplot fails or never ends
-      if (.not. arguments%no_plots) then
+      if (settings%has_plots) then
          warnings = page%warnings
          call page%warnings%add('The page has no pictures: gnuplot has not finished')
          call write_whole(join_path(page%folder, 'report.html'), report_page(page), error)
          if (allocated(error)) return
          page%warnings = warnings
       end if
-      call draw_pictures(page, suspension, .not. arguments%no_plots, arguments%animate, message, undrawn)
+      call draw_pictures(page, suspension, settings%has_plots, settings%is_animated, message, undrawn)
       if (allocated(undrawn)) then
          call print_error(undrawn%message)
          call page%warnings%add('The page lacks pictures: '//undrawn%message)
       else if (len(message) > 0) then
-         if (.not. arguments%no_plots) call print_note(arguments%quiet, message)
+         if (settings%has_plots) call print_note(settings%is_quiet, message)
          call page%warnings%add('The page has no pictures: '//message)
       end if
       page%has_pictures = .not. allocated(undrawn) .and. len(message) == 0
@@ -99,10 +111,30 @@ contains
       end if
    end subroutine report
 
+   subroutine read_settings(line, settings, error)
+      type(command_line_t), intent(in) :: line
+      type(settings_t), intent(out) :: settings
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage
+
+      settings%file = line%files%line(1)
+      settings%out = line%value('--out', 'out')
+      settings%case = line%value('--case')
+      settings%method = line%value('--method')
+      settings%increments = line%number('--increments')
+      settings%changes = line%values('--set')
+      settings%has_plots = .not. line%has('--no-plots')
+      settings%is_animated = line%has('--animate')
+      settings%is_quiet = line%has('--quiet')
+      call refuse_stream(line, error)
+      if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
+         call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
+      if (.not. allocated(error)) call read_windows(line, settings%windows, error)
+   end subroutine read_settings
+
    !> Runs the tests and writes their tables, and the compliance matrix at every state of the first that is run: travel, with
    !> design.
-   subroutine run_tests(arguments, suspension, planned, found, checksum, page, unprinted, incomplete, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine run_tests(windows, suspension, planned, found, checksum, page, unprinted, incomplete, error)
+      type(windows_t), intent(in) :: windows
       type(suspension_t), intent(in) :: suspension
       type(planned_test_t), intent(in) :: planned(:)
       type(examination_t), intent(in) :: found
@@ -135,7 +167,7 @@ contains
             if (allocated(error)) return
             deallocate (compliance)
          end if
-         call test_gradients(page%tests(k), arguments%windows, page%gradients)
+         call test_gradients(page%tests(k), windows, page%gradients)
          call test_charts(page%tests(k), page%charts, k)
       end do
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(planned), 'test', 'tests')// &
@@ -143,23 +175,23 @@ contains
    end subroutine run_tests
 
    !> Title and facts of the page.
-   subroutine set_head(arguments, suspension, checksum, page)
-      type(arguments_t), intent(in) :: arguments
+   subroutine set_head(settings, suspension, checksum, page)
+      type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: checksum
       type(report_t), intent(inout) :: page
-      character(:), allocatable :: settings
+      character(:), allocatable :: changes
       integer :: k
 
       page%title = suspension%title
       if (len(page%title) == 0) page%title = suspension%name
-      call add_fact(page, 'Deck', arguments%file)
+      call add_fact(page, 'Deck', settings%file)
       call add_fact(page, 'Model', suspension%name)
-      settings = ''
-      do k = 1, size(arguments%settings)
-         settings = settings//arguments%settings(k)%text//' '
+      changes = ''
+      do k = 1, settings%changes%count()
+         changes = changes//settings%changes%line(k)//' '
       end do
-      if (len(settings) > 0) call add_fact(page, 'Changed by --set', trim(settings))
+      if (len(changes) > 0) call add_fact(page, 'Changed by --set', trim(changes))
       if (size(suspension%wheels) > 0) call add_fact(page, 'Road at design', 'z = '//str(( &
          suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call add_fact(page, 'Deck checksum', checksum)

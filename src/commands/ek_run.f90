@@ -1,7 +1,7 @@
 !> elastokin run: deck → model → sweep → table → CSV and figures, case by case.
 module ek_run
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_usage, exit_convergence
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_file, only: make_folder, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
@@ -16,12 +16,20 @@ module ek_run
    use ek_figure, only: figure_t
    use ek_plot, only: run_figures
    use ek_gnuplot, only: write_figure, render_figures
-   use ek_arguments, only: arguments_t
+   use ek_command_line, only: command_line_t
    use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run
+
+   type :: settings_t
+      character(:), allocatable :: file, out         !! out: the folder, or - for standard output
+      character(:), allocatable :: case, method      !! '' for all, as in the deck
+      integer :: increments = 0                      !! 0: as in the deck
+      type(message_list_t) :: changes                !! --set path=value
+      logical :: has_plots = .false., has_compliance = .false., is_quiet = .false.
+   end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
 
@@ -29,44 +37,39 @@ contains
 
    !> Runs the chosen cases of a deck. Of a case that fails part way the converged states are written, and the other cases are
    !> run. The error at the end has the code of the first failure other than lack of convergence, otherwise exit_convergence.
-   subroutine run(arguments, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine run(line, error)
+      type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
+      type(settings_t) :: settings
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
-      character(:), allocatable :: checksum, folder, words
+      character(:), allocatable :: checksum, words
       integer :: k, failed, code
 
-      call load_deck(arguments, suspension, cases, checksum, error)
+      call read_settings(line, settings, error)
+      if (.not. allocated(error)) &
+         call load_deck(settings%file, settings%changes, suspension, cases, checksum, error, needs_tables=.false.)
+      if (.not. allocated(error)) &
+         call chosen_cases(settings%file, settings%case, settings%method, settings%increments, cases, chosen, error)
       if (allocated(error)) return
-      call chosen_cases(arguments, cases, chosen, error)
-      if (allocated(error)) return
-      folder = arguments%out
-      if (folder == '-' .and. size(chosen) > 1) then
-         call fail(error, exit_usage, '--out - writes one table, but '//arguments%file//' has '//str(size(chosen))// &
+      if (settings%out == '-' .and. size(chosen) > 1) then
+         call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
             ' cases; name one with --case')
          return
       end if
-      if (arguments%compliance) then
-         call refuse_double_files(chosen, error)
-         if (allocated(error)) return
-      end if
-      call examine_chosen(arguments, suspension, chosen, found, error)
+      if (settings%has_compliance) call refuse_double_files(chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
+      if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
+      if (.not. allocated(error)) call balance(suspension, chosen(1)%tolerance, error)
       if (allocated(error)) return
-      if (folder /= '-') then
-         call make_folder(folder, error)
-         if (allocated(error)) return
-      end if
-      call balance(suspension, chosen(1)%tolerance, error)
-      if (allocated(error)) return
-      call print_model_remarks(arguments%quiet, suspension, cases, chosen)
+      call print_model_remarks(settings%is_quiet, suspension, cases, chosen)
 
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
-         call run_case(arguments, suspension, chosen(k), found%faults%line(k), folder, checksum, unprinted, trouble)
+         call run_case(settings, suspension, chosen(k), found%faults%line(k), checksum, unprinted, trouble)
          if (.not. allocated(trouble)) cycle
          if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
             call move_alloc(trouble, error)
@@ -88,6 +91,28 @@ contains
       end if
    end subroutine run
 
+   subroutine read_settings(line, settings, error)
+      type(command_line_t), intent(in) :: line
+      type(settings_t), intent(out) :: settings
+      type(error_t), allocatable, intent(out) :: error        !! options that exclude each other
+
+      settings%file = line%files%line(1)
+      settings%out = line%value('--out', 'out')
+      settings%case = line%value('--case')
+      settings%method = line%value('--method')
+      settings%increments = line%number('--increments')
+      settings%changes = line%values('--set')
+      settings%has_plots = line%has('--plot')
+      settings%has_compliance = line%has('--compliance')
+      settings%is_quiet = line%has('--quiet')
+      if (settings%out /= '-') return
+      if (settings%has_plots) then
+         call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
+      else if (settings%has_compliance) then
+         call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
+      end if
+   end subroutine read_settings
+
    !> Refuses a case whose table would have the file name of another case's compliance matrix.
    subroutine refuse_double_files(cases, error)
       type(case_t), intent(in) :: cases(:)
@@ -105,12 +130,12 @@ contains
    end subroutine refuse_double_files
 
    !> One case: solve, report, write, draw.
-   subroutine run_case(arguments, base, wanted, fault, folder, checksum, unprinted, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine run_case(settings, base, wanted, fault, checksum, unprinted, error)
+      type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
-      character(*), intent(in) :: folder, checksum
+      character(*), intent(in) :: checksum
       type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
@@ -122,21 +147,21 @@ contains
       options%checksum = checksum
       call solve_case(base, wanted, options, result, show_progress)
       if (result%path%states > 1000) call clear_progress()
-      call print_remarks(arguments%quiet, result%remarks)
+      call print_remarks(settings%is_quiet, result%remarks)
       call failure_of(result, error)
       if (.not. result%is_run()) return
-      name = join_path(folder, result%suspension%name//'_'//wanted%name)
-      if (folder == '-') then
+      name = join_path(settings%out, result%suspension%name//'_'//wanted%name)
+      if (settings%out == '-') then
          call tell_csv(result%table, trouble)
       else
          call write_table(result%table, name//'.csv', unprinted, trouble)
          if (.not. allocated(trouble)) then
-            if (arguments%plot) call draw(arguments, result, folder, name, undrawn)
-            if (arguments%compliance) call write_compliance(result, checksum, name//compliance_ending, unprinted, trouble)
+            if (settings%has_plots) call draw(settings, result, name, undrawn)
+            if (settings%has_compliance) call write_compliance(result, checksum, name//compliance_ending, unprinted, trouble)
          end if
       end if
       if (.not. allocated(trouble) .and. len(wanted%target) > 0) &
-         call aim(arguments, result, checksum, folder, name//'_target.csv', unprinted, trouble)
+         call aim(settings, result, checksum, name//'_target.csv', unprinted, trouble)
       if (.not. allocated(trouble)) call move_alloc(undrawn, trouble)
       if (.not. allocated(trouble)) return
       if (allocated(error)) trouble%message = error%message//new_line('a')//trouble%message
@@ -158,10 +183,10 @@ contains
 
    !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
    !> results go to standard output). Not for the linear methods, whose states are not equilibria.
-   subroutine aim(arguments, result, checksum, folder, path, unprinted, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine aim(settings, result, checksum, path, unprinted, error)
+      type(settings_t), intent(in) :: settings
       type(case_result_t), intent(inout) :: result
-      character(*), intent(in) :: checksum, folder, path
+      character(*), intent(in) :: checksum, path
       type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(target_t) :: found
@@ -169,12 +194,12 @@ contains
 
       associate (case => result%case)
          if (case%method /= 'equilibrium') then
-            call print_note(arguments%quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
+            call print_note(settings%is_quiet, 'case '//quoted(case%name)//': a target is solved with method ''equilibrium'' only')
             return
          end if
          call find_target(result%suspension, case, result%path, result%table, result%kkt, found, error)
          if (allocated(error)) return
-         if (folder /= '-') then
+         if (settings%out /= '-') then
             call add_header(found%table, result%suspension, case, checksum)
             call found%table%header%add('target: '//found%column//' = '//str(found%wanted))
             call write_table(found%table, path, unprinted, error)
@@ -183,15 +208,15 @@ contains
          words = 'case '//quoted(case%name)//': '//found%column//' = '//str(found%wanted)//' at '//case%place_name//' = '// &
             str(found%place/case%unit, 9)//' '//case%unit_name
          if (found%crossings > 1) words = words//' (of '//str(found%crossings)//' solutions the nearest to design)'
-         call print_note(arguments%quiet, words)
+         call print_note(settings%is_quiet, words)
       end associate
    end subroutine aim
 
    !> Figures of a case.
-   subroutine draw(arguments, result, folder, name, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine draw(settings, result, name, error)
+      type(settings_t), intent(in) :: settings
       type(case_result_t), intent(in) :: result
-      character(*), intent(in) :: folder, name      !! name: path of the table without its ending
+      character(*), intent(in) :: name              !! path of the table without its ending
       type(error_t), allocatable, intent(out) :: error
       type(figure_t), allocatable :: figures(:)
       character(64), allocatable :: elements(:)
@@ -215,16 +240,16 @@ contains
          end if
       end associate
       do k = 1, size(figures)
-         call write_figure(figures(k), folder, error)
+         call write_figure(figures(k), settings%out, error)
          if (allocated(error)) return
       end do
-      call render_figures(figures, folder, message, error)
+      call render_figures(figures, settings%out, message, error)
       if (allocated(error)) return
       if (len(message) > 0) then
-         call print_note(arguments%quiet, message)
+         call print_note(settings%is_quiet, message)
       else
-         call print_note(arguments%quiet, 'case '//quoted(result%case%name)//': '//str(size(figures))//' figures in '//folder// &
-            ' ('//figures(1)%name//'.png …)')
+         call print_note(settings%is_quiet, 'case '//quoted(result%case%name)//': '//str(size(figures))//' figures in '// &
+            settings%out//' ('//figures(1)%name//'.png …)')
       end if
    end subroutine draw
 

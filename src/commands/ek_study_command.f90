@@ -3,15 +3,15 @@ module ek_study_command
    use ek_error, only: error_t, fail, exit_convergence, message_list_t
    use ek_text, only: plural
    use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists
-   use ek_deck, only: deck_t, read_deck
+   use ek_deck, only: deck_t
    use ek_table, only: table_t
    use ek_writer, only: writer_t, begin_part
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, read_study
    use ek_step_size, only: step_size_text
    use ek_factor_sweep, only: sweep_factors
-   use ek_arguments, only: arguments_t
-   use ek_load_deck, only: apply_settings
+   use ek_command_line, only: command_line_t
+   use ek_load_deck, only: read_changed
    use ek_console, only: print_note, print_warning, print_error, print_path
    implicit none(type, external)
    private
@@ -22,36 +22,33 @@ contains
    !> Tables are written to DIR (default: out, beside the study) row by row: if a study is killed, its finished rows stay in
    !> DIR/<table>.csv.<…>.part. gnuplot then runs the study's plot script; its variable `out` is the folder of the tables and
    !> figures.
-   subroutine run_study_command(arguments, error)
-      type(arguments_t), intent(in) :: arguments
+   subroutine run_study_command(line, error)
+      type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted, undrawn
       type(message_list_t) :: tables
       type(study_t) :: study
       type(deck_t) :: deck
-      character(:), allocatable :: home, out, path
+      character(:), allocatable :: home, out
+      integer :: k
 
-      call read_study(arguments%file, study, error)
+      call read_study(line%files%line(1), study, error)
       if (allocated(error)) return
-      home = folder_name(arguments%file)
-      out = arguments%out
-      if (len(out) == 0) out = join_path(home, 'out')
-      path = study%deck
-      if (path(1:1) /= '/') path = join_path(home, path)
-      call read_deck(path, deck, error)
+      home = folder_name(line%files%line(1))
+      out = line%value('--out', join_path(home, 'out'))
+      call read_changed(join_path(home, study%deck), line%values('--set'), deck, error)
+      if (.not. allocated(error)) call make_folder(out, error)
       if (allocated(error)) return
-      call apply_settings(arguments, deck, error)
-      if (allocated(error)) return
-      call make_folder(out, error)
-      if (allocated(error)) return
-
       if (study%kind == 'step_size') then
-         call run_step_size(study, deck, out, tables, unprinted, error)
+         call run_step_size(study, deck, out, tables, error)
       else
-         call run_sweep(study, deck, out, tables, unprinted, error)
+         call run_sweep(study, deck, out, tables, error)
       end if
       if (tables%count() == 0) return
-      call draw(arguments, study, home, tables, out, undrawn)
+      do k = 1, tables%count()
+         call print_path(join_path(out, tables%line(k)), unprinted)
+      end do
+      call draw(line%has('--quiet'), join_path(home, study%plot), tables, out, undrawn)
       if (allocated(undrawn)) then
          if (allocated(error)) call print_error(undrawn%message)
          if (.not. allocated(error)) call move_alloc(undrawn, error)
@@ -60,12 +57,11 @@ contains
    end subroutine run_study_command
 
    !> out/<study>.csv
-   subroutine run_step_size(study, deck, out, tables, unprinted, error)
+   subroutine run_step_size(study, deck, out, tables, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! the tables written
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(message_list_t), intent(inout) :: tables      !! names of the tables written
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: writer
       character(:), allocatable :: text
@@ -74,16 +70,15 @@ contains
       if (.not. allocated(error)) call step_size_text(study, deck, text, error, writer)
       if (.not. allocated(error)) call writer%finish(error)
       call writer%abandon()                              ! no effect on a finished table
-      if (.not. allocated(error)) call note(study%name//'.csv', out, tables, unprinted)
+      if (.not. allocated(error)) call tables%add(study%name//'.csv')
    end subroutine run_step_size
 
    !> out/<study>_curves.csv and out/<study>_responses.csv
-   subroutine run_sweep(study, deck, out, tables, unprinted, error)
+   subroutine run_sweep(study, deck, out, tables, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! the tables written: both or none
-      type(error_t), allocatable, intent(inout) :: unprinted
+      type(message_list_t), intent(inout) :: tables      !! names of the tables written: both or none
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: curves, responses
       type(writer_t) :: curve_writer, response_writer
@@ -99,8 +94,8 @@ contains
       call curve_writer%abandon()                        ! no effect on a finished table
       call response_writer%abandon()
       if (allocated(error)) return
-      call note(study%name//'_curves.csv', out, tables, unprinted)
-      call note(study%name//'_responses.csv', out, tables, unprinted)
+      call tables%add(study%name//'_curves.csv')
+      call tables%add(study%name//'_responses.csv')
       do k = 1, troubles%count()
          call print_warning(troubles%line(k))
       end do
@@ -108,33 +103,20 @@ contains
          'designs of the study are')//' incomplete (see the warnings above); the others were written')
    end subroutine run_sweep
 
-   !> Prints the path of a written table and keeps its name for the plot script.
-   subroutine note(name, out, tables, unprinted)
-      character(*), intent(in) :: name, out
-      type(message_list_t), intent(inout) :: tables
-      type(error_t), allocatable, intent(inout) :: unprinted     !! the path could not be printed
-
-      call tables%add(name)
-      call print_path(join_path(out, name), unprinted)
-   end subroutine note
-
    !> Runs the study's plot script over the tables.
-   subroutine draw(arguments, study, home, tables, out, error)
-      type(arguments_t), intent(in) :: arguments
-      type(study_t), intent(in) :: study
-      character(*), intent(in) :: home, out
+   subroutine draw(is_quiet, script, tables, out, error)
+      logical, intent(in) :: is_quiet
+      character(*), intent(in) :: script, out
       type(message_list_t), intent(in) :: tables
       type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: script
 
-      script = join_path(home, study%plot)
       if (.not. file_exists(script)) return
       if (.not. program_exists('gnuplot')) then
-         call print_note(arguments%quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
+         call print_note(is_quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
          return
       end if
       call run_plot_script(script, tables, out, error)
-      if (.not. allocated(error)) call print_note(arguments%quiet, 'figures in '//out)
+      if (.not. allocated(error)) call print_note(is_quiet, 'figures in '//out)
    end subroutine draw
 
 end module ek_study_command

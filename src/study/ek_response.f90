@@ -7,11 +7,11 @@ module ek_response
    use ek_kinds, only: wp
    use ek_text, only: str, quoted, nearest_name, plural
    use ek_quantity, only: slope_unit
-   use ek_table, only: table_t, column_index
+   use ek_table, only: table_t, column_index, name_length
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, needed_columns, prepare_reading, read_response
+   public :: reading_t, needed_columns, no_column, prepare_reading, read_response
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -26,32 +26,31 @@ module ek_response
 contains
 
    !> The columns from which a response may be read.
-   pure subroutine needed_columns(asked, names)
+   subroutine needed_columns(asked, names)
       type(response_t), intent(in) :: asked
       character(*), intent(inout), allocatable :: names(:)      !! those that are needed are added
       integer :: mark
 
-      call add(names, asked%column)
+      call add(asked%column)
       if (asked%of /= 'slope') return
-      call add(names, asked%over)
+      call add(asked%over)
       if (asked%over /= '') return
-      call add(names, travel)                                   ! as in usual_over
-      call add(names, 'left_'//travel)
+      call add(travel)                                          ! as in usual_over
+      call add('left_'//travel)
       mark = index(asked%column, '_')
-      call add(names, asked%column(:mark)//travel)
+      call add(asked%column(:mark)//travel)
 
    contains
 
-      pure subroutine add(list, name)
-         character(*), intent(inout), allocatable :: list(:)
+      subroutine add(name)
          character(*), intent(in) :: name
-         character(len(list)), allocatable :: more(:)
+         character(len(names)), allocatable :: more(:)
 
-         if (any(list == name)) return
-         allocate (more(size(list) + 1))
-         more(:size(list)) = list
+         if (any(names == name)) return
+         allocate (more(size(names) + 1))
+         more(:size(names)) = names
          more(size(more)) = name
-         call move_alloc(more, list)
+         call move_alloc(more, names)
       end subroutine add
 
    end subroutine needed_columns
@@ -64,22 +63,27 @@ contains
       type(reading_t), intent(out) :: reading
       character(:), allocatable, intent(out) :: message
       character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default those of the table
+      character(name_length), allocatable :: names(:)
       character(:), allocatable :: unit
       real(wp) :: value
+      integer :: at
 
       reading%asked = asked
       reading%over = asked%over
       reading%head = asked%name
+      names = table%columns
+      if (present(heads)) names = heads
       message = ''
-      if (column_index(table, asked%column) == 0) message = no_column(asked%column, table, heads)
+      if (column_index(table, asked%column) == 0) message = no_column(asked%column, names)
       if (asked%of == 'slope') then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          if (message == '' .and. column_index(table, reading%over) == 0) then
-            message = no_column(reading%over, table, heads)
+            message = no_column(reading%over, names)
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
          call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
-         if (.not. ends_with(asked%name, '_'//unit)) reading%head = asked%name//'_'//unit
+         at = len(asked%name) - len(unit)
+         if (index(asked%name, '_'//unit, back=.true.) /= max(at, 1)) reading%head = asked%name//'_'//unit
       end if
       if (message == '') call read_response(reading, table, value, message)
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
@@ -96,16 +100,17 @@ contains
       real(wp) :: at, centre, mean_x, mean_y, spread
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
-      integer :: k
+      integer :: k, column, over
 
       message = ''
       value = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (column_index(table, reading%asked%column) == 0) message = no_column(reading%asked%column, table)
-      if (allocated(reading%over) .and. reading%asked%of == 'slope') then
-         if (column_index(table, reading%over) == 0) message = no_column(reading%over, table)
-      end if
+      column = column_index(table, reading%asked%column)
+      over = 2                                   ! the factor
+      if (reading%asked%of == 'slope') over = column_index(table, reading%over)
+      if (column == 0) message = no_column(reading%asked%column, table%columns)
+      if (over == 0) message = no_column(reading%over, table%columns)
       if (message /= '') return                  ! the model of this design does not define it
-      y = table%values(column_index(table, reading%asked%column), :)
+      y = table%values(column, :)
       if (reading%asked%of == 'span') then
          value = maxval(y) - minval(y)
          return
@@ -123,10 +128,8 @@ contains
          value = between(x, y, at)
          return
       end if
-      y = table%values(column_index(table, reading%over), :)
-      centre = between(x, y, at)
-      x = y
-      y = table%values(column_index(table, reading%asked%column), :)
+      centre = between(x, table%values(over, :), at)
+      x = table%values(over, :)
       if (.not. ieee_is_finite(centre)) return          ! the state did not converge, or the column is undefined there
       is_near = .false.
       do k = 1, size(x)
@@ -188,25 +191,12 @@ contains
       if (column_index(table, column(:mark)//travel) > 0) over = column(:mark)//travel
    end function usual_over
 
-   pure logical function ends_with(text, ending)
-      character(*), intent(in) :: text, ending
-
-      ends_with = .false.
-      if (len(text) >= len(ending)) ends_with = text(len(text) - len(ending) + 1:) == ending
-   end function ends_with
-
    !> The message about a missing column, with a suggestion.
-   function no_column(name, table, heads) result(words)
-      character(*), intent(in) :: name
-      type(table_t), intent(in) :: table
-      character(*), intent(in), optional :: heads(:)
+   pure function no_column(name, heads) result(words)
+      character(*), intent(in) :: name, heads(:)
       character(:), allocatable :: words
 
-      if (present(heads)) then
-         words = nearest_name(name, heads)
-      else
-         words = nearest_name(name, table%columns)
-      end if
+      words = nearest_name(name, heads)
       if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
       words = 'the results have no column '//quoted(name)//words
    end function no_column

@@ -1,12 +1,14 @@
 !> Reads a study from its namelist file, with the scanner and the messages of the deck reader.
 !>
 !> `&study` defines the study, `&factor` a value of the deck that is varied, `&response` a value read from
-!> the results. Kinds: 'step_size' and 'sweep'; a new kind is added as a new file in this folder.
+!> the results. The kinds of studies are those of ek_sampler.
 module ek_study
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, lower, quoted
    use ek_case, only: method_names, most_increments
+   use ek_factor, only: factor_t
+   use ek_sampler, only: kind_t, kinds
    use ek_complaint, only: place_t
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, most_values, &
@@ -17,14 +19,7 @@ module ek_study
       texts_of, number_of, numbers_of, whole_of, value_count
    implicit none(type, external)
    private
-   public :: study_t, factor_t, response_t, read_study
-
-   !> A number of the deck that takes several values.
-   type :: factor_t
-      character(:), allocatable :: name, path     !! path as in --set
-      real(wp), allocatable :: values(:)          !! in the deck's units
-      character(:), allocatable :: where          !! 'file:line', for messages
-   end type factor_t
+   public :: study_t, response_t, read_study
 
    !> A number read from the table of a run.
    type :: response_t
@@ -150,11 +145,10 @@ contains
    subroutine take_study(draft, study)
       type(draft_t), intent(inout) :: draft
       type(study_t), intent(inout) :: study
-      character(*), parameter :: kinds(2) = [character(9) :: 'step_size', 'sweep']
       character(word_length) :: words(20)
       integer :: c, m
 
-      call choice(draft, 'kind', kinds, c)
+      call choice(draft, 'kind', kinds%name, c)
       study%kind = lower(text_of(draft, 'kind'))
       call choice(draft, 'end', [character(4) :: 'from', 'to'], c)
       study%end = lower(text_of(draft, 'end', 'to'))
@@ -243,13 +237,13 @@ contains
    subroutine check_whole(draft, study)
       type(draft_t), intent(inout) :: draft
       type(study_t), intent(in) :: study
+      type(kind_t) :: kind
 
       draft%k = findloc(draft%cards%group, study_group, dim=1)
-      if (study%kind == 'step_size') then
-         if (size(study%increments) == 0) call complain(draft, '', 'kind = ''step_size'' needs increments = …')
-      else if (size(study%factors) < 1 .or. size(study%factors) > 2) then
-         call complain(draft, '', 'kind = ''sweep'' needs one or two &factor groups')
-      end if
+      kind = kinds(findloc(kinds%name == study%kind, .true., dim=1))
+      if (size(study%factors) < kind%least_factors .or. size(study%factors) > kind%most_factors .or. &
+         size(study%increments) < kind%least_increments) call complain(draft, '', 'kind = '//quoted(kind%name)//' needs '// &
+         trim(kind%needs))
    end subroutine check_whole
 
 end module ek_study
