@@ -1,11 +1,12 @@
 !> Files and folders. A file is written completely or not at all (ek_writer); no shell is ever started.
 module ek_file
    use, intrinsic :: iso_fortran_env, only: output_unit
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file
-   use ek_posix, only: c_write, c_mkdir, c_remove, c_access, c_isatty
-   use ek_system, only: facts_t, facts_of, folder_file, device_file, other_file, error_number, system_reason, broken_pipe
+   use ek_posix, only: c_mkdir, c_remove, c_access, c_isatty
+   use ek_system, only: facts_t, facts_of, regular_file, device_file, other_file, error_number, system_reason, broken_pipe, &
+      folder_exists, write_bytes
    use ek_writer, only: writer_t, begin_file, remove_stale
    implicit none(type, external)
    private
@@ -42,7 +43,7 @@ contains
       integer :: ignored
 
       flush (output_unit, iostat=ignored)
-      if (is_written(1_c_int, text)) return
+      if (write_bytes(1_c_int, text)) return
       if (error_number() == broken_pipe) then
          call fail(error, exit_file, '')
       else
@@ -55,28 +56,8 @@ contains
       character(*), intent(in) :: text
       logical :: ignored
 
-      ignored = is_written(2_c_int, text)
+      ignored = write_bytes(2_c_int, text)
    end subroutine write_standard_error
-
-   !> Write all bytes of a text to an open descriptor.
-   logical function is_written(descriptor, text)
-      integer(c_int), intent(in) :: descriptor
-      character(*), intent(in) :: text
-      integer, parameter :: interrupted = 4                  ! EINTR
-      integer(c_size_t) :: done, now
-
-      is_written = .true.
-      done = 0
-      do while (done < len(text, c_size_t))
-         now = c_write(descriptor, text(done + 1:), len(text, c_size_t) - done)
-         if (now < 1) then                                   ! a ssize_t: negative on failure
-            if (error_number() == interrupted) cycle
-            is_written = .false.
-            return
-         end if
-         done = done + now
-      end do
-   end function is_written
 
    !> Read the whole content of a file, byte for byte.
    !>
@@ -88,21 +69,23 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       logical, intent(in), optional :: may_stream            !! if absent or .false., it must be a regular file
       type(facts_t) :: facts
+      logical :: streams
       character(200) :: reason
       integer(i8) :: size
       integer :: unit, status, ignored
 
       text = ''
+      streams = .false.
       if (folder_exists(path)) then
          call fail(error, exit_file, "cannot read '"//path//"': it is a folder")
          return
       end if
-      if (.not. is_true(may_stream)) then
-         facts = facts_of(path, follow=.true.)
-         if (facts%kind == device_file .or. facts%kind == other_file) then
-            call fail(error, exit_file, "cannot read '"//path//"': it is a pipe or a device, not a regular file")
-            return
-         end if
+      facts%kind = regular_file
+      if (present(may_stream)) streams = may_stream
+      if (.not. streams) facts = facts_of(path, follow=.true.)
+      if (facts%kind == device_file .or. facts%kind == other_file) then
+         call fail(error, exit_file, "cannot read '"//path//"': it is a pipe or a device, not a regular file")
+         return
       end if
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
          status='old', iostat=status, iomsg=reason)
@@ -127,17 +110,11 @@ contains
       end if
       if (status /= 0) then
          text = ''
-         call fail(error, exit_file, "cannot read '"//path//"': "//short_reason(reason))
+         ! of gfortran's "Cannot open file 'x': No such file or directory" the last part
+         call fail(error, exit_file, "cannot read '"//path//"': "// &
+            trim(adjustl(reason(index(trim(reason), ': ', back=.true.) + 1:))))
       end if
    end subroutine read_whole
-
-   !> The value of an optional argument whose default is .false.
-   pure logical function is_true(flag)
-      logical, intent(in), optional :: flag
-
-      is_true = .false.
-      if (present(flag)) is_true = flag
-   end function is_true
 
    !> Read a pipe, whose size is unknown beforehand, up to the largest allowed size.
    subroutine read_stream(unit, text)
@@ -199,14 +176,6 @@ contains
       character(*), intent(in) :: path
       file_exists = c_access(path//c_null_char, may_exist) == 0
    end function file_exists
-
-   !> Is this name a folder?
-   logical function folder_exists(path)
-      character(*), intent(in) :: path
-
-      folder_exists = .false.
-      if (len(path) > 0) folder_exists = c_access(path//'/.'//c_null_char, may_exist) == 0
-   end function folder_exists
 
    !> Can a program of this name be started? It must be in PATH or, if the name contains a slash, exist at that path.
    logical function program_exists(name) result(is_there)
@@ -282,14 +251,5 @@ contains
       dot = index(name, '.', back=.true.)
       if (dot > 1) name = name(:dot - 1)
    end function base_name
-
-   !> The last part of gfortran's "Cannot open file 'x': No such file or directory".
-   pure function short_reason(message) result(reason)
-      character(*), intent(in) :: message
-      character(:), allocatable :: reason
-
-      reason = trim(message(index(message, ': ', back=.true.) + 1:))
-      reason = trim(adjustl(reason))
-   end function short_reason
 
 end module ek_file

@@ -2,13 +2,11 @@
 module ek_letters
    implicit none(type, external)
    private
-   public :: visible, bad_byte, as_utf8, is_wide, with_line_ends, line_count, save_as_utf8
+   public :: visible, printable, bad_byte, as_utf8, is_wide, with_line_ends, line_count, save_as_utf8
 
    !> The message for a file for which is_wide is true.
    character(*), parameter :: save_as_utf8 = &
       "this is not UTF-8 text (it is UTF-16 or not a text file); save it as UTF-8 (in a spreadsheet: 'CSV UTF-8')"
-
-   character(*), parameter :: hexadecimal = '0123456789ABCDEF'
 
 contains
 
@@ -17,6 +15,22 @@ contains
    !> `<E4>`. Line ends and ordinary blanks are kept.
    pure function visible(text) result(seen)
       character(*), intent(in) :: text
+      character(:), allocatable :: seen
+      seen = with_numbers(text, .true.)
+   end function visible
+
+   !> A text that is safe to show on a terminal: control characters, which could move the cursor or set colours, become
+   !> `<U+001B>`. Line ends, tabs and all other bytes are kept.
+   pure function printable(text) result(shown)
+      character(*), intent(in) :: text
+      character(:), allocatable :: shown
+      shown = with_numbers(text, .false.)
+   end function printable
+
+   !> A text with numbers in place of control characters, or (`of_all`) of every invisible character and bad byte.
+   pure function with_numbers(text, of_all) result(seen)
+      character(*), intent(in) :: text
+      logical, intent(in) :: of_all
       character(:), allocatable :: seen
       integer :: k, first, length, code
 
@@ -30,17 +44,17 @@ contains
             cycle
          end if
          call decode(text, k, code, length)
-         if (length == 0) then
+         if (length == 0 .and. of_all) then
             seen = seen//text(first:k - 1)//'<'//byte_text(ichar(text(k:k)))//'>'
             first = k + 1
-         else if (is_invisible(code)) then
+         else if (length > 0 .and. is_hidden(code, of_all)) then
             seen = seen//text(first:k - 1)//'<U+'//byte_text(code/256)//byte_text(mod(code, 256))//'>'
             first = k + length
          end if
          k = k + max(length, 1)
       end do
       seen = seen//text(first:)
-   end function visible
+   end function with_numbers
 
    !> Position of the first byte that is not valid UTF-8; 0 if there is none.
    pure integer function bad_byte(text) result(k)
@@ -123,22 +137,12 @@ contains
       integer, intent(in) :: k
       integer, intent(out) :: code, length
       integer, parameter :: least(4) = [0, 128, 2048, 65536]      ! smallest number for each length (longer encodings are invalid)
+      integer, parameter :: first(4) = [0, 194, 224, 240], last(4) = [127, 223, 239, 244], mark(4) = [0, 192, 224, 240]
       integer :: j, byte
 
-      length = 0
       code = ichar(text(k:k))
-      if (code < 128) then
-         length = 1
-      else if (code >= 194 .and. code < 224) then
-         length = 2
-         code = code - 192
-      else if (code >= 224 .and. code < 240) then
-         length = 3
-         code = code - 224
-      else if (code >= 240 .and. code < 245) then
-         length = 4
-         code = code - 240
-      end if
+      length = findloc(code >= first .and. code <= last, .true., dim=1)      ! 0: no first byte of a character
+      if (length > 1) code = code - mark(length)
       if (k + length - 1 > len(text)) length = 0
       do j = k + 1, k + length - 1
          byte = ichar(text(j:j))
@@ -150,24 +154,27 @@ contains
       if (code < least(length) .or. code > 1114111 .or. (code >= 55296 .and. code < 57344)) length = 0
    end subroutine decode
 
-   !> Control characters, blanks other than the ordinary one, soft hyphen, zero-width characters, direction marks.
-   pure logical function is_invisible(code)
+   !> Control characters; of all invisible ones also tab, other blanks, soft hyphen, zero-width characters, direction marks.
+   pure logical function is_hidden(code, of_all)
       integer, intent(in) :: code
+      logical, intent(in) :: of_all
 
       select case (code)
-      case (0:9, 11:31, 127:160, 173, 847, 1564, 5760, 6155:6158, 8192:8207, 8232:8239, 8287:8303, 12288, 65279)
-         is_invisible = .true.
+      case (0:8, 11:31, 127:159)
+         is_hidden = .true.
+      case (9, 160, 173, 847, 1564, 5760, 6155:6158, 8192:8207, 8232:8239, 8287:8303, 12288, 65279)
+         is_hidden = of_all
       case default
-         is_invisible = .false.
+         is_hidden = .false.
       end select
-   end function is_invisible
+   end function is_hidden
 
    !> Two hexadecimal digits.
    pure function byte_text(byte) result(digits)
       integer, intent(in) :: byte
       character(2) :: digits
 
-      digits = hexadecimal(byte/16 + 1:byte/16 + 1)//hexadecimal(mod(byte, 16) + 1:mod(byte, 16) + 1)
+      write (digits, '(z2.2)') byte
    end function byte_text
 
 end module ek_letters

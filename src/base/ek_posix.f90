@@ -7,7 +7,7 @@ module ek_posix
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t
    implicit none(type, external)
    private
-   public :: c_fopen, c_fwrite, c_write, c_fflush, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir
+   public :: c_fopen, c_write, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir
    public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
       c_close
    public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw
@@ -18,22 +18,12 @@ module ek_posix
          import :: c_ptr, c_char
          character(kind=c_char), intent(in) :: path(*), mode(*)
       end function c_fopen
-      integer(c_size_t) function c_fwrite(bytes, size, count, stream) bind(c, name='fwrite')
-         import :: c_ptr, c_char, c_size_t
-         character(kind=c_char), intent(in) :: bytes(*)
-         integer(c_size_t), value :: size, count
-         type(c_ptr), value :: stream
-      end function c_fwrite
       integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
          import :: c_int, c_char, c_size_t
          integer(c_int), value :: descriptor
          character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value :: count
       end function c_write
-      integer(c_int) function c_fflush(stream) bind(c, name='fflush')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fflush
       integer(c_int) function c_fileno(stream) bind(c, name='fileno')
          import :: c_int, c_ptr
          type(c_ptr), value :: stream

@@ -4,9 +4,10 @@ module ek_process
    use ek_kinds, only: wp
    use ek_clock, only: seconds
    use ek_error, only: message_list_t
+   use ek_text, only: str
    use ek_posix, only: c_fopen, c_fileno, c_fclose, c_dup2, c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, &
       c_kill, c_waitpid, c_poll
-   use ek_system, only: set_signal, system_reason, error_number
+   use ek_system, only: set_signal, system_reason, error_number, interrupted
    implicit none(type, external)
    private
    public :: run_program
@@ -72,10 +73,8 @@ contains
       integer, intent(out) :: status
       character(:), allocatable, intent(inout) :: trouble
       integer(c_int), parameter :: at_once = 1, until_then = 0      ! WNOHANG
-      integer, parameter :: interrupted = 4                   ! EINTR
       integer(c_int) :: word, found
       integer :: nap, ignored
-      character(12) :: number
       real(wp) :: deadline
 
       status = 0                                              ! status collected elsewhere: the pictures themselves decide
@@ -96,8 +95,7 @@ contains
                if (found >= 0) exit
                if (error_number() /= interrupted) exit
             end do
-            write (number, '(i0)') limit
-            trouble = 'it did not finish within '//trim(number)//' s and was stopped'
+            trouble = 'it did not finish within '//str(limit)//' s and was stopped'
             exit
          end if
          ignored = c_poll(c_null_ptr, 0_c_long, int(nap, c_int))

@@ -9,15 +9,17 @@ module ek_system
    use ek_kinds, only: i8
    use ek_error, only: message_list_t
    use ek_posix, only: c_opendir, c_readdir, c_closedir, c_flock, c_getcwd_raw, c_signal, c_gethostname, c_errno, &
-      c_strerror, c_strlen, c_dlsym
+      c_strerror, c_strlen, c_dlsym, c_write, c_access
    implicit none(type, external)
    private
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
    public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, reason_of, system_reason, set_signal
-   public :: already_there, broken_pipe, not_for_this_kind
+   public :: folder_exists, write_bytes
+   public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
    ! errno, the same on all systems
-   integer, parameter :: no_such_entry = 2, already_there = 17, no_folder = 20, not_for_this_kind = 22, broken_pipe = 32
+   integer, parameter :: no_such_entry = 2, interrupted = 4, already_there = 17, no_folder = 20, not_for_this_kind = 22, &
+      broken_pipe = 32
 
    integer, parameter :: unknown_file = -1, no_file = 0, regular_file = 1, folder_file = 2, device_file = 3, link_file = 4, &
       other_file = 5                                !! other: a named pipe, a socket
@@ -27,7 +29,6 @@ module ek_system
       integer :: kind = unknown_file
       integer(i8) :: inode = 0, device = 0          !! together: identity of the file
       integer(i8) :: changed = 0                    !! last modification [s since 1970]
-      integer(i8) :: owner = -1
    end type facts_t
 
    integer, parameter :: most_letters = 4096         !! longest path
@@ -82,7 +83,6 @@ contains
       case default
          facts%kind = other_file
       end select
-      facts%owner = number_at(20, 4)
       facts%inode = number_at(32, 8)
       facts%changed = number_at(112, 8)
       facts%device = number_at(136, 4)*2_i8**31 + number_at(140, 4)
@@ -146,12 +146,11 @@ contains
    function random_tag(attempt) result(tag)
       integer, intent(in) :: attempt
       character(16) :: tag
-      character(16), parameter :: digits = '0123456789abcdef'
       character(kind=c_char) :: bytes(8)
       procedure(random_procedure), pointer :: getentropy
       type(c_funptr) :: address
       integer(i8) :: ticks
-      integer :: k, value
+      integer :: k
 
       address = c_dlsym(c_null_ptr, 'getentropy'//c_null_char)
       bytes = c_null_char
@@ -165,11 +164,7 @@ contains
          ticks = ieor(ticks, ishft(int(attempt, i8), 40))
          bytes = [(achar(int(iand(ishft(ticks, -8*k), 255_i8))), k=0, 7)]
       end if
-      do k = 1, 8
-         value = iachar(bytes(k))
-         tag(2*k - 1:2*k - 1) = digits(value/16 + 1:value/16 + 1)
-         tag(2*k:2*k) = digits(modulo(value, 16) + 1:modulo(value, 16) + 1)
-      end do
+      write (tag, '(8z2.2)') iachar(bytes)
    end function random_tag
 
    !> 8 characters that distinguish this running system from others with access to the same folder: from its boot id, or else
@@ -189,11 +184,7 @@ contains
       if (status /= 0 .or. len_trim(text) < 8) then
          letters = c_null_char
          text = ''
-         if (c_gethostname(letters, 64_c_size_t) == 0) then
-            do k = 1, 64
-               if (letters(k) /= c_null_char) text(k:k) = letters(k)
-            end do
-         end if
+         if (c_gethostname(letters, 64_c_size_t) == 0) text = text_of(letters)
       end if
       tag = '00000000'
       filled = 0
@@ -209,17 +200,52 @@ contains
    function working_folder() result(path)
       character(:), allocatable :: path
       character(kind=c_char) :: letters(most_letters)
-      integer :: k
 
       path = '.'
       letters = c_null_char
       if (.not. c_associated(c_getcwd_raw(letters, int(most_letters, c_size_t)))) return
-      path = ''
-      do k = 1, most_letters
-         if (letters(k) == c_null_char) exit
-         path = path//letters(k)
-      end do
+      path = text_of(letters)
    end function working_folder
+
+   !> The characters before the first null.
+   pure function text_of(letters) result(text)
+      character(kind=c_char), intent(in) :: letters(:)
+      character(:), allocatable :: text
+      integer :: k
+
+      text = repeat(' ', size(letters))
+      do k = 1, size(letters)
+         if (letters(k) == c_null_char) exit
+         text(k:k) = letters(k)
+      end do
+      text = text(:k - 1)
+   end function text_of
+
+   !> Whether a name is a folder.
+   logical function folder_exists(path)
+      character(*), intent(in) :: path
+
+      folder_exists = .false.
+      if (len(path) > 0) folder_exists = c_access(path//'/.'//c_null_char, 0_c_int) == 0      ! F_OK
+   end function folder_exists
+
+   !> Writes all bytes of a text to an open descriptor; .false. after a failure.
+   logical function write_bytes(descriptor, text)
+      integer(c_int), intent(in) :: descriptor
+      character(*), intent(in) :: text
+      integer(c_size_t) :: done, now
+
+      done = 0
+      do while (done < len(text, c_size_t))
+         now = c_write(descriptor, text(done + 1:), len(text, c_size_t) - done)
+         if (now < 1) then                                   ! a ssize_t: negative on failure
+            if (error_number() == interrupted) cycle
+            exit
+         end if
+         done = done + now
+      end do
+      write_bytes = done == len(text, c_size_t)
+   end function write_bytes
 
    !> Sets the action of a signal: ignored (`is_ignored`), or the system's default.
    subroutine set_signal(number, is_ignored)
@@ -253,16 +279,12 @@ contains
       character(:), allocatable :: reason
       character(kind=c_char), pointer :: letters(:)
       type(c_ptr) :: text
-      integer :: k
 
       text = c_strerror(int(number, c_int))
       reason = 'unknown reason'
       if (.not. c_associated(text)) return
       call c_f_pointer(text, letters, [c_strlen(text)])
-      reason = repeat(' ', size(letters))
-      do k = 1, size(letters)
-         reason(k:k) = letters(k)
-      end do
+      reason = text_of(letters)
    end function reason_of
 
 end module ek_system

@@ -2,7 +2,7 @@
 module ek_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_is_finite
    use ek_kinds, only: wp
-   use ek_letters, only: visible
+   use ek_letters, only: visible, printable
    implicit none(type, external)
    private
    public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable, spaced
@@ -13,55 +13,6 @@ module ek_text
    end interface str
 
 contains
-
-   !> A text that is safe to show on a terminal: control characters, which could move the cursor or set colours, become
-   !> `<U+001B>`. Line ends, tabs and all other UTF-8 characters are kept.
-   pure function printable(text) result(shown)
-      character(*), intent(in) :: text
-      character(:), allocatable :: shown
-      character(16), parameter :: digits = '0123456789ABCDEF'
-      integer :: k, code, used, at
-
-      used = 0
-      do k = 1, len(text)
-         if (control_code(text, k) >= 0) used = used + 1
-      end do
-      if (used == 0) then
-         shown = text
-         return
-      end if
-      allocate (character(len(text) + 8*used) :: shown)
-      at = 0
-      k = 1
-      do while (k <= len(text))
-         code = control_code(text, k)
-         if (code >= 0) then
-            shown(at + 1:at + 8) = '<U+00'//digits(code/16 + 1:code/16 + 1)//digits(modulo(code, 16) + 1:modulo(code, 16) + 1)//'>'
-            at = at + 8
-            if (code >= 128 .and. iachar(text(k:k)) == 194) k = k + 1      ! two bytes of UTF-8
-         else
-            at = at + 1
-            shown(at:at) = text(k:k)
-         end if
-         k = k + 1
-      end do
-      shown = shown(:at)
-   end function printable
-
-   !> The code of the control character at a position, U+0000 … U+001F or U+007F … U+009F; −1 if there is none.
-   pure integer function control_code(text, at) result(code)
-      character(*), intent(in) :: text
-      integer, intent(in) :: at
-
-      code = iachar(text(at:at))
-      if (code == 194 .and. at < len(text)) then
-         code = iachar(text(at + 1:at + 1))
-         if (code >= 128 .and. code < 160) return
-         code = -1
-      else if (code == 9 .or. code == 10 .or. (code >= 32 .and. code /= 127)) then
-         code = -1
-      end if
-   end function control_code
 
    !> An integer without blanks.
    pure function str_integer(value) result(text)

@@ -6,8 +6,7 @@ module ek_units
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: units_t, new_units, is_length_unit, is_force_unit, is_angle_unit
-   public :: pi, degree, millimetre
+   public :: units_t, new_units, pi, degree, millimetre
 
    real(wp), parameter :: pi = acos(-1.0_wp)
    real(wp), parameter :: degree = pi/180.0_wp      !! rad
@@ -22,45 +21,15 @@ module ek_units
 
 contains
 
-   !> Units by name; the names must have been checked by the is_* functions.
+   !> Units by their legal names.
    pure type(units_t) function new_units(length, force, angle) result(units)
       character(*), intent(in) :: length   !! 'mm' or 'm'
       character(*), intent(in) :: force    !! 'N' or 'kN'
       character(*), intent(in) :: angle    !! 'deg' or 'rad'
 
-      if (length == 'm') then
-         units%length = 1.0_wp
-      else
-         units%length = millimetre
-      end if
-      if (force == 'kN' .or. force == 'kn') then
-         units%force = 1000.0_wp
-      else
-         units%force = 1.0_wp
-      end if
-      if (angle == 'rad') then
-         units%angle = 1.0_wp
-      else
-         units%angle = degree
-      end if
+      if (length == 'm') units%length = 1.0_wp
+      if (force == 'kN' .or. force == 'kn') units%force = 1000.0_wp
+      if (angle == 'rad') units%angle = 1.0_wp
    end function new_units
-
-   !> Whether a deck may give lengths in this unit.
-   pure logical function is_length_unit(name)
-      character(*), intent(in) :: name
-      is_length_unit = name == 'mm' .or. name == 'm'
-   end function is_length_unit
-
-   !> Whether a deck may give forces in this unit; lower case is accepted.
-   pure logical function is_force_unit(name)
-      character(*), intent(in) :: name
-      is_force_unit = name == 'N' .or. name == 'n' .or. name == 'kN' .or. name == 'kn'
-   end function is_force_unit
-
-   !> Whether a deck may give angles in this unit.
-   pure logical function is_angle_unit(name)
-      character(*), intent(in) :: name
-      is_angle_unit = name == 'deg' .or. name == 'rad'
-   end function is_angle_unit
 
 end module ek_units

@@ -15,23 +15,24 @@
 !> A part is the temporary file of a long run: `<path>.<machine>-<random>.part`. If the run is killed it remains, with
 !> everything that was flushed, until a later run finishes the same file.
 module ek_writer
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_size_t, c_associated
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_char, c_null_ptr, c_ptr, c_associated
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file, message_list_t
    use ek_buffer, only: buffer_t
    use ek_clock, only: seconds_since_1970
-   use ek_posix, only: c_fopen, c_fwrite, c_write, c_fflush, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir, &
+   use ek_posix, only: c_fopen, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir, &
       c_access, c_opendir, c_dirfd, c_closedir
    use ek_system, only: facts_t, facts_of, no_file, regular_file, folder_file, device_file, unknown_file, folder_names, &
-      try_lock, random_tag, machine_tag, system_reason, error_number, already_there, not_for_this_kind
+      try_lock, random_tag, machine_tag, system_reason, error_number, folder_exists, write_bytes, already_there, not_for_this_kind
    implicit none(type, external)
    private
-   public :: writer_t, begin_file, begin_part, move_file, remove_stale
+   public :: writer_t, begin_file, move_file, remove_stale
    public :: scratch_t, begin_scratch, end_scratch
 
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
    integer, parameter :: tag_length = 8 + 1 + 16            !! <machine>-<random>
    integer(i8), parameter :: a_day = 86400                  !! s
+   integer, parameter :: most_held = 60000                  !! characters added before they are written
    integer, parameter :: most_attempts = 100                !! to create a file under a free name and lock it
    integer(c_int), parameter :: may_exist = 0               !! F_OK of access(2)
    integer(c_int), parameter :: mine_alone = 448            !! 0700
@@ -44,7 +45,7 @@ module ek_writer
       character(:), allocatable :: reason               !! of the first failure; '' if there was none
       logical :: is_part = .false., is_empty = .true.
       logical :: is_awaited = .true.                    !! wait until the file is on the disk before it is renamed
-      type(buffer_t) :: rows                            !! of a part, since the last flush: they are written together
+      type(buffer_t) :: rows                            !! added since the last flush
    contains
       procedure :: add => writer_add
       procedure :: flush => writer_flush
@@ -62,53 +63,34 @@ module ek_writer
 contains
 
    !> Begin the file `path`. Until it is finished, the name refers to the older file or to none.
-   subroutine begin_file(writer, path, error, can_be_redrawn)
+   subroutine begin_file(writer, path, error, can_be_redrawn, is_part)
       type(writer_t), intent(out) :: writer
       character(*), intent(in) :: path
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       logical, intent(in), optional :: can_be_redrawn        !! if .true., do not wait for the disk; default .false.
+      logical, intent(in), optional :: is_part               !! if .true., it remains when the run is killed; default .false.
       type(facts_t) :: facts
 
-      call start(writer, path)
+      writer%path = path
+      writer%temporary = ''
+      writer%reason = ''
       if (present(can_be_redrawn)) writer%is_awaited = .not. can_be_redrawn
+      if (present(is_part)) writer%is_part = is_part
       facts = facts_of(path, follow=.true.)
-      if (c_access(path//'/.'//c_null_char, may_exist) == 0) then
+      if (folder_exists(path)) then
          writer%reason = 'it is a folder'
       else if (facts%kind == device_file .or. is_device_name(path)) then
          writer%stream = c_fopen(path//c_null_char, 'wbe'//c_null_char)
          if (.not. c_associated(writer%stream)) writer%reason = system_reason()
       else if (facts%kind /= regular_file .and. facts%kind /= no_file .and. facts%kind /= unknown_file) then
          writer%reason = 'it is neither a file nor a device'
+      else if (writer%is_part) then
+         call open_temporary(writer, path//'.', part_tail)
       else
          call open_temporary(writer, folder_of(path)//front, tail)
       end if
       if (len(writer%reason) > 0) call fail(error, exit_file, "cannot write '"//path//"': "//writer%reason)
    end subroutine begin_file
-
-   !> Begin the file `path` as a part, which remains when the run is killed.
-   subroutine begin_part(writer, path, error)
-      type(writer_t), intent(out) :: writer
-      character(*), intent(in) :: path
-      type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
-
-      call start(writer, path)
-      writer%is_part = .true.
-      if (c_access(path//'/.'//c_null_char, may_exist) == 0) then
-         writer%reason = 'it is a folder'
-      else
-         call open_temporary(writer, path//'.', part_tail)
-      end if
-      if (len(writer%reason) > 0) call fail(error, exit_file, "cannot write '"//path//"': "//writer%reason)
-   end subroutine begin_part
-
-   subroutine start(writer, path)
-      type(writer_t), intent(inout) :: writer
-      character(*), intent(in) :: path
-
-      writer%path = path
-      writer%temporary = ''
-      writer%reason = ''
-   end subroutine start
 
    !> Devices recognised by name, where the system gives no file kind. /dev/shm is an ordinary folder.
    pure logical function is_device_name(path)
@@ -153,40 +135,21 @@ contains
    subroutine writer_add(self, text)
       class(writer_t), intent(inout) :: self
       character(*), intent(in) :: text
-      integer(c_size_t) :: length
 
       if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
-      length = len(text, c_size_t)
       self%is_empty = .false.
-      if (self%is_part) then
-         call self%rows%add(text)
-      else if (c_fwrite(text, 1_c_size_t, length, self%stream) /= length) then
-         self%reason = system_reason()
-      end if
+      call self%rows%add(text)
+      if (self%rows%length() > most_held .and. .not. self%is_part) call self%flush()
    end subroutine writer_add
 
    !> Passes the added text to the system, so that it survives the end of this process. The text added to a part since the
    !> last flush is written in one call, so that a remaining part always ends at a flush.
    subroutine writer_flush(self)
       class(writer_t), intent(inout) :: self
-      character(:), allocatable :: text
-      integer(c_size_t) :: done, now
 
       if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
-      if (self%is_part) then
-         text = self%rows%text()
-         call self%rows%clear()
-         done = 0
-         do while (done < len(text, c_size_t))
-            now = c_write(c_fileno(self%stream), text(done + 1:), len(text, c_size_t) - done)
-            if (now < 1) then                                ! a ssize_t: negative on failure
-               self%reason = system_reason()
-               return
-            end if
-            done = done + now
-         end do
-      end if
-      if (c_fflush(self%stream) /= 0) self%reason = system_reason()
+      if (.not. write_bytes(c_fileno(self%stream), self%rows%text())) self%reason = system_reason()
+      call self%rows%clear()
    end subroutine writer_flush
 
    !> Writes every byte to the disk (unless the file can be redrawn), then renames the file. After a failure there is no new
@@ -212,7 +175,7 @@ contains
          if (len(self%temporary) > 0 .and. self%is_awaited) call keep_name(folder_of(self%path))
       end if
       if (len(self%reason) == 0) then
-         if (self%is_part) call remove_parts(self%path)
+         if (self%is_part) call remove_tagged(folder_of(self%path), self%path(len(folder_of(self%path)) + 1:)//'.', part_tail)
          return
       end if
       words = "cannot write '"//self%path//"': "//self%reason
@@ -246,7 +209,7 @@ contains
       character(*), intent(in) :: from, to
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
 
-      if (c_access(to//'/.'//c_null_char, may_exist) == 0) then
+      if (folder_exists(to)) then
          call fail(error, exit_file, "cannot write '"//to//"': it is a folder")
       else if (c_rename(from//c_null_char, to//c_null_char) /= 0) then
          call fail(error, exit_file, "cannot write '"//to//"': "//system_reason())
@@ -293,14 +256,13 @@ contains
       integer :: ignored
 
       if (.not. c_associated(scratch%lock)) return
-      call empty_folder(scratch%path)
-      ignored = c_rmdir(scratch%path//c_null_char)
+      call remove_folder(scratch%path)
       ignored = c_closedir(scratch%lock)
       scratch%lock = c_null_ptr
    end subroutine end_scratch
 
-   !> Removes the files of a folder. Links are removed, not their targets; subfolders remain, as our scripts create none.
-   subroutine empty_folder(path)
+   !> Removes a folder with its files. Links are removed, not their targets; a folder with subfolders remains: we create none.
+   subroutine remove_folder(path)
       character(*), intent(in) :: path
       type(message_list_t) :: names
       integer :: k, ignored
@@ -309,40 +271,31 @@ contains
       do k = 1, names%count()
          ignored = c_remove(path//'/'//names%line(k)//c_null_char)
       end do
-   end subroutine empty_folder
+      ignored = c_rmdir(path//c_null_char)
+   end subroutine remove_folder
 
    !> Removes files of dead runs from a folder. Anything that cannot be removed or identified remains.
    subroutine remove_stale(folder)
       character(*), intent(in) :: folder
+      call remove_tagged(folder_of(folder//'/'), front, tail)
+   end subroutine remove_stale
+
+   !> Removes what dead runs left under the names <begin><machine>-<random><end>.
+   subroutine remove_tagged(folder, begin, end)
+      character(*), intent(in) :: folder                     !! with its slash
+      character(*), intent(in) :: begin, end
       type(message_list_t) :: names
       character(:), allocatable :: name
       integer :: k
 
-      call folder_names(folder_of(folder//'/')//'.', names)
+      call folder_names(folder//'.', names)
       do k = 1, names%count()
          name = names%line(k)
-         if (index(name, front) /= 1 .or. len(name) /= len(front) + tag_length + len(tail)) cycle
-         if (name(len(name) - len(tail) + 1:) /= tail) cycle
-         call remove_dead(folder_of(folder//'/')//name, name(len(front) + 1:))
+         if (len(name) /= len(begin) + tag_length + len(end)) cycle
+         if (name(:len(begin)) == begin .and. name(len(begin) + tag_length + 1:) == end) &
+            call remove_dead(folder//name, name(len(begin) + 1:))
       end do
-   end subroutine remove_stale
-
-   !> Removes the parts that killed runs left of a file that is now complete.
-   subroutine remove_parts(path)
-      character(*), intent(in) :: path
-      type(message_list_t) :: names
-      character(:), allocatable :: name, begin
-      integer :: k
-
-      begin = path(index(path, '/', back=.true.) + 1:)//'.'
-      call folder_names(folder_of(path)//'.', names)
-      do k = 1, names%count()
-         name = names%line(k)
-         if (index(name, begin) /= 1 .or. len(name) /= len(begin) + tag_length + len(part_tail)) cycle
-         if (name(len(name) - len(part_tail) + 1:) /= part_tail) cycle
-         call remove_dead(folder_of(path)//name, name(len(begin) + 1:))
-      end do
-   end subroutine remove_parts
+   end subroutine remove_tagged
 
    !> Removes a temporary file or folder if its run is dead. The lock is held meanwhile, so that two runs do not both remove it
    !> and a run that has just created it notices.
@@ -367,10 +320,8 @@ contains
          if (.not. c_associated(handle)) return
          if (try_lock(c_dirfd(handle))) then
             opened = facts_of(path, follow=.false.)          ! it must not have been replaced by a link
-            if (opened%kind == folder_file .and. opened%inode == facts%inode .and. opened%device == facts%device) then
-               call empty_folder(path)
-               ignored = c_rmdir(path//c_null_char)
-            end if
+            if (opened%kind == folder_file .and. opened%inode == facts%inode .and. opened%device == facts%device) &
+               call remove_folder(path)
          end if
          ignored = c_closedir(handle)
       end if
@@ -380,16 +331,7 @@ contains
    pure function folder_of(path) result(folder)
       character(*), intent(in) :: path
       character(:), allocatable :: folder
-      integer :: slash
-
-      slash = len(path)
-      if (slash > 1) then                                    ! of 'a//' the folder is 'a/'
-         do while (slash > 1)
-            if (path(slash:slash) /= '/' .or. path(slash - 1:slash - 1) /= '/') exit
-            slash = slash - 1
-         end do
-      end if
-      folder = path(:index(path(:slash), '/', back=.true.))
+      folder = path(:index(path, '/', back=.true.))
    end function folder_of
 
 end module ek_writer

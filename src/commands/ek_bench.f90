@@ -5,7 +5,7 @@
 !> speed or load of the machine. The minimum time of several rounds is reported for each.
 module ek_bench
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_convergence, exit_file
+   use ek_error, only: error_t, fail, exit_convergence, exit_file
    use ek_text, only: str, quoted
    use ek_clock, only: seconds
    use ek_lapack, only: dsysv
@@ -22,27 +22,26 @@ module ek_bench
    use ek_table, only: table_t
    use ek_csv, only: csv_text
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: load_deck, chosen_cases, examine_chosen, read_changed
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, read_changed
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t
    use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
    use ek_case_result, only: case_result_t, solve_options_t, solve_case
    use ek_wheel_side, only: prefix_of
    use ek_json, only: json_t
-   use ek_console, only: tell => print_text
+   use ek_console, only: print_text
    implicit none(type, external)
    private
    public :: bench
 
+   character(*), parameter :: nl = new_line('a')
    integer, parameter :: rounds = 15          !! each method is timed this often; the minimum counts
    integer, parameter :: kept_numbers = 2**17 !! size of the matrices kept for the unit: 1 MB stays in the cache
 
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
    integer, parameter :: designs = 40         !! timed together
 
-   type :: settings_t
-      character(:), allocatable :: file, case
-      type(message_list_t) :: changes         !! --set path=value
+   type, extends(deck_settings_t) :: settings_t
       integer :: increments = 0               !! 0: as in the deck
    end type settings_t
 
@@ -73,9 +72,7 @@ contains
       real(wp) :: together, copying, start
       integer :: k, m
 
-      settings%file = line%files%line(1)
-      settings%changes = line%values('--set')
-      settings%case = line%value('--case')
+      call read_deck_settings(line, settings)
       settings%increments = line%number('--increments')
       call load_case(settings, suspension, case, error)
       if (allocated(error)) return
@@ -114,42 +111,40 @@ contains
       if (case%test /= 'table') call time_designs(settings, case%name, figures, error)
       if (allocated(error)) return
       if (line%has('--json')) then
-         call put(json_of(suspension, case, kkt%n, figures), error)
-         return
+         call print_text(json_of(suspension, case, kkt%n, figures)//nl, error)
+      else
+         call print_text(table_of(suspension, case, kkt%n, figures), error)
+         if (.not. allocated(error) .and. .not. line%has('--quiet')) call whole_way(settings, error)
       end if
-      call print_table(suspension, case, kkt%n, figures, error)
-      if (line%has('--quiet') .or. allocated(error)) return
-      call whole_way(settings, error)
    end subroutine bench
 
    !> The figures as lines.
-   subroutine print_table(suspension, case, n, figures, error)
+   function table_of(suspension, case, n, figures) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       integer, intent(in) :: n                   !! size of the matrix
       type(figures_t), intent(in) :: figures
-      type(error_t), allocatable, intent(inout) :: error
+      character(:), allocatable :: text
       character(200) :: line
       integer :: m
 
-      call put('model '//suspension%name//', case '//case%name//', '//str(case%increments)// &
-         ' increments, matrix '//str(n)//' x '//str(n), error)
-      call put(timing('LAPACK dsysv alone', figures%unit, figures%unit), error)
+      text = 'model '//suspension%name//', case '//case%name//', '//str(case%increments)//' increments, matrix '// &
+         str(n)//' x '//str(n)//nl//timing('LAPACK dsysv alone', figures%unit, figures%unit)
       do m = 1, 3
-         call put(timing(trim(method_names(m))//' increment', figures%increment(m), figures%unit), error)
+         text = text//timing(trim(method_names(m))//' increment', figures%increment(m), figures%unit)
       end do
-      call put('equilibrium: converged states per second '//str(nint(1.0_wp/figures%increment(3))), error)
+      text = text//'equilibrium: converged states per second '//str(nint(1.0_wp/figures%increment(3)))//nl
       write (line, '(a,f5.3,a,i0)') 'equilibrium: factorisations per state ', figures%factorisations, ', at most ', figures%most
-      call put(trim(line), error)
+      text = text//trim(line)//nl
       write (line, '(a,es8.1,a)') 'equilibrium: largest distance to the solution at tolerance 1e-10 mm: ', &
          figures%distance*1000.0_wp, ' mm'
-      call put(trim(line), error)
+      text = text//trim(line)//nl
       if (.not. figures%design > 0.0_wp) return
       write (line, '(a,i0,a,f8.1,a,f5.2,a,i0)') 'design of ', short_sweep, ' increments, from numbers to a column: ', &
          figures%design*1.0e6_wp, ' us, ', figures%design/figures%states, ' times its states; designs per second ', &
          nint(1.0_wp/figures%design)
-      call put(trim(line), error)
-   end subroutine print_table
+      text = text//trim(line)//nl
+   end function table_of
 
    !> The figures as a JSON object.
    function json_of(suspension, case, n, figures) result(text)
@@ -246,9 +241,8 @@ contains
       type(examination_t) :: found
       character(:), allocatable :: checksum
 
-      call load_deck(settings%file, settings%changes, base, cases, checksum, error, needs_tables=.false.)
-      if (.not. allocated(error)) &
-         call chosen_cases(settings%file, settings%case, '', settings%increments, cases, chosen, error)
+      call load_deck(settings, base, cases, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, '', settings%increments, cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, base, chosen(1:1), found, error)
       if (.not. allocated(error)) call balance(base, chosen(1)%tolerance, error)
       if (allocated(error)) return
@@ -259,17 +253,6 @@ contains
       call mount(base, chosen(1), suspension, case)
    end subroutine load_case
 
-   !> Prints one line to standard output; after a failure nothing.
-   subroutine put(line, error)
-      character(*), intent(in) :: line
-      type(error_t), allocatable, intent(inout) :: error
-      type(error_t), allocatable :: unheard
-
-      if (allocated(error)) return
-      call tell(line//new_line('a'), unheard)
-      if (allocated(unheard)) call move_alloc(unheard, error)
-   end subroutine put
-
    !> Name, microseconds, ratio.
    function timing(name, time, unit) result(line)
       character(*), intent(in) :: name
@@ -278,7 +261,7 @@ contains
       character(100) :: words
 
       write (words, '(a,t28,f9.3,a,f7.2,a)') name, time*1.0e6_wp, ' us', time/unit, ' units'
-      line = trim(words)
+      line = trim(words)//nl
    end function timing
 
    !> The scaled matrices of some states of a sweep.
@@ -348,13 +331,11 @@ contains
    pure real(wp) function largest_distance(a, b, bodies) result(largest)
       type(path_t), intent(in) :: a, b
       integer, intent(in) :: bodies
-      integer :: k, body
+      integer :: j
 
       largest = 0.0_wp
-      do k = 1, a%states
-         do body = 1, bodies
-            largest = max(largest, norm2(a%packed(7*body - 6:7*body - 4, k) - b%packed(7*body - 6:7*body - 4, k)))
-         end do
+      do j = 1, 7*bodies, 7
+         largest = max(largest, maxval(norm2(a%packed(j:j + 2, :a%states) - b%packed(j:j + 2, :a%states), dim=1)))
       end do
    end function largest_distance
 
@@ -385,7 +366,7 @@ contains
       write (line, '(4(a,f7.2),a,i0,a)') 'deck to CSV [ms]: deck and model ', 1000*(marks(2) - marks(1)), &
          ', sweep ', 1000*(marks(3) - marks(2)), ', table ', 1000*(marks(4) - marks(3)), &
          ', CSV text ', 1000*(marks(5) - marks(4)), ' (', len(text), ' bytes)'
-      call put(trim(line), error)
+      call print_text(trim(line)//nl, error)
    end subroutine whole_way
 
 end module ek_bench

@@ -15,7 +15,7 @@ module ek_check
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_plausibility, only: doubt
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: load_deck, chosen_cases
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases
    implicit none(type, external)
    private
    public :: check
@@ -27,17 +27,18 @@ contains
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
+      type(deck_settings_t) :: settings
       type(buffer_t) :: findings
 
-      call examine(line%files%line(1), line%values('--set'), line%value('--case'), findings, error)
+      call read_deck_settings(line, settings)
+      call examine(settings, findings, error)
       call print_text(findings%text(), unprinted)
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
 
    !> Collects the findings, including those made before an error.
-   subroutine examine(file, changes, case_name, findings, error)
-      character(*), intent(in) :: file, case_name
-      type(message_list_t), intent(in) :: changes
+   subroutine examine(settings, findings, error)
+      type(deck_settings_t), intent(in) :: settings
       type(buffer_t), intent(inout) :: findings
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base
@@ -50,11 +51,11 @@ contains
       type(message_list_t) :: found
       integer :: k
 
-      call load_deck(file, changes, base, cases, checksum, error, needs_tables=.true.)
+      call load_deck(settings, base, cases, checksum, error, needs_tables=.true.)
       if (allocated(error)) return
       allocate (chosen(0))
       if (size(cases) > 0) then
-         call chosen_cases(file, case_name, '', 0, cases, chosen, error)
+         call chosen_cases(settings, '', 0, cases, chosen, error)
          if (allocated(error)) return
       end if
 
@@ -74,7 +75,7 @@ contains
       call add(findings, 'warnings', diagnosis%warnings%text())
       call add_remarks(base, cases, found%count() == 0, diagnosis%warnings%count() > 0, findings, trouble)
       if (found%count() > 0) then
-         call fail(error, exit_model, file//': the model cannot be solved'//new_line('a')//found%text())
+         call fail(error, exit_model, settings%file//': the model cannot be solved'//new_line('a')//found%text())
          return
       end if
       if (size(chosen) > 0) call move_alloc(trouble, error)

@@ -140,7 +140,7 @@ contains
    function columns_lacking(one, other) result(lacking)
       type(results_t), intent(in) :: one, other
       type(message_list_t) :: lacking
-      integer :: t, u, k, n
+      integer :: t, u, k
 
       do t = 1, size(one%tests)
          u = test_number(other, one%tests(t)%name)
@@ -148,10 +148,8 @@ contains
          associate (columns => one%tests(t)%table%columns)
             do k = 1, size(columns)
                if (column_index(other%tests(u)%table, columns(k)) > 0) cycle
-               do n = 1, lacking%count()
-                  if (lacking%line(n) == trim(columns(k))) exit
-               end do
-               if (n > lacking%count()) call lacking%add(trim(columns(k)))
+               if (index(new_line('a')//lacking%text()//new_line('a'), new_line('a')//trim(columns(k))//new_line('a')) == 0) &
+                  call lacking%add(trim(columns(k)))
             end do
          end associate
       end do

@@ -8,27 +8,45 @@ module ek_load_deck
    use ek_suspension, only: suspension_t
    use ek_case_inputs, only: check_inputs
    use ek_case, only: case_t, method_names, most_increments
+   use ek_command_line, only: command_line_t
    use ek_examination, only: examination_t, examine_cases
    implicit none(type, external)
    private
-   public :: load_deck, read_changed, chosen_cases, examine_chosen, unsolvable_words
+   public :: deck_settings_t, read_deck_settings, load_deck, read_changed, chosen_cases, examine_chosen
+
+   !> What every command on a deck may say; a command extends it by its own settings.
+   type :: deck_settings_t
+      character(:), allocatable :: file          !! '-' is standard input
+      character(:), allocatable :: case          !! '' for all
+      type(message_list_t) :: changes            !! --set path=value
+   end type deck_settings_t
 
 contains
 
+   subroutine read_deck_settings(line, settings)
+      type(command_line_t), intent(in) :: line
+      class(deck_settings_t), intent(inout) :: settings
+
+      settings%file = line%files%line(1)
+      settings%case = line%value('--case')
+      settings%changes = line%values('--set')
+   end subroutine read_deck_settings
+
    !> Reads a deck, applies --set, builds the model, and reads the tables and targets of its cases; reports all errors together.
-   subroutine load_deck(file, changes, suspension, cases, checksum, error, needs_tables)
-      character(*), intent(in) :: file
-      type(message_list_t), intent(in) :: changes            !! --set path=value
+   subroutine load_deck(settings, suspension, cases, checksum, error, needs_tables)
+      class(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)
       character(:), allocatable, intent(out) :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
-      logical, intent(in) :: needs_tables                    !! a missing table is an error, also of a case that is not run
+      logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
       type(deck_t) :: deck
       type(error_t), allocatable :: fault
-      logical :: is_whole
+      logical :: is_whole, needs_all
 
-      call read_changed(file, changes, deck, error)
+      needs_all = .false.
+      if (present(needs_tables)) needs_all = needs_tables
+      call read_changed(settings%file, settings%changes, deck, error)
       if (allocated(error)) return
       call build_model(deck, suspension, cases, error, is_whole)
       call check_inputs(suspension, cases, fault, is_whole)
@@ -36,7 +54,7 @@ contains
          error%message = error%message//new_line('a')//fault%message
       else if (allocated(fault)) then
          ! a missing file is reported by the case that needs it: the other cases can be run
-         if (fault%code /= exit_file .or. needs_tables) call move_alloc(fault, error)
+         if (fault%code /= exit_file .or. needs_all) call move_alloc(fault, error)
       end if
       if (allocated(error)) return
       checksum = deck_checksum(deck)
@@ -59,8 +77,9 @@ contains
    end subroutine read_changed
 
    !> The cases to run, with --case, --method and --increments applied.
-   subroutine chosen_cases(file, name, method, increments, cases, chosen, error)
-      character(*), intent(in) :: file, name, method       !! '' for all cases, for the methods of the deck
+   subroutine chosen_cases(settings, method, increments, cases, chosen, error)
+      class(deck_settings_t), intent(in) :: settings
+      character(*), intent(in) :: method                   !! '' for those of the deck
       integer, intent(in) :: increments                    !! 0 for those of the deck
       type(case_t), intent(in) :: cases(:)
       type(case_t), allocatable, intent(out) :: chosen(:)
@@ -70,22 +89,22 @@ contains
       integer :: k
 
       if (size(cases) == 0) then
-         call fail(error, exit_usage, file//': no &case group, so there is no case to run (check works without one)')
+         call fail(error, exit_usage, settings%file//': no &case group, so there is no case to run (check works without one)')
          return
       end if
       allocate (chosen(0))
       do k = 1, size(cases)
          names(k) = cases(k)%name
-         if (len(name) == 0 .or. name == cases(k)%name) chosen = [chosen, cases(k)]
+         if (len(settings%case) == 0 .or. settings%case == cases(k)%name) chosen = [chosen, cases(k)]
       end do
       if (size(chosen) == 0) then
-         hint = nearest_name(name, names)
+         hint = nearest_name(settings%case, names)
          if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
          hint = hint//'; it has'
          do k = 1, size(names)
             hint = hint//' '//quoted(names(k))
          end do
-         call fail(error, exit_usage, '--case: no case '//quoted(name)//' in '//file//hint)
+         call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
          return
       end if
       if (len(method) > 0 .and. .not. any(method_names == method)) then
@@ -107,7 +126,7 @@ contains
       end do
    end subroutine chosen_cases
 
-   !> Examines the cases to run; an error if none can be solved.
+   !> Examines the cases to run; an error, each defect once, if none can be solved.
    subroutine examine_chosen(file, suspension, chosen, found, error)
       character(*), intent(in) :: file                  !! the deck, for messages
       type(suspension_t), intent(in) :: suspension      !! not balanced
@@ -116,20 +135,12 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! exit_model
 
       call examine_cases(suspension, chosen, found)
-      if (found%none_solvable()) call fail(error, exit_model, unsolvable_words(file, found))
-   end subroutine examine_chosen
-
-   !> The reasons why no case of a deck can be run; each defect once.
-   function unsolvable_words(file, found) result(words)
-      character(*), intent(in) :: file
-      type(examination_t), intent(in) :: found          !! no case can be solved
-      character(:), allocatable :: words
-
-      if (size(found%is_solvable) == 1) then
-         words = found%faults%line(1)
+      if (.not. found%none_solvable()) return
+      if (size(chosen) == 1) then
+         call fail(error, exit_model, found%faults%line(1))
       else
-         words = file//': the model cannot be solved'//new_line('a')//found%distinct%text()
+         call fail(error, exit_model, file//': the model cannot be solved'//new_line('a')//found%distinct%text())
       end if
-   end function unsolvable_words
+   end subroutine examine_chosen
 
 end module ek_load_deck

@@ -19,18 +19,16 @@ module ek_report
    use ek_report_pictures, only: draw_pictures
    use ek_gradient_window, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
-   use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
    implicit none(type, external)
    private
    public :: report
 
-   type :: settings_t
-      character(:), allocatable :: file, out
-      character(:), allocatable :: case, method      !! '' for all, as in the deck
+   type, extends(deck_settings_t) :: settings_t
+      character(:), allocatable :: out, method       !! method: '' as in the deck
       integer :: increments = 0                      !! 0: as in the deck
-      type(message_list_t) :: changes                !! --set path=value
       type(windows_t) :: windows                     !! of gradients
       logical :: has_plots = .true., is_animated = .false., is_quiet = .false.
    end type settings_t
@@ -53,11 +51,10 @@ contains
       character(:), allocatable :: checksum, message
 
       call read_settings(line, settings, error)
-      if (.not. allocated(error)) &
-         call load_deck(settings%file, settings%changes, suspension, cases, checksum, error, needs_tables=.false.)
+      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
       if (allocated(error)) return
       call report_cases(suspension, cases, all_cases)
-      call chosen_cases(settings%file, settings%case, settings%method, settings%increments, all_cases, chosen, error)
+      call chosen_cases(settings, settings%method, settings%increments, all_cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out
@@ -116,12 +113,10 @@ contains
       type(settings_t), intent(out) :: settings
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
 
-      settings%file = line%files%line(1)
+      call read_deck_settings(line, settings)
       settings%out = line%value('--out', 'out')
-      settings%case = line%value('--case')
       settings%method = line%value('--method')
       settings%increments = line%number('--increments')
-      settings%changes = line%values('--set')
       settings%has_plots = .not. line%has('--no-plots')
       settings%is_animated = line%has('--animate')
       settings%is_quiet = line%has('--quiet')

@@ -1,7 +1,7 @@
 !> elastokin run: deck → model → sweep → table → CSV and figures, case by case.
 module ek_run
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
+   use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_file, only: make_folder, join_path, base_name
    use ek_suspension, only: suspension_t, load_number
@@ -17,17 +17,16 @@ module ek_run
    use ek_plot, only: run_figures
    use ek_gnuplot, only: write_figure, render_figures
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run
 
-   type :: settings_t
-      character(:), allocatable :: file, out         !! out: the folder, or - for standard output
-      character(:), allocatable :: case, method      !! '' for all, as in the deck
+   type, extends(deck_settings_t) :: settings_t
+      character(:), allocatable :: out               !! the folder, or - for standard output
+      character(:), allocatable :: method            !! '': as in the deck
       integer :: increments = 0                      !! 0: as in the deck
-      type(message_list_t) :: changes                !! --set path=value
       logical :: has_plots = .false., has_compliance = .false., is_quiet = .false.
    end type settings_t
 
@@ -49,10 +48,8 @@ contains
       integer :: k, failed, code
 
       call read_settings(line, settings, error)
-      if (.not. allocated(error)) &
-         call load_deck(settings%file, settings%changes, suspension, cases, checksum, error, needs_tables=.false.)
-      if (.not. allocated(error)) &
-         call chosen_cases(settings%file, settings%case, settings%method, settings%increments, cases, chosen, error)
+      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, settings%method, settings%increments, cases, chosen, error)
       if (allocated(error)) return
       if (settings%out == '-' .and. size(chosen) > 1) then
          call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
@@ -96,12 +93,10 @@ contains
       type(settings_t), intent(out) :: settings
       type(error_t), allocatable, intent(out) :: error        !! options that exclude each other
 
-      settings%file = line%files%line(1)
+      call read_deck_settings(line, settings)
       settings%out = line%value('--out', 'out')
-      settings%case = line%value('--case')
       settings%method = line%value('--method')
       settings%increments = line%number('--increments')
-      settings%changes = line%values('--set')
       settings%has_plots = line%has('--plot')
       settings%has_compliance = line%has('--compliance')
       settings%is_quiet = line%has('--quiet')

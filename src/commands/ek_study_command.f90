@@ -5,7 +5,7 @@ module ek_study_command
    use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists
    use ek_deck, only: deck_t
    use ek_table, only: table_t
-   use ek_writer, only: writer_t, begin_part
+   use ek_writer, only: writer_t, begin_file
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, read_study
    use ek_step_size, only: step_size_text
@@ -66,7 +66,7 @@ contains
       type(writer_t) :: writer
       character(:), allocatable :: text
 
-      call begin_part(writer, join_path(out, study%name//'.csv'), error)
+      call begin_file(writer, join_path(out, study%name//'.csv'), error, is_part=.true.)
       if (.not. allocated(error)) call step_size_text(study, deck, text, error, writer)
       if (.not. allocated(error)) call writer%finish(error)
       call writer%abandon()                              ! no effect on a finished table
@@ -85,9 +85,9 @@ contains
       type(message_list_t) :: troubles
       integer :: k
 
-      call begin_part(curve_writer, join_path(out, study%name//'_curves.csv'), error)
+      call begin_file(curve_writer, join_path(out, study%name//'_curves.csv'), error, is_part=.true.)
       if (allocated(error)) return
-      call begin_part(response_writer, join_path(out, study%name//'_responses.csv'), error)
+      call begin_file(response_writer, join_path(out, study%name//'_responses.csv'), error, is_part=.true.)
       if (.not. allocated(error)) call sweep_factors(study, deck, curves, responses, troubles, error, curve_writer, response_writer)
       if (.not. allocated(error)) call curve_writer%finish(error)
       if (.not. allocated(error)) call response_writer%finish(error)

@@ -3,7 +3,7 @@
 !> Numbers have 15 significant digits; `nan` for a missing value.
 module ek_csv
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_file
+   use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_letters, only: line_count
@@ -69,23 +69,23 @@ contains
       type(table_t), intent(in) :: table
       character(:), allocatable :: text
       character(:), allocatable :: lines
+      type(buffer_t) :: buffer
       integer :: k
 
-      text = ''
       if (table%header%count() > 0) then
          lines = table%header%text()
-         text = '# '
+         call buffer%add('# ')
          do k = 1, len(lines)
-            text = text//lines(k:k)
-            if (lines(k:k) == line_end) text = text//'# '
+            call buffer%add(lines(k:k))
+            if (lines(k:k) == line_end) call buffer%add('# ')
          end do
-         text = text//line_end
+         call buffer%add(line_end)
       end if
       do k = 1, size(table%columns)
-         if (k > 1) text = text//','
-         text = text//trim(table%columns(k))
+         if (k > 1) call buffer%add(',')
+         call buffer%add(trim(table%columns(k)))
       end do
-      text = text//line_end
+      text = buffer%text()//line_end
    end function csv_head
 
    !> Writes the table; the file is complete or does not exist.
@@ -173,25 +173,33 @@ contains
       table%values = table%values(:, :rows)
    end subroutine read_csv
 
+   !> The places of the commas of a line, and those before and after it.
+   pure subroutine find_commas(content, at)
+      character(*), intent(in) :: content
+      integer, allocatable, intent(out) :: at(:)
+      integer :: k
+
+      allocate (at, source=[0, pack([(k, k=1, len(content))], [(content(k:k) == ',', k=1, len(content))]), len(content) + 1])
+   end subroutine find_commas
+
    !> Creates the table from the line of column names.
    pure subroutine take_names(content, rows, table)
       character(*), intent(in) :: content
       integer, intent(in) :: rows
       type(table_t), intent(inout) :: table
       character(name_length), allocatable :: names(:)
-      type(table_t) :: fresh
-      integer :: k, first, last
+      type(message_list_t) :: header
+      integer, allocatable :: at(:)
+      integer :: k
 
-      allocate (names(count([(content(k:k) == ',', k=1, len(content))]) + 1))
-      first = 1
+      call find_commas(content, at)
+      allocate (names(size(at) - 1))
       do k = 1, size(names)
-         last = index(content(first:)//',', ',') + first - 2
-         names(k) = adjustl(content(first:last))
-         first = last + 2
+         names(k) = adjustl(content(at(k) + 1:at(k + 1) - 1))
       end do
-      fresh = new_table(names, rows)
-      fresh%header = table%header
-      table = fresh
+      header = table%header
+      table = new_table(names, rows)
+      table%header = header
    end subroutine take_names
 
    !> Reads one line of numbers.
@@ -201,26 +209,22 @@ contains
       integer, intent(in) :: row
       type(table_t), intent(inout) :: table
       type(error_t), allocatable, intent(out) :: error
-      integer :: k, first, last, fields
+      integer, allocatable :: at(:)
       logical :: is_number
+      integer :: k
 
-      fields = count([(content(k:k) == ',', k=1, len(content))]) + 1
-      if (fields /= size(table%columns)) then
-         call fail(error, exit_file, where//plural(fields, 'value', 'values')//' for '// &
+      call find_commas(content, at)
+      if (size(at) - 1 /= size(table%columns)) then
+         call fail(error, exit_file, where//plural(size(at) - 1, 'value', 'values')//' for '// &
             plural(size(table%columns), 'column', 'columns'))
          return
       end if
-      first = 1
-      do k = 1, fields
-         last = index(content(first:), ',') + first - 2
-         if (k == fields) last = len(content)
-         call get_decimal(content(first:last), table%values(k, row), is_number)
-         if (.not. is_number) then
-            call fail(error, exit_file, where//'column '//quoted(table%columns(k))//': '// &
-               quoted(content(first:last))//' is not a number')
-            return
-         end if
-         first = last + 2
+      do k = 1, size(table%columns)
+         call get_decimal(content(at(k) + 1:at(k + 1) - 1), table%values(k, row), is_number)
+         if (is_number) cycle
+         call fail(error, exit_file, where//'column '//quoted(table%columns(k))//': '// &
+            quoted(content(at(k) + 1:at(k + 1) - 1))//' is not a number')
+         return
       end do
    end subroutine take_row
 

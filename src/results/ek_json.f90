@@ -128,20 +128,18 @@ contains
       literal = '"'
       do k = 1, len(text)
          code = iachar(text(k:k))
-         select case (text(k:k))
-         case ('"', '\')
-            literal = literal//'\'//text(k:k)
+         select case (code)
+         case (34, 92)                        ! quote, backslash
+            literal = literal//achar(92)//text(k:k)
+         case (10)
+            literal = literal//'\n'
+         case (9)
+            literal = literal//'\t'
+         case (0:8, 11:31, 127)
+            write (digits, '(z2.2)') code
+            literal = literal//'\u00'//digits
          case default
-            if (code == 10) then
-               literal = literal//'\n'
-            else if (code == 9) then
-               literal = literal//'\t'
-            else if (code < 32 .or. code == 127) then
-               write (digits, '(z2.2)') code
-               literal = literal//'\u00'//digits
-            else
-               literal = literal//text(k:k)
-            end if
+            literal = literal//text(k:k)
          end select
       end do
       literal = literal//'"'

@@ -13,6 +13,7 @@ module ek_sheet
    use ek_file, only: read_whole
    use ek_decimal, only: get_decimal
    use ek_table, only: name_length
+   use ek_text_table, only: take_record
    implicit none(type, external)
    private
    public :: sheet_t, read_sheet, mistakes_of, head_place
@@ -33,13 +34,6 @@ module ek_sheet
       character :: separator = ','
       logical :: has_decimal_points = .false.            !! then a comma is no decimal mark
    end type sheet_t
-
-   !> A line cut into cells.
-   type :: cells_t
-      integer :: count = 0
-      character(:), allocatable :: text(:)
-      logical :: is_closed = .true.                     !! every quote is closed
-   end type cells_t
 
 contains
 
@@ -133,17 +127,26 @@ contains
    subroutine take_heads(content, sheet)
       character(*), intent(in) :: content
       type(sheet_t), intent(inout) :: sheet
-      type(cells_t) :: cells
+      type(message_list_t) :: cells
+      integer :: at, line, k, columns
+      logical :: is_closed
 
       if (index(content, ',') > 0) sheet%separator = ','
       if (index(content, tab) > 0) sheet%separator = tab
       if (index(content, ';') > 0) sheet%separator = ';'
-      call cut(content, sheet%separator, cells)
-      if (.not. cells%is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
-      do while (cells%text(cells%count) == '')     ! separators behind the last head; the line has other characters too
-         cells%count = cells%count - 1
+      at = 1
+      line = sheet%head_line
+      call take_record(content, sheet%separator, at, line, cells, is_closed)
+      if (.not. is_closed) call sheet%head_mistakes%add(head_place(sheet)//'a double quote is not closed')
+      columns = cells%count()
+      do while (cells%line(columns) == '')         ! separators behind the last head; the line has other characters too
+         columns = columns - 1
       end do
-      sheet%heads = [character(name_length) :: cells%text(:cells%count)]
+      deallocate (sheet%heads)
+      allocate (sheet%heads(columns))
+      do k = 1, columns
+         sheet%heads(k) = adjustl(cells%line(k))
+      end do
    end subroutine take_heads
 
    !> Commas that separate no columns may be decimal commas, unless there are decimal points too.
@@ -171,38 +174,39 @@ contains
       type(sheet_t), intent(inout) :: sheet
       integer, intent(inout) :: rows
       logical, intent(inout) :: is_unnamed(:)     !! columns without a head that have values
-      type(cells_t) :: cells
-      character(:), allocatable :: fault, where
+      type(message_list_t) :: cells
+      character(:), allocatable :: fault, where, cell
       real(wp) :: row(size(sheet%heads))
-      integer :: k, columns
+      integer :: at, next, k, n, columns
       logical :: is_good
 
       where = sheet%file//':'//str(line)//': '
-      call cut(content, sheet%separator, cells)
-      if (.not. cells%is_closed) then
+      at = 1
+      next = line
+      call take_record(content, sheet%separator, at, next, cells, is_good)
+      if (.not. is_good) then
          call complain(sheet, where//'a double quote is not closed')
          return
       end if
       columns = size(sheet%heads)
-      do while (cells%count > columns)             ! empty cells behind the last head are ignored
-         if (cells%text(cells%count) /= '') exit
-         cells%count = cells%count - 1
+      do n = cells%count(), columns + 1, -1        ! empty cells behind the last head are ignored
+         if (cells%line(n) /= '') exit
       end do
-      if (cells%count /= columns) then
-         fault = where//'expected '//plural(columns, 'value', 'values')//', found '//str(cells%count)
-         if (cells%count > columns .and. sheet%separator == ',' .and. index(content, '.') == 0) fault = fault// &
+      if (n /= columns) then
+         fault = where//'expected '//plural(columns, 'value', 'values')//', found '//str(n)
+         if (n > columns .and. sheet%separator == ',' .and. index(content, '.') == 0) fault = fault// &
             ' (if some of the commas are decimal commas: write decimal points, or separate the columns by semicolons)'
          call complain(sheet, fault)
          return
       end if
-      is_good = .true.
       row = 0.0_wp
       do k = 1, columns
+         cell = trim(adjustl(cells%line(k)))
          if (sheet%heads(k) == '') then
-            is_unnamed(k) = is_unnamed(k) .or. cells%text(k) /= ''
+            is_unnamed(k) = is_unnamed(k) .or. cell /= ''
             cycle
          end if
-         call read_number(trim(cells%text(k)), sheet, row(k), fault)
+         call read_number(cell, sheet, row(k), fault)
          if (fault == '') cycle
          call complain(sheet, where//'column '//quoted(sheet%heads(k))//': '//fault)
          is_good = .false.
@@ -297,46 +301,5 @@ contains
          sheet%untold = sheet%untold + 1
       end if
    end subroutine complain
-
-   !> Cuts a line at its separators outside double quotes; removes blanks around a cell and its quotes.
-   subroutine cut(content, separator, cells)
-      character(*), intent(in) :: content
-      character, intent(in) :: separator
-      type(cells_t), intent(out) :: cells
-      character(len(content)) :: cell
-      logical :: is_quoted
-      integer :: k, used, most
-
-      most = 1
-      do k = 1, len(content)
-         if (content(k:k) == separator) most = most + 1
-      end do
-      allocate (character(max(len(content), 1)) :: cells%text(most))
-      cells%text(:) = ''      ! (:) keeps the length; without it the standard asks for length 0
-      cell = ''
-      used = 0
-      is_quoted = .false.
-      do k = 1, len(content)
-         if (content(k:k) == '"') then
-            is_quoted = .not. is_quoted
-         else if (content(k:k) == separator .and. .not. is_quoted) then
-            call end_cell()
-         else
-            used = used + 1
-            cell(used:used) = content(k:k)
-         end if
-      end do
-      call end_cell()
-      cells%is_closed = .not. is_quoted
-
-   contains
-
-      subroutine end_cell()
-         cells%count = cells%count + 1
-         cells%text(cells%count) = adjustl(cell(:used))
-         used = 0
-      end subroutine end_cell
-
-   end subroutine cut
 
 end module ek_sheet

@@ -34,6 +34,28 @@ module ek_test_result
       type(message_list_t) :: remarks        !! messages on failed or doubtful states
    end type test_result_t
 
+   !> The abscissa of a kind of test.
+   type :: axis_t
+      character(15) :: kind
+      character(20) :: column
+      character(50) :: label
+      character(58) :: anti = ''             !! label if the load on the right wheel is opposite
+   end type axis_t
+
+   !> The first is that of every other kind.
+   type(axis_t), parameter :: axes(*) = [axis_t('other', travel_column, 'wheel travel [mm]    (+ bump)'), &
+      axis_t('single_travel', 'left_'//travel_column, 'travel of the left wheel [mm]    (+ bump)'), &
+      axis_t('roll', 'axle_roll_deg', 'axle roll [deg]    (+ left wheel up)'), &
+      axis_t('steering', 'steering_wheel_deg', 'steering wheel [deg]    (+ left)'), &
+      axis_t('lateral_force', 'factor', 'lateral force [N]    (+ to the right)', &
+      'lateral force on the left wheel [N]    (+ to the right)'), &
+      axis_t('braking', 'factor', 'braking force per wheel [N]    (+ rearward)'), &
+      axis_t('traction', 'factor', 'traction force per wheel [N]    (+ forward)'), &
+      axis_t('aligning_torque', 'factor', 'aligning torque [N m]    (+ to the left)', &
+      'aligning torque on the left wheel [N m]    (+ to the left)'), &
+      axis_t('vertical_force', 'factor', 'vertical force [N]    (+ up)'), &
+      axis_t('table', 'factor', 'row of the table')]
+
 contains
 
    !> The header line of a table that defines its signs: the axes of its vectors, and the side of a single wheel, whose
@@ -89,39 +111,28 @@ contains
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
 
+      integer :: k
+      logical :: is_missing
+
       if (allocated(test%abscissa)) return
+      k = findloc(axes%kind == test%kind, .true., dim=1)
+      if (k == 0) k = 1
+      test%abscissa = trim(axes(k)%column)
+      test%label = trim(axes(k)%label)
+      if (test%is_anti .and. axes(k)%anti /= '') test%label = trim(axes(k)%anti)
+      if (test%kind == 'single_travel' .and. stroke('right_'//travel_column) > stroke('left_'//travel_column)) then
+         test%abscissa = 'right_'//travel_column
+         test%label = 'travel of the right wheel [mm]    (+ bump)'
+      end if
+      is_missing = .not. has_column(test, test%abscissa)
+      if (test%kind == 'other') is_missing = is_missing .or. stroke(travel_column) < least_stroke
+      if (is_missing .and. test%abscissa /= 'factor') then
+         test%label = 'load factor'
+         if (test%kind == 'steering') test%label = 'steering input [mm]    (+ left)'
+         test%abscissa = 'factor'
+      end if
       test%abscissa_size = 1.0_wp
-      select case (test%kind)
-      case ('parallel_travel', 'opposite_travel')
-         call set(travel_column, 'wheel travel [mm]    (+ bump)')
-      case ('single_travel')
-         call set('left_'//travel_column, 'travel of the left wheel [mm]    (+ bump)')
-         if (stroke('right_'//travel_column) > stroke('left_'//travel_column)) &
-            call set('right_'//travel_column, 'travel of the right wheel [mm]    (+ bump)')
-      case ('roll')
-         call set('axle_roll_deg', 'axle roll [deg]    (+ left wheel up)')
-      case ('steering')
-         call set('steering_wheel_deg', 'steering wheel [deg]    (+ left)')
-         if (column_index(test%table, 'steering_wheel_deg') == 0) call set_factor('steering input [mm]    (+ left)')
-      case ('lateral_force')
-         call set_factor('lateral force [N]    (+ to the right)')
-         if (test%is_anti) call set_factor('lateral force on the left wheel [N]    (+ to the right)')
-      case ('braking')
-         call set_factor('braking force per wheel [N]    (+ rearward)')
-      case ('traction')
-         call set_factor('traction force per wheel [N]    (+ forward)')
-      case ('aligning_torque')
-         call set_factor('aligning torque [N m]    (+ to the left)')
-         if (test%is_anti) call set_factor('aligning torque on the left wheel [N m]    (+ to the left)')
-      case ('vertical_force')
-         call set_factor('vertical force [N]    (+ up)')
-      case ('table')
-         call set('factor', 'row of the table')
-      case default
-         call set(travel_column, 'wheel travel [mm]    (+ bump)')
-      end select
-      if (test%abscissa /= 'factor' .and. .not. has_column(test, test%abscissa)) call set_factor('load factor')
-      if (test%kind == 'other' .and. stroke(travel_column) < least_stroke) call set_factor('load factor')
+      if (test%abscissa == 'factor' .and. test%kind /= 'table') test%abscissa_size = test%factor_size
 
    contains
 
@@ -139,19 +150,6 @@ contains
             if (ieee_is_finite(range(1))) stroke = max(stroke, range(2) - range(1))
          end do
       end function stroke
-
-      subroutine set_factor(label)
-         character(*), intent(in) :: label
-         call set('factor', label)
-         test%abscissa_size = test%factor_size
-      end subroutine set_factor
-
-      subroutine set(name, label)
-         character(*), intent(in) :: name, label
-         test%abscissa = name
-         test%label = label
-         test%abscissa_size = 1.0_wp
-      end subroutine set
 
    end subroutine choose_abscissa
 

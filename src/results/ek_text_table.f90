@@ -2,13 +2,13 @@
 !>
 !> A cell with a comma, a quote or a line end is quoted. Lines that begin with # are skipped.
 module ek_text_table
-   use ek_error, only: error_t, fail, exit_file
+   use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_file, only: read_whole
    implicit none(type, external)
    private
-   public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of, take_record
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -117,16 +117,15 @@ contains
       character(*), intent(in) :: path
       type(text_table_t), intent(out) :: table
       type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line
-      type(cell_t), allocatable :: fields(:)
+      type(message_list_t) :: fields
       character(:), allocatable :: text
       integer :: at, line, first_line, used, k
-      logical :: has_names
+      logical :: has_names, is_closed
 
       table = new_text_table([character(1) ::])
       table%file = path
       call read_whole(path, text, error)
       if (allocated(error)) return
-      allocate (fields(64))
       has_names = .false.
       at = 1
       line = 1
@@ -137,8 +136,9 @@ contains
             line = line + 1
             cycle
          end if
-         call take_record(text, at, line, fields, used)
-         if (used < 1) then
+         call take_record(text, ',', at, line, fields, is_closed)
+         used = fields%count()
+         if (.not. is_closed) then
             call fail(error, exit_file, path//':'//str(first_line)//': a quoted cell is not closed')
             return
          end if
@@ -147,7 +147,7 @@ contains
             deallocate (table%columns, table%cells)
             allocate (table%columns(used), table%cells(used, 8))
             do k = 1, used
-               table%columns(k) = fields(k)%text
+               table%columns(k) = fields%line(k)
             end do
             cycle
          end if
@@ -158,32 +158,24 @@ contains
          end if
          call add_row(table, first_line)
          do k = 1, used
-            call move_alloc(fields(k)%text, table%cells(k, table%rows)%text)
+            table%cells(k, table%rows)%text = fields%line(k)
          end do
       end do
       if (.not. has_names) call fail(error, exit_file, path//': the line of column names is missing')
    end subroutine read_text_table
 
-   !> The cells of one record, which may span several lines; 0 cells if a quote is not closed.
-   subroutine take_record(text, at, line, fields, used)
+   !> The cells of one record, which may span several lines. A quoted cell that is not closed ends with the text.
+   subroutine take_record(text, separator, at, line, fields, is_closed)
       character(*), intent(in) :: text
-      integer, intent(inout) :: at, line
-      type(cell_t), allocatable, intent(inout) :: fields(:)
-      integer, intent(out) :: used
+      character, intent(in) :: separator
+      integer, intent(inout) :: at, line          !! where the record begins, then where the next one does
+      type(message_list_t), intent(out) :: fields
+      logical, intent(out) :: is_closed
       type(buffer_t) :: cell
       logical :: is_quoted
 
-      used = 0
       is_quoted = .false.
-      do
-         if (at > len(text)) then
-            if (is_quoted) then
-               used = 0
-            else
-               call end_cell()
-            end if
-            return
-         end if
+      do while (at <= len(text))
          if (is_quoted) then
             if (text(at:at) /= '"') then
                call cell%add(text(at:at))
@@ -196,28 +188,20 @@ contains
             end if
          else if (text(at:at) == '"') then
             is_quoted = .true.
-         else if (text(at:at) == ',') then
-            call end_cell()
+         else if (text(at:at) == separator) then
+            call fields%add(cell%text())
+            call cell%clear()
          else if (text(at:at) == line_end) then
-            call end_cell()
             line = line + 1
             at = at + 1
-            return
+            exit
          else if (text(at:at) /= achar(13)) then
             call cell%add(text(at:at))
          end if
          at = at + 1
       end do
-
-   contains
-
-      subroutine end_cell()
-         if (used == size(fields)) fields = [fields, fields]
-         used = used + 1
-         fields(used)%text = cell%text()
-         call cell%clear()
-      end subroutine end_cell
-
+      call fields%add(cell%text())
+      is_closed = .not. is_quoted
    end subroutine take_record
 
 end module ek_text_table

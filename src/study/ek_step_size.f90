@@ -4,6 +4,7 @@
 !> (31), the violation of the joint constraints, AND the distance to the equilibrium, which is not contained in
 !> (31).
 module ek_step_size
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_convergence
    use ek_units, only: degree, millimetre
@@ -18,7 +19,7 @@ module ek_step_size
    use ek_path, only: path_t, new_path, walk
    use ek_rig, only: mount
    use ek_attitude, only: attitude_t, wheel_attitude
-   use ek_table, only: table_t, new_table
+   use ek_table, only: new_table
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
@@ -45,9 +46,8 @@ contains
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
-      type(table_t) :: table
       type(attitude_t) :: exact, found
-      real(wp) :: closure, time
+      real(wp) :: closure, time, row(size(columns))
       logical :: is_reached
       integer :: m, k
 
@@ -77,26 +77,18 @@ contains
       case%tolerance = 1.0e-10_wp      ! m, the default of a deck
 
       text = ''
+      call put('method,'//csv_head(new_table(columns, 0)))
       do m = 1, size(study%methods)
          case%method = trim(study%methods(m))
-         table = new_table(columns, size(study%increments))
-         table%is_whole(1) = .true.
-         table%is_whole(10) = .true.
          do k = 1, size(study%increments)
             case%increments = study%increments(k)
             call walk_once(suspension, case, kkt, found, closure, time, is_reached)
-            table%values(1, k) = case%increments
-            table%values(10, k) = merge(1.0_wp, 0.0_wp, is_reached)
-            if (is_reached) then
-               table%values(2, k) = closure
-               table%values(3, k) = (found%centre(3) - exact%centre(3))/millimetre
-               table%values(4, k) = (found%toe - exact%toe)/degree
-               table%values(5, k) = (found%camber - exact%camber)/degree
-               table%values(6, k) = time
-               table%values(7:9, k) = [found%centre(3)/millimetre, found%toe/degree, found%camber/degree]
-            end if
-            if (len(text) == 0) call put('method,'//csv_head(table))
-            call put(trim(study%methods(m))//','//csv_row(table%values(:, k), table%is_whole))
+            row = ieee_value(1.0_wp, ieee_quiet_nan)
+            row(1) = case%increments
+            row(10) = merge(1.0_wp, 0.0_wp, is_reached)
+            if (is_reached) row(2:9) = [closure, (found%centre(3) - exact%centre(3))/millimetre, (found%toe - exact%toe)/degree, &
+               (found%camber - exact%camber)/degree, time, found%centre(3)/millimetre, found%toe/degree, found%camber/degree]
+            call put(trim(study%methods(m))//','//csv_row(row, columns == 'increments' .or. columns == 'reached'))
          end do
       end do
 
