@@ -218,6 +218,7 @@ contains
          text = texts%line(k)
          equals = index(text, '=')
          call get_decimal(text(equals + 1:), half, is_number)
+         if (.not. is_number) half = 0.0_wp      ! it may be no number, which a build with traps does not compare
          if (equals < 2 .or. verify(text(equals + 1:), '0123456789.') > 0 .or. .not. half > 0.0_wp) then
             call fail(error, exit_usage, '--window: expected window=half width with a positive number, as in travel=15, '// &
                'found '//quoted(text))
