@@ -5,7 +5,7 @@ program elastokin
    use ek_command_line, only: command_line_t, read_command_line
    use ek_version, only: version
    use ek_threads, only: use_one_thread
-   use ek_surroundings, only: prepare_surroundings
+   use ek_system, only: prepare_surroundings
    use ek_console, only: print_error, print_text
    implicit none(type, external)
    type(command_line_t) :: line

@@ -93,10 +93,8 @@ contains
    pure logical function is_wide(text)
       character(*), intent(in) :: text
 
-      is_wide = .false.
-      if (len(text) < 2) return
-      is_wide = text(1:2) == char(255)//char(254) .or. text(1:2) == char(254)//char(255) .or. &
-         index(text, achar(0)) > 0
+      is_wide = len(text) > 1 .and. &
+         (index(text, char(255)//char(254)) == 1 .or. index(text, char(254)//char(255)) == 1 .or. index(text, achar(0)) > 0)
    end function is_wide
 
    !> A text with single-byte line ends: those of Windows (CR LF) and of old Macs (CR alone) become a newline.
@@ -125,10 +123,7 @@ contains
       character(*), intent(in) :: text
       integer :: k
 
-      lines = 1
-      do k = 1, len(text)
-         if (text(k:k) == new_line('a')) lines = lines + 1
-      end do
+      lines = 1 + count([(text(k:k) == new_line('a'), k=1, len(text))])
    end function line_count
 
    !> The character at byte k: its number and its length in bytes; length 0 where the bytes are not valid UTF-8.

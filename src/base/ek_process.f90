@@ -7,12 +7,12 @@ module ek_process
    use ek_text, only: str
    use ek_posix, only: c_fopen, c_fileno, c_fclose, c_dup2, c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, &
       c_kill, c_waitpid, c_poll
-   use ek_system, only: set_signal, system_reason, error_number, interrupted
+   use ek_system, only: set_signal, system_reason, error_number, interrupted, sigpipe
    implicit none(type, external)
    private
    public :: run_program
 
-   integer, parameter :: sigkill = 9, sigpipe = 13, sigalrm = 14      !! the same on all systems
+   integer, parameter :: sigkill = 9, sigalrm = 14      !! the same on all systems
 
 contains
 
@@ -110,24 +110,18 @@ contains
       type(message_list_t), intent(in) :: words
       character(kind=c_char), allocatable, target, intent(out) :: letters(:)
       type(c_ptr), allocatable, intent(out) :: pointers(:)     !! into letters; a null at the end
-      character(:), allocatable :: word
-      integer :: k, j, used
+      character(:), allocatable :: text
+      integer :: k
+      integer :: first(words%count())                          ! letter of each word
 
-      used = 0
+      text = ''
       do k = 1, words%count()
-         used = used + len(words%line(k)) + 1
+         first(k) = len(text) + 1
+         text = text//words%line(k)//c_null_char
       end do
-      allocate (letters(used), pointers(words%count() + 1))
-      used = 0
-      do k = 1, words%count()
-         word = words%line(k)//c_null_char
-         pointers(k) = c_loc(letters(used + 1))
-         do j = 1, len(word)
-            letters(used + j) = word(j:j)
-         end do
-         used = used + len(word)
-      end do
-      pointers(words%count() + 1) = c_null_ptr
+      allocate (letters(len(text)), pointers(words%count() + 1))
+      letters(:) = [(text(k:k), k=1, len(text))]
+      pointers = [(c_loc(letters(first(k))), k=1, words%count()), c_null_ptr]
    end subroutine argument_list
 
 end module ek_process

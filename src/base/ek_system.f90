@@ -9,12 +9,12 @@ module ek_system
    use ek_kinds, only: i8
    use ek_error, only: message_list_t
    use ek_posix, only: c_opendir, c_readdir, c_closedir, c_flock, c_getcwd_raw, c_signal, c_gethostname, c_errno, &
-      c_strerror, c_strlen, c_dlsym, c_write, c_access
+      c_strerror, c_strlen, c_dlsym, c_write, c_access, c_close, c_dup, c_fopen
    implicit none(type, external)
    private
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
    public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, reason_of, system_reason, set_signal
-   public :: folder_exists, write_bytes
+   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe
    public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
    ! errno, the same on all systems
@@ -31,6 +31,7 @@ module ek_system
       integer(i8) :: changed = 0                    !! last modification [s since 1970]
    end type facts_t
 
+   integer, parameter :: sigpipe = 13, sigxfsz = 25  !! signals, the same on all systems
    integer, parameter :: most_letters = 4096         !! longest path
 
    abstract interface
@@ -257,6 +258,32 @@ contains
       if (is_ignored) action = transfer(1_c_intptr_t, c_null_funptr)                ! SIG_IGN
       ignored = c_signal(int(number, c_int), action)
    end subroutine set_signal
+
+   !> Prepares this process: corrects what a batch system, a shell or a pipe has set for it. Only the main program may call it,
+   !> once, before anything else.
+   !>
+   !> A reader that closes the pipe (`| head`) and a file that reaches `ulimit -f` become write errors instead of ending the
+   !> process. Descriptors 0, 1 and 2 are opened if they were closed (`>&-`), so that no results file receives one of these
+   !> numbers and messages in the middle of it.
+   subroutine prepare_surroundings()
+      type(c_ptr) :: stays_open
+      integer(c_int) :: descriptor, copy
+      integer :: k, ignored
+
+      call set_signal(sigpipe, is_ignored=.true.)
+      call set_signal(sigxfsz, is_ignored=.true.)
+      do k = 0, 2
+         descriptor = int(k, c_int)
+         copy = c_dup(descriptor)
+         if (copy >= 0) then
+            ignored = c_close(copy)
+         else if (k == 0) then                                            ! open takes the lowest free number: this one
+            stays_open = c_fopen('/dev/null'//c_null_char, 'w'//c_null_char)      ! reading fails, as it did
+         else
+            stays_open = c_fopen('/dev/null'//c_null_char, 'r'//c_null_char)      ! writing fails
+         end if
+      end do
+   end subroutine prepare_surroundings
 
    !> The error number (errno) of the last failure in the C library.
    integer function error_number()

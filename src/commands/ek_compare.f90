@@ -70,7 +70,6 @@ contains
       end do
       call write_differences(this%results, this%rows, join_path(this%folder, 'differences.csv'), error)
       if (allocated(error)) return
-
       call overlay(this%results, this%charts)
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
       path = join_path(this%folder, 'compare.html')
@@ -84,11 +83,8 @@ contains
       call write_whole(path, page_of(this, message), error)
       if (allocated(error)) return
       call print_note(is_quiet, join_path(this%folder, 'differences.csv')//', '//path)
-      if (allocated(undrawn)) then
-         call move_alloc(undrawn, error)
-      else if (allocated(unprinted)) then
-         call move_alloc(unprinted, error)
-      end if
+      if (allocated(undrawn)) call move_alloc(undrawn, unprinted)
+      call move_alloc(unprinted, error)
    end subroutine compare
 
    !> Lists the tests, columns and gradients of one result that another lacks.

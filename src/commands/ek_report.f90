@@ -10,6 +10,7 @@ module ek_report
    use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_examination, only: examination_t
+   use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t
    use ek_test_charts, only: test_charts
    use ek_gradient, only: test_gradients
@@ -20,7 +21,7 @@ module ek_report
    use ek_gradient_window, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
-   use ek_report_tests, only: planned_test_t, report_cases, planned_tests, run_planned
+   use ek_report_tests, only: planned_test_t, planned_tests, run_planned
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
    implicit none(type, external)
    private
@@ -53,7 +54,8 @@ contains
       call read_settings(line, settings, error)
       if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
       if (allocated(error)) return
-      call report_cases(suspension, cases, all_cases)
+      all_cases = cases                                     ! of a model without a wheel
+      if (size(suspension%wheels) > 0) call standard_tests(suspension, cases, all_cases)
       call chosen_cases(settings, settings%method, settings%increments, all_cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
       if (allocated(error)) return

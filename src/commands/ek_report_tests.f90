@@ -4,7 +4,7 @@ module ek_report_tests
    use ek_error, only: error_t
    use ek_text, only: spaced
    use ek_suspension, only: suspension_t, load_number
-   use ek_standard_tests, only: standard_tests, test_title
+   use ek_standard_tests, only: test_title
    use ek_case, only: case_t
    use ek_path, only: path_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
@@ -15,7 +15,7 @@ module ek_report_tests
    use ek_report_files, only: test_line, table_file
    implicit none(type, external)
    private
-   public :: planned_test_t, report_cases, planned_tests, run_planned, kind_of_case
+   public :: planned_test_t, planned_tests, run_planned, kind_of_case
 
    !> A test before it is run.
    type :: planned_test_t
@@ -28,16 +28,6 @@ module ek_report_tests
    end type planned_test_t
 
 contains
-
-   !> The standard tests of an axle and the cases of the deck; without a wheel the cases alone.
-   subroutine report_cases(suspension, own, cases)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: own(:)
-      type(case_t), allocatable, intent(out) :: cases(:)
-
-      cases = own
-      if (size(suspension%wheels) > 0) call standard_tests(suspension, own, cases)
-   end subroutine report_cases
 
    !> Name, kind and title of every test before it is run.
    subroutine planned_tests(suspension, cases, tests)

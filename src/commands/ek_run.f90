@@ -136,6 +136,7 @@ contains
       type(error_t), allocatable :: trouble, undrawn
       type(solve_options_t) :: options
       type(case_result_t) :: result
+      type(table_t) :: compliance
       character(:), allocatable :: name
 
       options%fault = fault
@@ -150,9 +151,11 @@ contains
          call tell_csv(result%table, trouble)
       else
          call write_table(result%table, name//'.csv', unprinted, trouble)
-         if (.not. allocated(trouble)) then
-            if (settings%has_plots) call draw(settings, result, name, undrawn)
-            if (settings%has_compliance) call write_compliance(result, checksum, name//compliance_ending, unprinted, trouble)
+         if (settings%has_plots .and. .not. allocated(trouble)) call draw(settings, result, name, undrawn)
+         if (settings%has_compliance .and. .not. allocated(trouble)) then
+            call compliance_table(result%suspension, result%case, result%path, result%kkt, compliance)
+            call add_header(compliance, result%suspension, result%case, checksum)
+            call write_table(compliance, name//compliance_ending, unprinted, trouble)
          end if
       end if
       if (.not. allocated(trouble) .and. len(wanted%target) > 0) &
@@ -162,19 +165,6 @@ contains
       if (allocated(error)) trouble%message = error%message//new_line('a')//trouble%message
       call move_alloc(trouble, error)
    end subroutine run_case
-
-   !> Writes the compliance matrix at every converged state to a separate file.
-   subroutine write_compliance(result, checksum, path, unprinted, error)
-      type(case_result_t), intent(inout) :: result
-      character(*), intent(in) :: checksum, path
-      type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
-      type(error_t), allocatable, intent(out) :: error
-      type(table_t) :: table
-
-      call compliance_table(result%suspension, result%case, result%path, result%kkt, table)
-      call add_header(table, result%suspension, result%case, checksum)
-      call write_table(table, path, unprinted, error)
-   end subroutine write_compliance
 
    !> Finds the swept value that meets the target of a case, reports it, and writes its state to a separate file (unless the
    !> results go to standard output). Not for the linear methods, whose states are not equilibria.

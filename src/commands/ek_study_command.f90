@@ -80,22 +80,25 @@ contains
       character(*), intent(in) :: out
       type(message_list_t), intent(inout) :: tables      !! names of the tables written: both or none
       type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: endings(2) = [character(14) :: '_curves.csv', '_responses.csv']
       type(table_t) :: curves, responses
-      type(writer_t) :: curve_writer, response_writer
+      type(writer_t) :: writers(2)
       type(message_list_t) :: troubles
       integer :: k
 
-      call begin_file(curve_writer, join_path(out, study%name//'_curves.csv'), error, is_part=.true.)
+      do k = 1, 2
+         if (.not. allocated(error)) &
+            call begin_file(writers(k), join_path(out, study%name//trim(endings(k))), error, is_part=.true.)
+      end do
+      if (.not. allocated(error)) call sweep_factors(study, deck, curves, responses, troubles, error, writers)
+      do k = 1, 2
+         if (.not. allocated(error)) call writers(k)%finish(error)
+      end do
+      do k = 1, 2
+         call writers(k)%abandon()                       ! no effect on a finished table
+         if (.not. allocated(error)) call tables%add(study%name//trim(endings(k)))
+      end do
       if (allocated(error)) return
-      call begin_file(response_writer, join_path(out, study%name//'_responses.csv'), error, is_part=.true.)
-      if (.not. allocated(error)) call sweep_factors(study, deck, curves, responses, troubles, error, curve_writer, response_writer)
-      if (.not. allocated(error)) call curve_writer%finish(error)
-      if (.not. allocated(error)) call response_writer%finish(error)
-      call curve_writer%abandon()                        ! no effect on a finished table
-      call response_writer%abandon()
-      if (allocated(error)) return
-      call tables%add(study%name//'_curves.csv')
-      call tables%add(study%name//'_responses.csv')
       do k = 1, troubles%count()
          call print_warning(troubles%line(k))
       end do

@@ -170,10 +170,7 @@ contains
       character(*), intent(in) :: name
       integer :: k
 
-      has_column = column_index(test%table, name) > 0
-      do k = 1, size(test%prefixes)
-         has_column = has_column .or. column_index(test%table, trim(test%prefixes(k))//name) > 0
-      end do
+      has_column = any([(wheel_column(test, k, name) > 0, k=1, size(test%prefixes) + 1)])
    end function has_column
 
    !> The rows of converged states.

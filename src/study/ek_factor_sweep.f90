@@ -35,14 +35,14 @@ contains
    !>
    !> The rows of a design are passed to the writers as soon as they are available; gnuplot requires an empty line after every
    !> curve, and after every block of designs.
-   subroutine sweep_factors(study, deck, curves, responses, troubles, error, curve_writer, response_writer)
+   subroutine sweep_factors(study, deck, curves, responses, troubles, error, writers)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       type(table_t), intent(out) :: curves        !! design, factors, then the columns of the study; one row per state
       type(table_t), intent(out) :: responses     !! design, factors, responses, converged; one row per design
       type(message_list_t), intent(out) :: troubles
       type(error_t), allocatable, intent(out) :: error   !! a mistake in the study itself (a path, a column)
-      type(writer_t), intent(inout), optional :: curve_writer, response_writer
+      type(writer_t), intent(inout), optional :: writers(2)      !! of curves and responses
       type(worker_t) :: worker
       type(case_result_t) :: result
       type(error_t), allocatable :: trouble
@@ -70,8 +70,8 @@ contains
             end if
             if (.not. allocated(error)) call start_tables(study, readings, size(result%table%values, 2), curves, responses, error)
             if (allocated(error)) return
-            if (present(curve_writer)) call curve_writer%add(csv_head(curves))
-            if (present(response_writer)) call response_writer%add(csv_head(responses))
+            if (present(writers)) call writers(1)%add(csv_head(curves))
+            if (present(writers)) call writers(2)%add(csv_head(responses))
          end if
          responses%values(:size(values) + 1, design) = [real(design, wp), values]
          responses%values(size(responses%columns), design) = 0.0_wp
@@ -83,18 +83,15 @@ contains
             call take_responses(readings, result%table, label_of(study, values), responses%values(size(values) + 2:, design), &
                troubles)
          end if
-         if (present(curve_writer)) then
-            if (before > 0 .and. used > before) call curve_writer%add(new_line('a'))
-            do k = before + 1, used
-               call curve_writer%add(csv_row(curves%values(:, k), curves%is_whole))
-            end do
-            call curve_writer%flush()
-         end if
-         if (present(response_writer)) then
-            if (begins_block .and. design > 1) call response_writer%add(new_line('a'))
-            call response_writer%add(csv_row(responses%values(:, design), responses%is_whole))
-            call response_writer%flush()
-         end if
+         if (.not. present(writers)) cycle
+         if (before > 0 .and. used > before) call writers(1)%add(new_line('a'))
+         do k = before + 1, used
+            call writers(1)%add(csv_row(curves%values(:, k), curves%is_whole))
+         end do
+         if (begins_block .and. design > 1) call writers(2)%add(new_line('a'))
+         call writers(2)%add(csv_row(responses%values(:, design), responses%is_whole))
+         call writers(1)%flush()
+         call writers(2)%flush()
       end do
       curves%values = curves%values(:, :used)
    end subroutine sweep_factors
