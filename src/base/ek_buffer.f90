@@ -13,11 +13,8 @@ module ek_buffer
       character(:), allocatable :: letters
       integer :: used = 0
    contains
-      procedure :: add => buffer_add
-      procedure :: line => buffer_line
-      procedure :: text => buffer_text
-      procedure :: length => buffer_length
-      procedure :: clear => buffer_clear
+      procedure :: add => buffer_add, line => buffer_line, text => buffer_text, length => buffer_length, &
+         clear => buffer_clear
    end type buffer_t
 
 contains

@@ -29,10 +29,7 @@ module ek_error
       type(line_t), allocatable :: lines(:)
       integer :: used = 0
    contains
-      procedure :: add => list_add
-      procedure :: count => list_count
-      procedure :: text => list_text
-      procedure :: line => list_line
+      procedure :: add => list_add, count => list_count, text => list_text, line => list_line
    end type message_list_t
 
 contains

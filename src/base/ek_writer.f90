@@ -47,11 +47,8 @@ module ek_writer
       logical :: is_awaited = .true.                    !! wait until the file is on the disk before it is renamed
       type(buffer_t) :: rows                            !! added since the last flush
    contains
-      procedure :: add => writer_add
-      procedure :: flush => writer_flush
-      procedure :: finish => writer_finish
-      procedure :: abandon => writer_abandon
-      procedure :: temporary_name => writer_temporary_name
+      procedure :: add => writer_add, flush => writer_flush, finish => writer_finish, abandon => writer_abandon, &
+         temporary_name => writer_temporary_name
    end type writer_t
 
    !> A private folder of this run, for other programs to write into.

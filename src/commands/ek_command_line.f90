@@ -33,10 +33,7 @@ module ek_command_line
       type(message_list_t) :: files
       type(message_list_t), private :: names, texts     !! of the options in order, and their values
    contains
-      procedure :: has
-      procedure :: value => last_value
-      procedure :: values => all_values
-      procedure :: number => number_of
+      procedure :: has, value => last_value, values => all_values, number => number_of
    end type command_line_t
 
 contains

@@ -112,9 +112,8 @@ contains
       more = ''
       if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
       call print_warning('plausible? '//remarks%line(1)//more)
-      if (.not. present(page)) return
       do k = 1, remarks%count()
-         call page%add('plausible? '//remarks%line(k))
+         if (present(page)) call page%add('plausible? '//remarks%line(k))
       end do
    end subroutine print_model_remarks
 

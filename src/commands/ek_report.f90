@@ -21,7 +21,7 @@ module ek_report
    use ek_gradient_window, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
-   use ek_report_tests, only: planned_test_t, planned_tests, run_planned
+   use ek_report_tests, only: planned_tests, run_planned
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
    implicit none(type, external)
    private
@@ -45,7 +45,6 @@ contains
       type(report_t) :: page
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)      ! of the deck; those of this report
-      type(planned_test_t), allocatable :: planned(:)
       type(examination_t) :: found
       type(message_list_t) :: warnings
       type(error_t), allocatable :: undrawn, unprinted, incomplete
@@ -64,13 +63,13 @@ contains
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
       if (.not. allocated(error)) call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
-      call planned_tests(suspension, chosen, planned)
-      call print_model_remarks(settings%is_quiet, suspension, cases, planned%case, page%warnings)
+      call planned_tests(suspension, chosen, page%tests)
+      call print_model_remarks(settings%is_quiet, suspension, cases, chosen, page%warnings)
       call remove_file(join_path(page%folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))
       call remove_file(join_path(page%folder, compliance_file))
 
-      call run_tests(settings%windows, suspension, planned, found, checksum, page, unprinted, incomplete, error)
+      call run_tests(settings%windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
       if (allocated(error)) return
       call write_gradients(page%gradients, suspension%name, checksum, join_path(page%folder, gradients_file), &
          join_path(page%folder, 'gradients.json'), error)
@@ -130,10 +129,10 @@ contains
 
    !> Runs the tests and writes their tables, and the compliance matrix at every state of the first that is run: travel, with
    !> design.
-   subroutine run_tests(windows, suspension, planned, found, checksum, page, unprinted, incomplete, error)
+   subroutine run_tests(windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
       type(windows_t), intent(in) :: windows
       type(suspension_t), intent(in) :: suspension
-      type(planned_test_t), intent(in) :: planned(:)
+      type(case_t), intent(in) :: chosen(:)
       type(examination_t), intent(in) :: found
       character(*), intent(in) :: checksum
       type(report_t), intent(inout) :: page
@@ -144,17 +143,17 @@ contains
       type(table_t), allocatable :: compliance
       integer :: k, failed, code
 
-      allocate (page%tests(size(planned)), page%paths(size(planned)), page%charts(0), page%gradients(0))
+      allocate (page%paths(size(chosen)), page%charts(0), page%gradients(0))
       if (size(suspension%wheels) > 0) allocate (compliance)
       failed = 0
       code = exit_convergence
-      do k = 1, size(planned)
-         call run_planned(suspension, planned(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, compliance)
+      do k = 1, size(chosen)
+         call run_planned(suspension, chosen(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, compliance)
          if (allocated(trouble)) then
             call print_error(trouble%message)
             failed = failed + 1
             if (trouble%code /= exit_convergence) code = trouble%code     ! the test was not run at all
-            call page%warnings%add(planned(k)%title//': '//trouble%message)
+            call page%warnings%add(page%tests(k)%title//': '//trouble%message)
          end if
          if (.not. page%tests(k)%is_run) cycle
          call write_table(page%tests(k)%table, join_path(page%folder, page%tests(k)%file), unprinted, error)
@@ -167,7 +166,7 @@ contains
          call test_gradients(page%tests(k), windows, page%gradients)
          call test_charts(page%tests(k), page%charts, k)
       end do
-      if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(planned), 'test', 'tests')// &
+      if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(chosen), 'test', 'tests')// &
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
    end subroutine run_tests
 

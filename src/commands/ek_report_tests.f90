@@ -15,40 +15,34 @@ module ek_report_tests
    use ek_report_files, only: test_line, table_file
    implicit none(type, external)
    private
-   public :: planned_test_t, planned_tests, run_planned, kind_of_case
-
-   !> A test before it is run.
-   type :: planned_test_t
-      character(:), allocatable :: name      !! unique; also the name of its CSV file
-      character(:), allocatable :: kind      !! 'parallel_travel', 'roll', 'lateral_force', …; see ek_gradient
-      character(:), allocatable :: title     !! heading of its section
-      type(case_t) :: case
-      real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
-      logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
-   end type planned_test_t
+   public :: planned_tests, run_planned, kind_of_case
 
 contains
 
    !> Name, kind and title of every test before it is run.
    subroutine planned_tests(suspension, cases, tests)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: cases(:)
-      type(planned_test_t), allocatable, intent(out) :: tests(:)
+      type(case_t), intent(inout) :: cases(:)      !! their results have all columns
+      type(test_result_t), allocatable, intent(out) :: tests(:)
       integer :: k
 
       allocate (tests(size(cases)))
+      cases%has_all = .true.
       do k = 1, size(cases)
-         tests(k)%name = cases(k)%name
-         tests(k)%case = cases(k)
-         tests(k)%case%has_all = .true.
-         if (len(cases(k)%test) > 0) then
-            tests(k)%kind = cases(k)%test
-            tests(k)%title = test_title(cases(k), size(suspension%wheels))
-            tests(k)%is_anti = cases(k)%is_anti
-         else
-            call kind_of_case(suspension, cases(k), tests(k)%kind, tests(k)%factor_size)
-            tests(k)%title = title_of(cases(k)%name)
-         end if
+         associate (test => tests(k), case => cases(k))
+            test%name = case%name
+            test%file = table_file(case%name)
+            test%is_iso = suspension%is_iso
+            allocate (test%prefixes(0), test%sides(0))
+            if (len(case%test) > 0) then
+               test%kind = case%test
+               test%title = test_title(case, size(suspension%wheels))
+               test%is_anti = case%is_anti
+            else
+               call kind_of_case(suspension, case, test%kind, test%factor_size)
+               test%title = title_of(case%name)
+            end if
+         end associate
       end do
    end subroutine planned_tests
 
@@ -59,8 +53,8 @@ contains
       character(:), allocatable, intent(out) :: kind
       real(wp), intent(out) :: factor_size      !! load at `factor` = 1 [N or N m]
       real(wp), parameter :: mostly = 0.99_wp   ! share of the load along one axis
-      real(wp) :: force(3), moment(3)
-      integer :: k
+      real(wp) :: load(6)
+      integer :: k, axis
 
       kind = 'other'
       factor_size = 1.0_wp
@@ -70,24 +64,18 @@ contains
       end if
       k = load_number(suspension, case%load)
       if (k == 0) return
-      force = suspension%loads(k)%force
-      moment = suspension%loads(k)%moment
-      if (norm2(force) > 0.0_wp .and. norm2(moment) > 0.0_wp) return
-      if (abs(force(3)) > mostly*norm2(force)) then
-         kind = 'vertical_force'
-         factor_size = force(3)
-      else if (abs(force(2)) > mostly*norm2(force)) then
-         kind = 'lateral_force'
-         factor_size = force(2)
-      else if (abs(force(1)) > mostly*norm2(force)) then
-         kind = 'braking'
-         factor_size = force(1)
-         if (is_at_centre(suspension, k)) kind = 'traction'
-         if (kind == 'traction') factor_size = -force(1)
-      else if (abs(moment(3)) > mostly*norm2(moment)) then
-         kind = 'aligning_torque'
-         factor_size = moment(3)
-      end if
+      load = [suspension%loads(k)%force, suspension%loads(k)%moment]
+      if (norm2(load(:3)) > 0.0_wp .and. norm2(load(4:)) > 0.0_wp) return
+      axis = maxloc(abs(load), dim=1)
+      if (.not. abs(load(axis)) > mostly*norm2(load) .or. axis == 4 .or. axis == 5) return
+      factor_size = load(axis)
+      if (axis == 1) kind = 'braking'
+      if (axis == 2) kind = 'lateral_force'
+      if (axis == 3) kind = 'vertical_force'
+      if (axis == 6) kind = 'aligning_torque'
+      if (axis /= 1 .or. .not. is_at_centre(suspension, k)) return
+      kind = 'traction'
+      factor_size = -load(1)
    end subroutine kind_of_case
 
    !> Whether a load acts at the centre of a wheel.
@@ -113,12 +101,12 @@ contains
 
    !> Runs one test. Its remarks report every failure to converge; `error` then has exit_convergence (or exit_model if the
    !> model cannot be solved), and the table has the states before it.
-   subroutine run_planned(base, planned, fault, checksum, test, path, error, compliance)
+   subroutine run_planned(base, case, fault, checksum, test, path, error, compliance)
       type(suspension_t), intent(in) :: base
-      type(planned_test_t), intent(in) :: planned
+      type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
       character(*), intent(in) :: checksum
-      type(test_result_t), intent(out) :: test
+      type(test_result_t), intent(inout) :: test   !! as planned
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
       type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
@@ -128,19 +116,11 @@ contains
       type(remark_t) :: remark
       integer :: topic, k
 
-      test%name = planned%name
-      test%kind = planned%kind
-      test%title = planned%title
-      test%file = table_file(planned%name)
-      test%factor_size = planned%factor_size
-      test%is_anti = planned%is_anti
-      test%is_iso = base%is_iso
-      allocate (test%prefixes(0), test%sides(0))
       options%fault = fault
       options%checksum = checksum
       options%is_compared = .false.
       options%least_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
-      call solve_case(base, planned%case, options, result)
+      call solve_case(base, case, options, result)
       call failure_of(result, error)
       do topic = 1, size(topics)
          do k = 1, result%remarks%count()
@@ -161,7 +141,7 @@ contains
       end if
       test%table = result%table
       path = result%path
-      call test%table%header%add(test_line(planned%kind, planned%is_anti, planned%factor_size))
+      call test%table%header%add(test_line(test%kind, test%is_anti, test%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
       call choose_abscissa(test)
    end subroutine run_planned

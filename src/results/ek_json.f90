@@ -24,13 +24,9 @@ module ek_json
       integer :: depth = 0
       logical :: is_empty = .true.     !! the innermost list or object has no item yet
    contains
-      procedure :: open => json_open
-      procedure :: close => json_close
-      procedure :: text_item => json_text_item
-      procedure :: number_item => json_number_item
-      procedure :: integer_item => json_integer_item
-      procedure :: numbers_item => json_numbers_item
-      procedure :: text => json_text
+      procedure :: open => json_open, close => json_close, text_item => json_text_item, &
+         number_item => json_number_item, integer_item => json_integer_item, numbers_item => json_numbers_item, &
+         text => json_text
    end type json_t
 
 contains

@@ -100,7 +100,7 @@ contains
       real(wp) :: at, centre, mean_x, mean_y, spread
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
-      integer :: k, column, over
+      integer :: column, over
 
       message = ''
       value = ieee_value(1.0_wp, ieee_quiet_nan)
@@ -131,10 +131,8 @@ contains
       centre = between(x, table%values(over, :), at)
       x = table%values(over, :)
       if (.not. ieee_is_finite(centre)) return          ! the state did not converge, or the column is undefined there
-      is_near = .false.
-      do k = 1, size(x)
-         if (ieee_is_finite(x(k))) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
-      end do
+      is_near = ieee_is_finite(x)
+      where (is_near) is_near = abs(x - centre) <= reading%asked%window*(1.0_wp + rounding)
       if (count(is_near) < 2) then
          message = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
             str(reading%asked%window)//', a slope needs 2; '//remedy(abs(x - centre), reading%asked%window)
@@ -155,7 +153,7 @@ contains
       real(wp), intent(in) :: distance(:)      !! of the states from the centre of the window
       real(wp), intent(in) :: window
       character(:), allocatable :: words
-      real(wp) :: second
+      real(wp) :: second, unit
       logical :: is_left(size(distance))
 
       words = 'use more increments in the case'
@@ -163,17 +161,10 @@ contains
       if (count(is_left) < 2) return
       is_left(minloc(distance, dim=1, mask=is_left)) = .false.
       second = minval(distance, mask=is_left)
+      unit = 10.0_wp**(floor(log10(second)) - 2)          ! of the third digit
       words = 'use at least '//str(ceiling(second/window))//' times as many increments in the case, or a window of '// &
-         str(rounded_up(second), 3)//' or more in the response'
+         str(ceiling(second/unit*(1.0_wp - 1.0e-9_wp))*unit, 3)//' or more in the response'
    end function remedy
-
-   !> A number above 0 rounded up to three digits.
-   pure real(wp) function rounded_up(value) result(rounded)
-      real(wp), intent(in) :: value
-      real(wp) :: unit
-      unit = 10.0_wp**(floor(log10(value)) - 2)
-      rounded = ceiling(value/unit*(1.0_wp - 1.0e-9_wp))*unit
-   end function rounded_up
 
    !> The default column over which a slope is taken: the travel of the only wheel; with two wheels, that on the side of the
    !> column, or else of the left wheel.
