@@ -105,16 +105,12 @@ contains
             hint = hint//' '//quoted(names(k))
          end do
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
-         return
-      end if
-      if (len(method) > 0 .and. .not. any(method_names == method)) then
+      else if (len(method) > 0 .and. .not. any(method_names == method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(method))
-         return
-      end if
-      if (increments > most_increments) then
+      else if (increments > most_increments) then
          call fail(error, exit_usage, '--increments: expected 1 to '//str(most_increments)//', found '//str(increments))
-         return
       end if
+      if (allocated(error)) return
       do k = 1, size(chosen)
          if (chosen(k)%follows_arc .and. len(method) > 0 .and. method /= 'equilibrium') then
             call fail(error, exit_usage, '--method: case '//quoted(chosen(k)%name)//' has follow = ''arc'', which requires '// &

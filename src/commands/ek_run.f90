@@ -116,10 +116,9 @@ contains
 
       do k = 1, size(cases)
          do j = 1, size(cases)
-            if (cases(j)%name//'.csv' /= cases(k)%name//compliance_ending) cycle
-            call fail(error, exit_usage, '--compliance: the compliance matrix of case '//quoted(cases(k)%name)// &
+            if (cases(j)%name//'.csv' == cases(k)%name//compliance_ending .and. .not. allocated(error)) &
+               call fail(error, exit_usage, '--compliance: the compliance matrix of case '//quoted(cases(k)%name)// &
                ' would overwrite the results of case '//quoted(cases(j)%name)//'; rename one, or choose with --case')
-            return
          end do
       end do
    end subroutine refuse_double_files

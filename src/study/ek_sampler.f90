@@ -14,7 +14,7 @@ module ek_sampler
    type :: kind_t
       character(12) :: name
       integer :: least_factors, most_factors, least_increments
-      character(30) :: needs       !! the same in words
+      character(30) :: needs       !! the same, for the message
    end type kind_t
 
    type(kind_t), parameter :: kinds(*) = [ &
