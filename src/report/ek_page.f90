@@ -9,7 +9,7 @@ module ek_page
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_svg, only: embedded_svg, escape_html
-   use ek_gnuplot, only: palette
+   use ek_chart, only: palette
    implicit none(type, external)
    private
    public :: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts
