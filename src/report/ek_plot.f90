@@ -28,6 +28,7 @@ contains
       logical, intent(in), optional :: has_points           !! the states are independent: points without a line
       type(test_result_t) :: test
       type(chart_t) :: chart
+      logical :: is_cut
       integer :: k
 
       allocate (figures(0))
@@ -54,7 +55,9 @@ contains
       call add_figure('spring_force', 'Spring force', [chart])
       chart = bushing_chart(test, elements)
       chart%title = ''
-      call add_figure('bushing_force', 'Bushing force', [chart])
+      is_cut = .false.
+      if (present(elements)) is_cut = size(elements) > size(chart%traces)
+      call add_figure('bushing_force', trim(merge('Bushing force, largest', 'Bushing force         ', is_cut)), [chart])
 
    contains
 
