@@ -237,14 +237,16 @@ contains
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
+      character(:), allocatable :: file
       integer :: k, n
 
       do k = 1, size(charts)
          if (size(charts(k)%traces) == 0) cycle
+         file = picture_file(charts(k))
          do n = 1, pictures%count()
-            if (pictures%line(n) == picture_file(charts(k))) exit
+            if (pictures%line(n) == file) exit
          end do
-         if (n > pictures%count()) call pictures%add(picture_file(charts(k)))
+         if (n > pictures%count()) call pictures%add(file)
       end do
    end subroutine pictures_of
 

@@ -64,9 +64,10 @@ contains
       !> One figure with a panel for every quantity that has a column; a single one of several has its own figure already.
       subroutine add_quantities(name, title, columns)
          character(*), intent(in) :: name, title, columns(:)
-         type(chart_t) :: panels(size(columns))
+         type(chart_t), allocatable :: panels(:)
          integer :: k, used
 
+         allocate (panels(size(columns)))
          used = 0
          do k = 1, size(columns)
             panels(used + 1) = quantity_chart(test, quantity_named(columns(k)))

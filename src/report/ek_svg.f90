@@ -37,7 +37,7 @@ contains
       used = used_symbols(text)
       at = last
       do while (at < finish)
-         last = at - 1 + index(text(at:finish), '<')
+         last = next_of(text, at, '<')
          call add_words(out, text(at:last - 1))
          if (last == finish) exit
          at = last
@@ -45,7 +45,7 @@ contains
          if (k > 0) then
             at = past(text, at, trim(ends(k)))
          else
-            last = past(text, at, '>')
+            last = next_of(text, at, '>') + 1
             if (text(at:at + 2) == '<g ' .and. text(last:last + 4) == achar(10)//'</g>') then
                last = last + 5                           ! gnuplot writes many empty groups
             else if (.not. is_unused(text(at:last - 1), used)) then
@@ -58,21 +58,18 @@ contains
       svg = out%text()
    end function embedded_svg
 
-   !> The point symbols that a picture refers to, each as '#id '.
+   !> The ids that a picture refers to, each as '#id '.
    pure function used_symbols(text) result(used)
       character(*), intent(in) :: text
       character(:), allocatable :: used
-      character(*), parameter :: mark = "href='#"
-      integer :: at, length
+      integer :: at, last
 
       used = ''
-      at = 1
-      do
-         length = index(text(at:), mark)
-         if (length == 0) exit
-         at = at + length + len(mark) - 2                ! the #
-         length = index(text(at:), "'")
-         if (index(used, text(at:at + length - 2)//' ') == 0) used = used//text(at:at + length - 2)//' '
+      at = next_of(text, 1, '#')
+      do while (at < len(text))
+         last = next_of(text, at, "'")
+         if (index(used, text(at:last - 1)//' ') == 0) used = used//text(at:last - 1)//' '
+         at = next_of(text, last, '#')
       end do
    end function used_symbols
 
@@ -82,7 +79,8 @@ contains
       character(:), allocatable :: id
 
       is_unused = .false.
-      if (index(tag(:min(len(tag), 40)), " id='gp") == 0 .or. tag(len(tag) - 1:) /= '/>') return
+      if (tag(len(tag) - 1:) /= '/>') return
+      if (index(tag(:min(len(tag), 40)), " id='gp") == 0) return
       id = attribute(tag, 'id')
       is_unused = index(used, '#'//id//' ') == 0
    end function is_unused
@@ -115,12 +113,11 @@ contains
       from = 1                                           ! the first character that is not yet written
       at = max(1, index(tag, ' '))
       do
-         equals = at - 1 + index(tag(at:), '=')          ! name="value"
-         if (equals < at) exit
+         equals = next_of(tag, at, '=')                  ! name="value"
          first = equals + scan(tag(equals + 1:), '"'//"'")
-         if (first == equals) exit
-         last = first + index(tag(first + 1:), tag(first:first))
-         if (last == first) exit
+         if (first <= equals) exit
+         last = next_of(tag, first + 1, tag(first:first))
+         if (last > len(tag)) exit
          at = at - 1 + verify(tag(at:equals), ' '//achar(9)//achar(10))
          renamed = 0                                     ! the character before the id
          if (tag(at:equals - 1) == 'id') then
@@ -157,6 +154,17 @@ contains
          past = at + past - 1 + len(word)
       end if
    end function past
+
+   !> The next position of a letter, at `at` or behind it; behind the text if there is none.
+   pure integer function next_of(text, at, letter) result(place)
+      character(*), intent(in) :: text
+      integer, intent(in) :: at
+      character(1), intent(in) :: letter
+
+      do place = at, len(text)
+         if (text(place:place) == letter) return
+      end do
+   end function next_of
 
    !> Value of an attribute, '' if it is missing.
    pure function attribute(tag, name) result(value)

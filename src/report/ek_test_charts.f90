@@ -8,7 +8,7 @@ module ek_test_charts
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
-   use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
+   use ek_chart, only: chart_t, trace_t, new_chart, add_trace
    implicit none(type, external)
    private
    public :: test_charts, quantity_chart, ending_chart, bushing_chart, quantities_of
@@ -19,28 +19,42 @@ module ek_test_charts
 contains
 
    !> Appends all charts of a test, named <test>_<column>.
-   pure subroutine test_charts(test, charts, number)
+   subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(inout) :: charts(:)
       integer, intent(in), optional :: number         !! of the test
       character(48), allocatable :: columns(:)
-      integer :: k, before
+      type(chart_t), allocatable :: drawn(:)
+      integer :: k, used
 
-      if (.not. allocated(charts)) allocate (charts(0))
-      before = size(charts)
       columns = quantities_of(test%kind)
+      allocate (drawn(size(columns) + 4))
+      used = 0
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
          if (columns(k) == 'toe_deg' .and. has_column(test, 'steer_deg') .and. any(columns == 'steer_deg')) cycle
-         call append_if_drawn(charts, quantity_chart(test, quantity_named(columns(k))))
+         call take(quantity_chart(test, quantity_named(columns(k))))
       end do
-      call append_if_drawn(charts, ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
+      call take(ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
          'd(length)/d(wheel travel)    (− shortens in bump)', 1.0e-3_wp))
-      call append_if_drawn(charts, ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', &
-         'force, N    (+ compression)', 1.0_wp))
-      call append_if_drawn(charts, ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
-      call append_if_drawn(charts, bushing_chart(test))
-      if (present(number)) charts(before + 1:)%test = number
+      call take(ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', 'force, N    (+ compression)', 1.0_wp))
+      call take(ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
+      call take(bushing_chart(test))
+      if (.not. allocated(charts)) allocate (charts(0))
+      if (present(number)) drawn%test = number
+      charts = [charts, drawn(:used)]
+
+   contains
+
+      !> Keeps a chart that has a curve.
+      subroutine take(chart)
+         type(chart_t), intent(in) :: chart
+
+         if (size(chart%traces) == 0) return
+         used = used + 1
+         drawn(used) = chart
+      end subroutine take
+
    end subroutine test_charts
 
    !> The columns drawn for a kind of test, the most important ones first.
@@ -85,13 +99,6 @@ contains
          if (kind == 'table') columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
       end select
    end function quantities_of
-
-   pure subroutine append_if_drawn(charts, chart)
-      type(chart_t), allocatable, intent(inout) :: charts(:)
-      type(chart_t), intent(in) :: chart
-
-      if (size(chart%traces) > 0) call append_chart(charts, chart)
-   end subroutine append_if_drawn
 
    !> A chart of a test, still without curves. The rows of a load table are no path and are drawn as points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)

@@ -67,25 +67,23 @@ contains
    !> The header lines and the line of column names.
    pure function csv_head(table) result(text)
       type(table_t), intent(in) :: table
-      character(:), allocatable :: text
-      character(:), allocatable :: lines
+      character(:), allocatable :: text, lines
+      type(buffer_t) :: out
       integer :: k
 
-      text = ''
-      if (table%header%count() > 0) then
-         lines = table%header%text()
-         text = '# '
-         do k = 1, len(lines)
-            text = text//lines(k:k)
-            if (lines(k:k) == line_end) text = text//'# '
-         end do
-         text = text//line_end
-      end if
-      do k = 1, size(table%columns)
-         if (k > 1) text = text//','
-         text = text//trim(table%columns(k))
+      lines = table%header%text()
+      if (table%header%count() > 0) call out%add('# ')
+      do k = 1, len(lines)
+         call out%add(lines(k:k))
+         if (lines(k:k) == line_end) call out%add('# ')
       end do
-      text = text//line_end
+      if (table%header%count() > 0) call out%add(line_end)
+      do k = 1, size(table%columns)
+         if (k > 1) call out%add(',')
+         call out%add(table%columns(k) (:len_trim(table%columns(k))))
+      end do
+      call out%add(line_end)
+      text = out%text()
    end function csv_head
 
    !> Writes the table; the file is complete or does not exist.
