@@ -7,10 +7,10 @@ module ek_compare_page
    use ek_test_result, only: design_row
    use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
    use ek_test_charts, only: quantity_chart, quantities_of
-   use ek_chart, only: chart_t, add_trace, append_chart
+   use ek_chart, only: chart_t, add_trace
    use ek_comparison, only: difference_t, difference, percent
-   use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
-      begin_row, add_cell, end_row, add_group, end_table, add_legend, page_text, page_number
+   use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, &
+      add_cell, add_group, end_table, add_legend, page_text, page_number
    use ek_report_files, only: results_t
    use ek_report_page, only: add_charts
    implicit none(type, external)
@@ -88,7 +88,7 @@ contains
                end do
             end do
          end associate
-         if (drawn > 1) call append_chart(charts, chart)
+         if (drawn > 1) charts = [charts, chart]
       end do
    end subroutine overlay_quantity
 
@@ -99,9 +99,11 @@ contains
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
-      character(longest_label(this%results)) :: labels(size(this%results))
+      character(:), allocatable :: labels(:)
       integer :: r, t
 
+      r = maxval([(len(this%results(r)%label), r=1, size(this%results))])
+      allocate (character(max(r, len('difference'))) :: labels(size(this%results)))
       do r = 1, size(this%results)
          labels(r) = this%results(r)%label
          call names%add(letter_of(r))
@@ -123,7 +125,6 @@ contains
          call add_legend(page, labels, design_row(this%results(1)%tests(t)%table) > 0, &
             this%results(1)%tests(t)%kind == 'table')
          if (this%has_pictures) call add_charts(page, this%charts, t, this%folder)
-         call end_section(page)
       end do
       text = page_text(page)
    end function page_of
@@ -136,7 +137,7 @@ contains
       character(*), intent(in) :: labels(:)
       character(len(labels) + 1) :: heads(3*size(results) + 1)
       character(:), allocatable :: test
-      integer :: k, r
+      integer :: k, r, t
 
       call begin_section(page, 'gradients', 'Gradients')
       heads(1) = 'Quantity'
@@ -153,9 +154,10 @@ contains
       do k = 1, size(rows)
          if (rows(k)%test /= test) then
             test = rows(k)%test
-            call add_group(page, title_of(results(1), test))
+            t = test_number(results(1), test)
+            if (t > 0) call add_group(page, results(1)%tests(t)%title)
+            if (t == 0) call add_group(page, test)
          end if
-         call begin_row(page)
          call add_cell(page, trim(rows(k)%quantity//' '//rows(k)%side))
          call add_cell(page, page_number(rows(k)%values(1)), 'n')
          do r = 2, size(results)
@@ -165,10 +167,8 @@ contains
          end do
          call add_cell(page, rows(k)%unit)
          call add_cell(page, rows(k)%window)
-         call end_row(page)
       end do
       call end_table(page)
-      call end_section(page)
    end subroutine add_gradients
 
    !> The letter of a result: A is the first.
@@ -176,29 +176,6 @@ contains
       integer, intent(in) :: result
       letter_of = achar(iachar('A') + modulo(result - 1, 26))
    end function letter_of
-
-   !> Room for every label and for 'difference'.
-   pure integer function longest_label(results) result(longest)
-      type(results_t), intent(in) :: results(:)
-      integer :: r
-
-      longest = len('difference')
-      do r = 1, size(results)
-         longest = max(longest, len(results(r)%label))
-      end do
-   end function longest_label
-
-   !> Title of the test of this name.
-   pure function title_of(results, name) result(title)
-      type(results_t), intent(in) :: results
-      character(*), intent(in) :: name
-      character(:), allocatable :: title
-      integer :: k
-
-      title = name
-      k = test_number(results, name)
-      if (k > 0) title = results%tests(k)%title
-   end function title_of
 
    !> The number of the test of this name in a result; 0 if there is none.
    pure integer function test_number(results, name) result(number)

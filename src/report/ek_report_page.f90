@@ -9,8 +9,8 @@ module ek_report_page
    use ek_chart, only: chart_t, picture_file
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
-   use ek_page, only: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts, &
-      begin_table, begin_row, add_cell, end_row, add_group, end_table, begin_charts, end_charts, &
+   use ek_page, only: page_t, begin_page, begin_section, add_paragraph, add_heading, add_warnings, add_facts, &
+      begin_table, add_cell, add_group, end_table, begin_charts, end_charts, &
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
@@ -80,7 +80,6 @@ contains
          call read_whole(join_path(report%folder, 'animation.gif'), bytes, error)
          if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//report%title, '')
       end if
-      call end_section(page)
    end subroutine add_scene
 
    !> One table of the key numbers.
@@ -107,10 +106,8 @@ contains
          call add_values(page, numbers(k)%quantity, has_sides, numbers(k)%is_of_axle, numbers(k)%left, numbers(k)%right)
          call add_cell(page, numbers(k)%unit)
          call add_cell(page, numbers(k)%sign, 's')
-         call end_row(page)
       end do
       call end_table(page)
-      call end_section(page)
    end subroutine add_key_numbers
 
    !> Begins a table of quantities with one or two columns of values.
@@ -133,15 +130,11 @@ contains
       logical, intent(in) :: has_sides, is_of_axle
       real(wp), intent(in) :: left, right
 
-      call begin_row(page)
       call add_cell(page, quantity)
       call add_cell(page, page_number(left), 'n')
       if (.not. has_sides) return
-      if (is_of_axle) then
-         call add_cell(page, '', 'n')
-      else
-         call add_cell(page, page_number(right), 'n')
-      end if
+      if (is_of_axle) call add_cell(page, '', 'n')
+      if (.not. is_of_axle) call add_cell(page, page_number(right), 'n')
    end subroutine add_values
 
    !> Section of a test: warnings, charts, gradients.
@@ -151,14 +144,13 @@ contains
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: number              !! of the test
       character(16), allocatable :: names(:)
-      integer :: k, found
+      integer :: k
 
       call begin_section(page, 'test-'//test%name, test%title)
       call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
-         found = count(converged_rows(test%table))
-         call add_paragraph(page, plural(found, 'state', 'states')//' in equilibrium, plotted over '//test%label// &
-            '. All columns are in '//test%file//'.')
+         call add_paragraph(page, plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, plotted over '// &
+            test%label//'. All columns are in '//test%file//'.')
          allocate (names(size(test%prefixes)))
          do k = 1, size(names)
             names(k) = wheel_word(test%prefixes(k))
@@ -168,7 +160,6 @@ contains
       end if
       if (report%has_pictures) call add_charts(page, report%charts, number, report%folder)
       call add_gradients(page, test%name, report%gradients)
-      call end_section(page)
    end subroutine add_test
 
    !> The charts of a test drawn by gnuplot, side by side.
@@ -218,7 +209,6 @@ contains
             call add_cell(page, g%unit)
             call add_cell(page, g%window)
             call add_cell(page, g%sign, 's')
-            call end_row(page)
          end associate
       end do
       call end_table(page)
