@@ -7,7 +7,8 @@ module ek_part_shape
    use ek_block, only: rotated
    use ek_measure, only: measure_t, distance
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
-   use ek_suspension, only: suspension_t
+   use ek_rotation, only: cross
+   use ek_suspension, only: suspension_t, wheel_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, &
       same_point
    use ek_state, only: state_t
@@ -41,39 +42,38 @@ contains
          kind = part_damper
       end if
       do k = 1, skeleton%count
-         bar = bar_of(suspension, state, body, skeleton, k)
+         bar = bar_of(state, body, skeleton, k)
          call add_tube(scene, kind, bar(:, 1), bar(:, 2), &
             merge(1.25_wp, 1.0_wp, kind == part_carrier)*arm_radius, merge(4, 7, plain))
       end do
-      if (kind == part_arm .and. .not. plain) call add_plate(scene, suspension, state, body, skeleton)
+      if (kind == part_arm .and. .not. plain) call add_plate(scene, state, body, skeleton)
    end subroutine add_body
 
    !> An arm attached at two points is a wishbone: a thin plate between them and its furthest other point.
-   subroutine add_plate(scene, suspension, state, body, skeleton)
+   subroutine add_plate(scene, state, body, skeleton)
       type(scene_t), intent(inout) :: scene
-      type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       integer, intent(in) :: body
       type(skeleton_t), intent(in) :: skeleton
       real(wp) :: face(3, 3), reach, most
-      integer :: held(2), k, tip
+      integer :: corners(3), k
 
-      if (count(skeleton%nodes(:skeleton%used)%is_held) /= 2) return
-      held = pack([(k, k=1, skeleton%used)], skeleton%nodes(:skeleton%used)%is_held)
-      tip = 0
-      most = 0.05_wp
-      do k = 1, skeleton%used
-         if (skeleton%nodes(k)%is_held .or. skeleton%nodes(k)%is_spring) cycle
-         reach = min(norm2(skeleton%nodes(k)%arm - skeleton%nodes(held(1))%arm), &
-            norm2(skeleton%nodes(k)%arm - skeleton%nodes(held(2))%arm))
-         if (reach <= most) cycle
-         most = reach
-         tip = k
-      end do
-      if (tip == 0) return
-      face(:, 1) = place_of(suspension, state, body, skeleton%nodes(held(1))%arm)
-      face(:, 2) = place_of(suspension, state, body, skeleton%nodes(held(2))%arm)
-      face(:, 3) = place_of(suspension, state, body, skeleton%nodes(tip)%arm)
+      associate (nodes => skeleton%nodes(:skeleton%used))
+         if (count(nodes%is_held) /= 2) return
+         corners = [pack([(k, k=1, size(nodes))], nodes%is_held), 0]
+         most = 0.05_wp
+         do k = 1, size(nodes)
+            if (nodes(k)%is_held .or. nodes(k)%is_spring) cycle
+            reach = min(norm2(nodes(k)%arm - nodes(corners(1))%arm), norm2(nodes(k)%arm - nodes(corners(2))%arm))
+            if (reach <= most) cycle
+            most = reach
+            corners(3) = k
+         end do
+         if (corners(3) == 0) return
+         do k = 1, 3
+            face(:, k) = place_of(state, body, nodes(corners(k))%arm)
+         end do
+      end associate
       call add_face(scene, part_plate, face)
    end subroutine add_plate
 
@@ -99,7 +99,9 @@ contains
             call add_ball(scene, part_ball, b, ball_radius, merge(4, 8, plain))
             if (measure%body_i*measure%body_j == 0) call add_end(0, b)
          case ('revolute')
-            call revolute_axis(suspension, k, state, axis)
+            ! rows 4 and 5 keep two directions of body i perpendicular to v, the axis in body j
+            measure = suspension%terms(suspension%rows(suspension%joints(k)%first_row + 3)%first)%measure
+            axis = rotated(state%poses(measure%body_j + 1)%a, measure%v)
             call add_tube(scene, part_ball, b - 0.022_wp*axis, b + 0.022_wp*axis, 0.015_wp, merge(4, 8, plain))
          case ('cylindrical', 'translational')
             ! rows: x·z and y·z first, so v of the first row is the axis, fixed in body j
@@ -146,18 +148,6 @@ contains
       end do
    end function reach_along
 
-   !> Axis of a revolute joint: rows 4 and 5 keep two directions of body i perpendicular to v, the axis in body j.
-   subroutine revolute_axis(suspension, joint, state, axis)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: joint
-      type(state_t), intent(in) :: state
-      real(wp), intent(out) :: axis(3)
-
-      associate (term => suspension%terms(suspension%rows(suspension%joints(joint)%first_row + 3)%first))
-         axis = rotated(state%poses(term%measure%body_j + 1)%a, term%measure%v)
-      end associate
-   end subroutine revolute_axis
-
    !> A coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing; a torsion spring is part of the bars that
    !> it connects.
    subroutine add_elastic(scene, element, state, plain)
@@ -190,55 +180,46 @@ contains
    end subroutine add_elastic
 
    !> Tyre as a surface of revolution, and a hub.
-   subroutine add_wheel(scene, suspension, state, k, plain)
+   subroutine add_wheel(scene, wheel, state, plain)
       type(scene_t), intent(inout) :: scene
-      type(suspension_t), intent(in) :: suspension
+      type(wheel_t), intent(in) :: wheel
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k
       logical, intent(in) :: plain
       real(wp) :: centre(3), axis(3), half
-      integer :: sides
 
-      associate (wheel => suspension%wheels(k))
-         centre = place_of(suspension, state, wheel%body, wheel%centre)
-         axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
-         half = 0.32_wp*wheel%radius
-         sides = merge(18, 44, plain)
-         call add_tube(scene, part_carrier, centre - 0.02_wp*axis, centre + 0.05_wp*axis, 0.055_wp, merge(6, 14, plain))
-         if (plain) then
-            call add_tread(scene, suspension, state, k, line_ground)
-            return
-         end if
+      centre = place_of(state, wheel%body, wheel%centre)
+      axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
+      half = 0.32_wp*wheel%radius
+      call add_tube(scene, part_carrier, centre - 0.02_wp*axis, centre + 0.05_wp*axis, 0.055_wp, merge(6, 14, plain))
+      if (plain) then
+         call add_tread(scene, wheel, state, line_ground)
+      else
          call add_surface(scene, part_tyre, centre, axis, half*[-0.8_wp, -1.0_wp, -0.78_wp, 0.0_wp, 0.78_wp, 1.0_wp, 0.8_wp], &
-            wheel%radius*[0.66_wp, 0.82_wp, 0.965_wp, 1.0_wp, 0.965_wp, 0.82_wp, 0.66_wp], sides)
-      end associate
+            wheel%radius*[0.66_wp, 0.82_wp, 0.965_wp, 1.0_wp, 0.965_wp, 0.82_wp, 0.66_wp], 44)
+      end if
    end subroutine add_wheel
 
    !> Circles of the tread and the rim, in the wheel plane.
-   subroutine add_tread(scene, suspension, state, k, kind)
+   subroutine add_tread(scene, wheel, state, kind)
       type(scene_t), intent(inout) :: scene
-      type(suspension_t), intent(in) :: suspension
+      type(wheel_t), intent(in) :: wheel
       type(state_t), intent(in) :: state
-      integer, intent(in) :: k, kind
+      integer, intent(in) :: kind
       integer, parameter :: corners = 48
       real(wp) :: circle(3, corners + 1), centre(3), axis(3), u(3), v(3)
       integer :: n
 
-      associate (wheel => suspension%wheels(k))
-         centre = place_of(suspension, state, wheel%body, wheel%centre)
-         axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
-         u = [axis(2), -axis(1), 0.0_wp]         ! horizontal; a spin axis is never vertical
-         u = u/norm2(u)
-         v = [axis(2)*u(3) - axis(3)*u(2), axis(3)*u(1) - axis(1)*u(3), axis(1)*u(2) - axis(2)*u(1)]
-         do n = 0, corners
-            circle(:, n + 1) = centre + wheel%radius*(u*cos(2*pi*n/corners) + v*sin(2*pi*n/corners))
-         end do
-         call add_line(scene, kind, circle)
-         do n = 0, corners
-            circle(:, n + 1) = centre + 0.66_wp*(circle(:, n + 1) - centre)
-         end do
-         if (kind == line_ground) call add_line(scene, kind, circle)
-      end associate
+      centre = place_of(state, wheel%body, wheel%centre)
+      axis = rotated(state%poses(wheel%body + 1)%a, wheel%spin)
+      u = [axis(2), -axis(1), 0.0_wp]         ! horizontal; a spin axis is never vertical
+      u = u/norm2(u)
+      v = cross(axis, u)
+      do n = 0, corners
+         circle(:, n + 1) = centre + wheel%radius*(u*cos(2*pi*n/corners) + v*sin(2*pi*n/corners))
+      end do
+      call add_line(scene, kind, circle)
+      circle = spread(centre, 2, corners + 1) + 0.66_wp*(circle - spread(centre, 2, corners + 1))
+      if (kind == line_ground) call add_line(scene, kind, circle)
    end subroutine add_tread
 
 end module ek_part_shape

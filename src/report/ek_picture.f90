@@ -33,7 +33,7 @@ contains
          call add_elastic(scene, suspension%elements(k), state, is_plain)
       end do
       do k = 1, size(suspension%wheels)
-         call add_wheel(scene, suspension, state, k, is_plain)
+         call add_wheel(scene, suspension%wheels(k), state, is_plain)
       end do
    end subroutine add_solid
 
@@ -50,7 +50,7 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          do k = 1, skeleton%count
-            call add_line(scene, kind, bar_of(suspension, state, body, skeleton, k))
+            call add_line(scene, kind, bar_of(state, body, skeleton, k))
          end do
       end do
       do k = 1, size(suspension%joints)
@@ -59,7 +59,7 @@ contains
          call add_line(scene, kind, line)
       end do
       do k = 1, size(suspension%wheels)
-         call add_tread(scene, suspension, state, k, kind)
+         call add_tread(scene, suspension%wheels(k), state, kind)
       end do
    end subroutine add_ghost
 
@@ -78,7 +78,7 @@ contains
       z = huge(1.0_wp)
       do k = 1, size(suspension%wheels)
          associate (wheel => suspension%wheels(k))
-            at = place_of(suspension, state, wheel%body, wheel%contact)
+            at = place_of(state, wheel%body, wheel%contact)
             low = min(low, [at(1) - 1.15_wp*wheel%radius, at(2) - 0.16_wp])
             high = max(high, [at(1) + 1.15_wp*wheel%radius, at(2) + 0.16_wp])
             z = min(z, at(3))
@@ -105,32 +105,30 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(skeleton_t) :: skeleton
-      real(wp) :: a(3), b(3), bar(3, 2), longest, at(3)
+      real(wp) :: a(3), b(3), bar(3, 2), longest, at(3), aside
       integer :: body, k
 
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          longest = 0.0_wp
          if (count(skeleton%nodes(:skeleton%used)%is_held) == 2 .and. skeleton%used > 2) then    ! a wishbone: name in its middle
-            longest = 1.0_wp
             at = 0.0_wp
             do k = 1, skeleton%used
-               at = at + place_of(suspension, state, body, skeleton%nodes(k)%arm)/skeleton%used
+               at = at + place_of(state, body, skeleton%nodes(k)%arm)/skeleton%used
             end do
             call name_at(suspension%bodies(body)%name)
             cycle
          end if
          do k = 1, skeleton%count
-            bar = bar_of(suspension, state, body, skeleton, k)
+            bar = bar_of(state, body, skeleton, k)
             if (norm2(bar(:, 2) - bar(:, 1)) <= longest) cycle
             longest = norm2(bar(:, 2) - bar(:, 1))
             at = (bar(:, 1) + bar(:, 2))/2
          end do
-         if (longest > 0.0_wp .and. slides(suspension, body) .and. .not. carries_wheel(suspension, body)) then
-            call name_at(suspension%bodies(body)%name, 5.0_wp)       ! name beside the coil around it
-         else if (longest > 0.0_wp) then
-            call name_at(suspension%bodies(body)%name)
-         end if
+         if (longest <= 0.0_wp) cycle
+         aside = 0.6_wp
+         if (slides(suspension, body) .and. .not. carries_wheel(suspension, body)) aside = 5.0_wp    ! beside the coil around it
+         call name_at(suspension%bodies(body)%name, aside)
       end do
       do k = 1, size(suspension%joints)
          if (suspension%joints(k)%kind /= 'distance') cycle

@@ -23,6 +23,8 @@ module ek_scene_script
       'springs', 'struts, dampers', 'bushings', 'joints', 'chassis']
    character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4']
 
+   character(*), parameter :: default_place = "if (!exists('to')) to = '../'"
+
    !> Direction of view and scale.
    type :: camera_t
       real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! deg
@@ -43,54 +45,43 @@ contains
       real(wp), intent(in) :: footer              !! share of the height that is kept free below
       real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, font sizes 12 to 13
       real(wp), parameter :: above_middle = 0.014_wp   ! offset of the centre in picture heights; measured likewise
-      real(wp) :: right(3), up(3), low(2), high(2), p(2), scale
-      integer :: s
+      real(wp), allocatable :: at(:, :), across(:), upward(:)
+      real(wp) :: right(3), up(3), scale
+      integer :: s, k, n
 
       right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
       up = [-sin(camera%turn*degree)*cos(camera%tilt*degree), cos(camera%turn*degree)*cos(camera%tilt*degree), &
          sin(camera%tilt*degree)]
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      camera%span = 0.1_wp
+      allocate (at(3, sum(scenes%faces%used) + sum(scenes%lines%used)))
+      n = 0
       do s = 1, size(scenes)
          call include(scenes(s)%faces)
          call include(scenes(s)%lines)
       end do
-      if (low(1) > high(1)) return
-      p = (low + high)/2
-      scale = 0.95_wp*min(width/max(high(1) - low(1), 1.0e-3_wp), height*(1 - footer)/max(high(2) - low(2), 1.0e-3_wp))
-      camera%centre = right*p(1) + up*(p(2) - (footer/2 - above_middle)*height/scale)
+      camera%span = 0.1_wp
+      if (n == 0) return
+      across = [(dot_product(right, at(:, k)), k=1, n)]
+      upward = [(dot_product(up, at(:, k)), k=1, n)]
+      scale = 0.95_wp*min(width/max(maxval(across) - minval(across), 1.0e-3_wp), &
+         height*(1 - footer)/max(maxval(upward) - minval(upward), 1.0e-3_wp))
+      camera%centre = right*((minval(across) + maxval(across))/2) + &
+         up*((minval(upward) + maxval(upward))/2 - (footer/2 - above_middle)*height/scale)
       ! the box must contain every vertex; gnuplot clips at the box
-      do s = 1, size(scenes)
-         call enclose(scenes(s)%faces)
-         call enclose(scenes(s)%lines)
-      end do
+      camera%span = max(camera%span, 2.1_wp*maxval([(maxval(abs(at(:, k) - camera%centre)), k=1, n)]))
       camera%zoom = scale*camera%span/(box_share*min(width, height))
 
    contains
 
       subroutine include(list)
          type(run_t), intent(in) :: list
-         integer :: k
-         do k = 1, list%used
-            p = [dot_product(right, list%at(:, k)), dot_product(up, list%at(:, k))]
-            low = min(low, p)
-            high = max(high, p)
-         end do
+         if (list%used > 0) at(:, n + 1:n + list%used) = list%at(:, :list%used)
+         n = n + list%used
       end subroutine include
-
-      subroutine enclose(list)
-         type(run_t), intent(in) :: list
-         integer :: k
-         do k = 1, list%used
-            camera%span = max(camera%span, 2.1_wp*maxval(abs(list%at(:, k) - camera%centre)))
-         end do
-      end subroutine enclose
 
    end subroutine fit_camera
 
-   !> A script that draws one scene as <name>.png and <name>.svg. A name with a folder, '../x', is drawn there unless the
-   !> variable `to` gives another folder.
+   !> A script that draws one scene as <name>.png and <name>.svg in the folder above its own, unless the variable `to` gives
+   !> another folder.
    pure function scene_script(scene, camera, name, title) result(text)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera
@@ -100,16 +91,16 @@ contains
 
       call script%line(gnuplot_comment(title))
       call script%line(gnuplot_comment('Run gnuplot in this folder to redraw the picture; to rotate it: gnuplot -e "look=1" -p '// &
-         name(index(name, '/', back=.true.) + 1:)//'.gp'))
-      call add_place(script, name)
+         name//'.gp'))
+      call script%line(default_place)
       call add_look(script, camera)
       call add_blocks(script, scene)
       call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
          "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
-         place_of(name//'.svg')//' }')
+         'to.'//gnuplot_text(name//'.svg')//' }')
       call add_splot(script, scene, .true.)
       call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
-         'linewidth 1.5 noenhanced; set output '//place_of(name//'.png')//'; replot; unset output }')
+         'linewidth 1.5 noenhanced; set output '//'to.'//gnuplot_text(name//'.png')//'; replot; unset output }')
       text = script%text()
    end function scene_script
 
@@ -124,9 +115,9 @@ contains
       integer :: k
 
       call script%line(gnuplot_comment(title//': '//str(size(scenes))//' pictures in sequence'))
-      call add_place(script, name)
+      call script%line(default_place)
       call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
-      call script%line('set output '//place_of(name//'.gif'))
+      call script%line('set output '//'to.'//gnuplot_text(name//'.gif'))
       call add_look(script, camera)
       do k = 1, size(scenes)
          call add_blocks(script, scenes(k))
@@ -137,27 +128,6 @@ contains
       call script%line('unset label 99')
       text = script%text()
    end function animation_script
-
-   !> Default folder of a picture whose name has a folder.
-   pure subroutine add_place(script, name)
-      type(buffer_t), intent(inout) :: script
-      character(*), intent(in) :: name
-      integer :: slash
-
-      slash = index(name, '/', back=.true.)
-      if (slash > 0) call script%line("if (!exists('to')) to = "//gnuplot_text(name(:slash)))
-   end subroutine add_place
-
-   !> The file of a picture as a gnuplot expression.
-   pure function place_of(name) result(expression)
-      character(*), intent(in) :: name
-      character(:), allocatable :: expression
-      integer :: slash
-
-      slash = index(name, '/', back=.true.)
-      expression = gnuplot_text(name(slash + 1:))
-      if (slash > 0) expression = 'to.'//expression
-   end function place_of
 
    !> Equal axes without box, direction of view, shading.
    pure subroutine add_look(script, camera)
