@@ -14,7 +14,7 @@ module ek_run
    use ek_table, only: table_t
    use ek_csv, only: tell_csv
    use ek_plot, only: run_figures
-   use ek_gnuplot, only: figure_t, write_figure, render_figures
+   use ek_gnuplot, only: figure_t, draw_figures
    use ek_arguments, only: arguments_t
    use ek_load_deck, only: load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
@@ -213,11 +213,7 @@ contains
                case%test == 'table')
          end if
       end associate
-      do k = 1, size(figures)
-         call write_figure(figures(k), folder, error)
-         if (allocated(error)) return
-      end do
-      call render_figures(figures, folder, message, error)
+      call draw_figures(figures, folder, message, error)
       if (allocated(error)) return
       if (len(message) > 0) then
          call print_note(arguments%quiet, message)

@@ -10,7 +10,7 @@ module ek_gnuplot
    use ek_drawing, only: run_gnuplot
    implicit none(type, external)
    private
-   public :: figure_t, figure_script, write_figure, render_figures
+   public :: figure_t, figure_script, draw_figures
 
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
@@ -29,18 +29,9 @@ module ek_gnuplot
 
 contains
 
-   !> Write folder/name.gp.
-   subroutine write_figure(figure, folder, error)
-      type(figure_t), intent(in) :: figure
-      character(*), intent(in) :: folder
-      type(error_t), allocatable, intent(out) :: error   !! exit_file
-
-      call write_whole(join_path(folder, figure%name//'.gp'), figure_script(figure), error, can_be_redrawn=.true.)
-   end subroutine write_figure
-
-   !> Runs gnuplot once on the scripts written by write_figure into a folder.
-   !> Without gnuplot only the scripts are written; a message reports this and it is no error.
-   subroutine render_figures(figures, folder, message, error)
+   !> Writes folder/name.gp of every figure and runs gnuplot once on them. Without gnuplot only the scripts are written; a
+   !> message reports this and it is no error.
+   subroutine draw_figures(figures, folder, message, error)
       type(figure_t), intent(in) :: figures(:)
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn
@@ -49,12 +40,14 @@ contains
       integer :: k
 
       do k = 1, size(figures)
+         call write_whole(join_path(folder, figures(k)%name//'.gp'), figure_script(figures(k)), error, can_be_redrawn=.true.)
+         if (allocated(error)) return
          call scripts%add(figures(k)%name//'.gp')
          call pictures%add(figures(k)%name//'.png')
          call pictures%add(figures(k)%name//'.svg')
       end do
       call run_gnuplot(scripts, pictures, folder, message, error)
-   end subroutine render_figures
+   end subroutine draw_figures
 
    !> The script as text.
    pure function figure_script(figure) result(text)
@@ -78,14 +71,10 @@ contains
       right = 0.97_wp
       if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
 
-      call script%add(gnuplot_comment(figure%title))
-      call script%add('#')
-      call script%add(gnuplot_comment('    gnuplot '//figure%name//'.gp'))
-      call script%add('#')
+      call script%add(gnuplot_comment(figure%title)//nl//'#'//nl//gnuplot_comment('    gnuplot '//figure%name//'.gp')//nl//'#')
       call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
       call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
-      call script%add("if (!exists('formats')) formats = 'png svg'")
-      call script%add('')
+      call script%add("if (!exists('formats')) formats = 'png svg'"//nl)
       call add_look(script)
       call script%add('')
       if (entries > legend_on_top) then
@@ -98,9 +87,7 @@ contains
          call script%add('set tmargin at screen 0.88; set bmargin at screen 0.115')
          call add_axes(script, figure%panels(1), figure%is_upward, '')
       end if
-      call script%add("letters = '"//str(merge(15, 12, is_single))//"'")
-      call script%add('')
-      call script%add('do for [format in formats] {')
+      call script%add("letters = '"//str(merge(15, 12, is_single))//"'"//nl//nl//'do for [format in formats] {')
       call script%add("   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }")
       call script%add("   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters "// &
          "background 'white' noenhanced }")
@@ -123,9 +110,7 @@ contains
          end do
          call script%add('   unset multiplot')
       end if
-      call script%add('   unset output')
-      call script%add('}')
-      text = script%text()//new_line('a')
+      text = script%text()//nl//'   unset output'//nl//'}'//nl
    end function figure_script
 
    !> Settings shared by all figures: data format, grid, zero lines, line styles.
