@@ -89,12 +89,11 @@ contains
       integer :: k
 
       call script%line('# The charts of a page. Run gnuplot in this folder to draw them again.')
-      call script%line('reset')
-      call script%line('set encoding utf8')
+      call script%line('reset'//nl//'set encoding utf8')
       call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
          " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
       call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//new_line('a')//axes_look)
+      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_look)
       call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
       call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)
@@ -112,20 +111,19 @@ contains
       integer :: k, row, keys, across, rows
 
       if (size(chart%traces) == 0) return
-      call script%line('')
-      call script%line('$data << EOD')
+      call script%line(nl//'$data << EOD')
       do k = 1, size(chart%traces)
          associate (trace => chart%traces(k))
             do row = 1, size(trace%x)
                call add_pair(script, trace%x(row), trace%y(row))
             end do
-            call script%line(new_line('a'))
+            call script%line(nl)
             if (allocated(trace%mark)) then
                call add_pair(script, trace%mark(1), trace%mark(2))
             else
                call script%line('NaN NaN')
             end if
-            call script%line(new_line('a'))
+            call script%line(nl)
          end associate
       end do
       call script%line('EOD')

@@ -99,7 +99,7 @@ contains
 
       allocate (numbers(0))
       is_steered = any([(column_index(tests(k)%table, 'steering_ratio') > 0, k=1, size(tests))])
-      is_pair = any([(is_axle(tests(k)), k=1, size(tests))])
+      is_pair = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       do k = 1, size(entries)
          entry = entries(k)
          if (index(entry%name, instant) == 1 .and. (entry%group == elastic .eqv. is_steered)) cycle
@@ -117,14 +117,6 @@ contains
       end do
       call place_numbers(tests, numbers)
    end subroutine key_numbers
-
-   !> Whether a test has two wheels.
-   pure logical function is_axle(test)
-      type(test_result_t), intent(in) :: test
-
-      is_axle = .false.
-      if (allocated(test%prefixes)) is_axle = size(test%prefixes) > 1
-   end function is_axle
 
    !> A gradient of the first test of the kind and phase.
    subroutine from_gradients(tests, gradients, entry, number, is_there)

@@ -11,7 +11,7 @@ module ek_picture
    use ek_measure, only: measure_t, distance
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
    use ek_suspension, only: suspension_t, wheel_t
-   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, same_point
+   use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_face, add_line, add_label, add_tube, add_surface, add_coil, add_ball, part_ground, part_tyre, &
       part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, part_ball, part_mount, line_ground
@@ -134,7 +134,7 @@ contains
          end do
          if (longest <= 0.0_wp) cycle
          aside = 0.6_wp
-         if (slides(suspension, body) .and. .not. carries_wheel(suspension, body)) aside = 5.0_wp    ! beside the coil around it
+         if (slides(suspension, body) .and. .not. any(suspension%wheels%body == body)) aside = 5.0_wp    ! beside the coil around it
          call name_at(suspension%bodies(body)%name, aside)
       end do
       do k = 1, size(suspension%joints)
@@ -176,7 +176,7 @@ contains
 
       skeleton = skeleton_of(suspension, body)
       kind = part_arm
-      if (carries_wheel(suspension, body)) then
+      if (any(suspension%wheels%body == body)) then
          kind = part_carrier
       else if (slides(suspension, body)) then
          kind = part_damper

@@ -16,6 +16,10 @@ module ek_report_page
    private
    public :: report_t, add_fact, report_page, add_charts
 
+   ! headings of the values, and whether they belong to a table with two sides
+   character(6), parameter :: values(3) = [character(6) :: '>Left', '>Right', '>Value']
+   logical, parameter :: sides(3) = [.true., .true., .false.]
+
    !> A report: its tests, and what its page shows besides.
    type :: report_t
       character(:), allocatable :: title, folder
@@ -96,7 +100,7 @@ contains
       if (size(numbers) == 0) return
       has_sides = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       call begin_section(page, 'key-numbers', 'Key numbers')
-      call begin_values(page, has_sides, [character(8) :: 'Unit', 'Sign'])
+      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Sign'])
       group = ''
       do k = 1, size(numbers)
          if (numbers(k)%group /= group) then
@@ -110,20 +114,7 @@ contains
       call end_table(page)
    end subroutine add_key_numbers
 
-   !> Begins a table of quantities with one or two columns of values.
-   subroutine begin_values(page, has_sides, others)
-      type(page_t), intent(inout) :: page
-      logical, intent(in) :: has_sides
-      character(8), intent(in) :: others(:)         !! the other columns
-
-      if (has_sides) then
-         call begin_table(page, [character(8) :: 'Quantity', '>Left', '>Right', others])
-      else
-         call begin_table(page, [character(8) :: 'Quantity', '>Value', others])
-      end if
-   end subroutine begin_values
-
-   !> Begins a row with a quantity and one or two cells of numbers; a value of the axle is in the first.
+   !> The first cells of a row: a quantity and one or two cells of numbers; a value of the axle is in the first.
    subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: quantity
@@ -198,7 +189,7 @@ contains
       if (size(gradients) == 0) return
       has_sides = any([(len(gradients(k)%side) > 0, k=1, size(gradients))])
       call add_heading(page, 'Gradients: least-squares slopes around design')
-      call begin_values(page, has_sides, [character(8) :: 'Unit', 'Window', 'Sign'])
+      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', 'Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))
             if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call unknown%add(noted(gradients(k:))//': '//g%note)

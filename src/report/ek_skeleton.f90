@@ -10,7 +10,7 @@ module ek_skeleton
    use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, same_point
+   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
 
    real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
    integer, parameter :: most_points = 64           !! of a body; further ones are omitted
@@ -142,14 +142,6 @@ contains
       ends(:, 1) = place_of(state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
       ends(:, 2) = place_of(state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
    end function bar_of
-
-   !> Whether a body carries a wheel.
-   pure logical function carries_wheel(suspension, body)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: body
-
-      carries_wheel = any(suspension%wheels%body == body)
-   end function carries_wheel
 
    !> Whether a body slides along another moving body: the rod of a damper.
    pure logical function slides(suspension, body)

@@ -18,7 +18,7 @@ contains
       character(*), intent(in) :: title      !! description of the picture, for screen readers
       character(:), allocatable :: svg
       type(buffer_t) :: out
-      character(:), allocatable :: box, used
+      character(:), allocatable :: used
       ! first letters of the elements that are left out, and their ends
       character(4), parameter :: omitted(5) = ['<scr', '<tit', '<des', '<fil', '<!--']
       character(9), parameter :: ends(5) = ['</script>', '</title> ', '</desc>  ', '</filter>', '-->      ']
@@ -29,11 +29,8 @@ contains
       finish = index(text, '</svg>', back=.true.)
       if (at == 0 .or. finish < at) return
       last = past(text, at, '>')
-      box = attribute(text(at:last - 1), 'viewBox')
-      if (len(box) == 0) box = '0 0 '//number_of(attribute(text(at:last - 1), 'width'))//' '// &
-         number_of(attribute(text(at:last - 1), 'height'))
       ! no xmlns: HTML defines svg and xlink
-      call out%add('<svg viewBox="'//box//'" role="img" aria-label="'//escape_html(title)//'">')
+      call out%add('<svg viewBox="'//attribute(text(at:last - 1), 'viewBox')//'" role="img" aria-label="'//escape_html(title)//'">')
       used = used_symbols(text)
       at = last
       do while (at < finish)
@@ -179,14 +176,6 @@ contains
       last = index(tag(at + 1:), tag(at:at))
       if (last > 0) value = tag(at + 1:at + last - 1)
    end function attribute
-
-   !> The leading digits of a text such as '460px'.
-   pure function number_of(text) result(digits)
-      character(*), intent(in) :: text
-      character(verify(text//' ', '0123456789.') - 1) :: digits
-
-      digits = text
-   end function number_of
 
    !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file
    !> name, would make the page invalid and are replaced.
