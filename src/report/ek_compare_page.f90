@@ -118,7 +118,7 @@ contains
       type(chart_t), allocatable, intent(inout) :: charts(:)
       type(chart_t), allocatable :: own(:)
       type(chart_t) :: chart
-      integer :: r, side, u, k, drawn
+      integer :: r, side, u, k
 
       if (quantity%name == results(1)%tests(test)%abscissa) return
       allocate (own(size(results)))
@@ -137,7 +137,6 @@ contains
                chart%name = chart%name//'_'//name
                chart%title = chart%title//', '//name
             end if
-            drawn = 0
             do r = 1, size(results)
                if (.not. allocated(own(r)%traces)) cycle
                do k = 1, size(own(r)%traces)
@@ -145,11 +144,10 @@ contains
                   own(r)%traces(k)%colour = r
                   own(r)%traces(k)%dash = merge(0, 1 + modulo(r - 2, 3), r == 1)
                   call add_trace(chart, own(r)%traces(k))
-                  drawn = drawn + 1
                end do
             end do
          end associate
-         if (drawn > 1) charts = [charts, chart]
+         if (size(chart%traces) > 1) charts = [charts, chart]
       end do
    end subroutine overlay_quantity
 

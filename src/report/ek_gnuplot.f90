@@ -16,6 +16,9 @@ module ek_gnuplot
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
 
    character(*), parameter :: nl = new_line('a')
+   character(*), parameter :: look = 'reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl// &
+      'set datafile columnheaders'//nl//"set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'"//nl// &
+      "set tics out nomirror textcolor rgb '#404040'"
    character(*), parameter :: label_look = " textcolor rgb '#202020'"
 
    !> One script: a panel, or several in two columns.
@@ -75,8 +78,11 @@ contains
       call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
       call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
       call script%add("if (!exists('formats')) formats = 'png svg'"//nl)
-      call add_look(script)
-      call script%add('')
+      call script%add(look//nl//axes_look)
+      do k = 1, size(palette)
+         call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)//"' linewidth 2.6 pointtype 7 pointsize 0.7")
+      end do
+      call script%add("set style line 20 linecolor rgb '#202020' linewidth 2 pointtype 6 pointsize 1.8   # marks"//nl)
       if (entries > legend_on_top) then
          call script%add('set key at screen '//str(right + 0.015_wp)//', screen 0.88 left top vertical Left reverse samplen 2.5')
       else if (entries > 0) then
@@ -112,21 +118,6 @@ contains
       end if
       text = script%text()//nl//'   unset output'//nl//'}'//nl
    end function figure_script
-
-   !> Settings shared by all figures: data format, grid, zero lines, line styles.
-   pure subroutine add_look(script)
-      type(message_list_t), intent(inout) :: script
-      integer :: k
-
-      call script%add('reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl//'set datafile columnheaders')
-      call script%add("set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'")
-      call script%add("set tics out nomirror textcolor rgb '#404040'"//nl//axes_look)
-      do k = 1, size(palette)
-         call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)// &
-            "' linewidth 2.6 pointtype 7 pointsize 0.7")
-      end do
-      call script%add('set style line 20 linecolor rgb ''#202020'' linewidth 2 pointtype 6 pointsize 1.8   # marks')
-   end subroutine add_look
 
    !> Labels and ranges of one panel.
    pure subroutine add_axes(script, panel, is_upward, indent)

@@ -12,7 +12,7 @@ module ek_page
    use ek_chart, only: palette
    implicit none(type, external)
    private
-   public :: page_t, begin_page, begin_section, add_paragraph, add_heading, add_warnings, add_facts
+   public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
    public :: begin_table, add_cell, add_group, end_table
    public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
 
@@ -85,19 +85,12 @@ contains
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> A paragraph of plain text; HTML markup in it is escaped.
-   pure subroutine add_paragraph(page, text)
+   !> Plain text as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
+   pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
-      character(*), intent(in) :: text
-      call page%body%line('<p>'//escape_html(text)//'</p>')
-   end subroutine add_paragraph
-
-   !> A heading within a section.
-   pure subroutine add_heading(page, text)
-      type(page_t), intent(inout) :: page
-      character(*), intent(in) :: text
-      call page%body%line('<h3>'//escape_html(text)//'</h3>')
-   end subroutine add_heading
+      character(*), intent(in) :: tag, text
+      call page%body%line('<'//tag//'>'//escape_html(text)//'</'//tag//'>')
+   end subroutine add_text
 
    !> A box of warnings; no box for an empty list.
    pure subroutine add_warnings(page, title, list)

@@ -9,7 +9,7 @@ module ek_report_page
    use ek_chart, only: chart_t, picture_file
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
-   use ek_page, only: page_t, begin_page, begin_section, add_paragraph, add_heading, add_warnings, add_facts, &
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, &
       begin_table, add_cell, add_group, end_table, begin_charts, end_charts, &
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
@@ -140,8 +140,8 @@ contains
       call begin_section(page, 'test-'//test%name, test%title)
       call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
-         call add_paragraph(page, plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, plotted over '// &
-            test%label//'. All columns are in '//test%file//'.')
+         call add_text(page, 'p', plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, '// &
+            'plotted over '//test%label//'. All columns are in '//test%file//'.')
          allocate (names(size(test%prefixes)))
          do k = 1, size(names)
             names(k) = wheel_word(test%prefixes(k))
@@ -188,7 +188,7 @@ contains
       gradients = pack(list, [(list(k)%test == test, k=1, size(list))])
       if (size(gradients) == 0) return
       has_sides = any([(len(gradients(k)%side) > 0, k=1, size(gradients))])
-      call add_heading(page, 'Gradients: least-squares slopes around design')
+      call add_text(page, 'h3', 'Gradients: least-squares slopes around design')
       call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', 'Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))

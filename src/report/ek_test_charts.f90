@@ -169,10 +169,7 @@ contains
       character(*), intent(in) :: name
       integer :: k
 
-      colour = 1
-      do k = 1, size(chart%traces)
-         colour = max(colour, chart%traces(k)%colour + 1)
-      end do
+      colour = maxval([0, chart%traces%colour]) + 1
       if (index(name, 'right_') /= 1) return
       do k = 1, size(chart%traces)
          if (chart%traces(k)%title == 'left_'//name(7:)) colour = chart%traces(k)%colour
