@@ -13,7 +13,7 @@ module ek_chart
    use ek_gnuplot_text, only: gnuplot_text, file_letters
    implicit none(type, external)
    private
-   public :: chart_t, trace_t, new_chart, add_trace, charts_script, add_coordinate, picture_file
+   public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
    public :: pictures_of, remove_drawn, range_of, palette, axes_look
 
    !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
@@ -72,6 +72,13 @@ contains
       type(trace_t), intent(in) :: trace
       chart%traces = [chart%traces, trace]
    end subroutine add_trace
+
+   !> Appends a chart to a list. (In place of the call gfortran 12 warns of uninitialised bounds.)
+   pure subroutine append_chart(charts, chart)
+      type(chart_t), allocatable, intent(inout) :: charts(:)
+      type(chart_t), intent(in) :: chart
+      charts = [charts, chart]
+   end subroutine append_chart
 
    !> The file of a chart: its name, reduced to the characters of a file name, as it may come from a foreign table.
    pure function picture_file(chart) result(name)

@@ -8,7 +8,7 @@ module ek_compare_page
    use ek_test_result, only: design_row
    use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
    use ek_test_charts, only: quantity_chart, quantities_of
-   use ek_chart, only: chart_t, add_trace
+   use ek_chart, only: chart_t, add_trace, append_chart
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, &
       add_cell, add_group, end_table, add_legend, page_text, page_number
    use ek_report_files, only: results_t
@@ -147,7 +147,7 @@ contains
                end do
             end do
          end associate
-         if (size(chart%traces) > 1) charts = [charts, chart]
+         if (size(chart%traces) > 1) call append_chart(charts, chart)
       end do
    end subroutine overlay_quantity
 
@@ -158,11 +158,9 @@ contains
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
-      character(:), allocatable :: labels(:)
+      character(longest_label(this%results)) :: labels(size(this%results))
       integer :: r, t
 
-      r = maxval([(len(this%results(r)%label), r=1, size(this%results))])
-      allocate (character(max(r, len('difference'))) :: labels(size(this%results)))
       do r = 1, size(this%results)
          labels(r) = this%results(r)%label
          call names%add(letter_of(r))
@@ -235,6 +233,13 @@ contains
       integer, intent(in) :: result
       letter_of = achar(iachar('A') + modulo(result - 1, 26))
    end function letter_of
+
+   !> Room for every label and for 'difference'.
+   pure integer function longest_label(results) result(longest)
+      type(results_t), intent(in) :: results(:)
+      integer :: r
+      longest = maxval([len('difference'), (len(results(r)%label), r=1, size(results))])
+   end function longest_label
 
    !> The number of the test of this name in a result; 0 if there is none.
    pure integer function test_number(results, name) result(number)

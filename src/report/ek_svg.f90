@@ -43,7 +43,7 @@ contains
             at = past(text, at, trim(ends(k)))
          else
             last = next_of(text, at, '>') + 1
-            if (text(at:at + 2) == '<g ' .and. text(last:last + 4) == achar(10)//'</g>') then
+            if (text(at:at + 2) == '<g ' .and. text(last:min(last + 4, len(text))) == achar(10)//'</g>') then
                last = last + 5                           ! gnuplot writes many empty groups
             else if (.not. is_unused(text(at:last - 1), used)) then
                call add_tag(out, text(at:last - 1), prefix)

@@ -27,7 +27,7 @@ contains
       type(chart_t), allocatable :: drawn(:)
       integer :: k, used
 
-      columns = quantities_of(test%kind)
+      allocate (columns, source=quantities_of(test%kind))
       allocate (drawn(size(columns) + 4))
       used = 0
       do k = 1, size(columns)
