@@ -202,6 +202,7 @@ contains
       integer :: k, c
 
       do k = 1, size(all_quantities)
+         if (index(name, all_quantities(k)%name(:1)) /= 1) cycle
          do c = 1, size(conditions)
             if (held_name(all_quantities(k)%name, c) /= name) cycle
             quantity = all_quantities(k)

@@ -9,13 +9,13 @@ module ek_compare
    use ek_table, only: column_index
    use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
-   use ek_comparison, only: difference_t, gradient_set_t, compare_gradients, difference, percent
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results
    use ek_gradient_window, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_console, only: print_note, print_text
-   use ek_compare_page, only: comparison_t, overlay, page_of, test_number, letter_of
+   use ek_compare_page, only: comparison_t, difference_t, compare_gradients, difference, percent, overlay, page_of, test_number, &
+      letter_of
    implicit none(type, external)
    private
    public :: compare
@@ -28,7 +28,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(windows_t) :: windows             !! of gradients, if they are computed from CSV files
       type(comparison_t) :: this
-      type(gradient_set_t), allocatable :: sets(:)
       type(error_t), allocatable :: undrawn, unprinted
       character(:), allocatable :: message, path
       integer :: k, l
@@ -39,7 +38,7 @@ contains
       call refuse_stream(line, error)
       if (.not. allocated(error)) call read_windows(line, windows, error)
       if (allocated(error)) return
-      allocate (this%results(line%files%count()), sets(line%files%count()))
+      allocate (this%results(line%files%count()))
       do k = 1, size(this%results)
          call read_results(line%files%line(k), windows, this%results(k), error)
          if (allocated(error)) return
@@ -48,7 +47,6 @@ contains
                ' and '//quoted(this%results(k)%path))
             return
          end if
-         sets(k)%list = this%results(k)%gradients
       end do
       do k = 1, size(this%results)         ! equal names: the full paths distinguish them
          do l = 1, size(this%results)
@@ -62,7 +60,7 @@ contains
       if (.not. allocated(error)) call make_folder(join_path(this%folder, 'figures'), error)
       if (allocated(error)) return
 
-      call compare_gradients(sets, this%rows)
+      call compare_gradients(this%results, this%rows)
       call find_missing(this%results, this%rows, this%missing)
       call print_text(text_of(this%results, this%rows), unprinted)     ! the files are written even if it is closed
       do k = 1, this%missing%count()

@@ -13,9 +13,8 @@ module ek_run
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: tell_csv
-   use ek_figure, only: figure_t
    use ek_plot, only: run_figures
-   use ek_gnuplot, only: write_figure, render_figures
+   use ek_gnuplot, only: figure_t, draw_figures
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
@@ -219,15 +218,11 @@ contains
          else
             label = case%place_name
             if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
-            call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, 'factor', label, &
-               elements, case%test == 'table')
+            call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, label, elements, &
+               case%test == 'table')
          end if
       end associate
-      do k = 1, size(figures)
-         call write_figure(figures(k), settings%out, error)
-         if (allocated(error)) return
-      end do
-      call render_figures(figures, settings%out, message, error)
+      call draw_figures(figures, settings%out, message, error)
       if (allocated(error)) return
       if (len(message) > 0) then
          call print_note(settings%is_quiet, message)

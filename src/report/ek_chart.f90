@@ -1,7 +1,7 @@
 !> A small chart with its data, one of many on a page: all charts of a page are drawn by one gnuplot script.
 !>
-!> Unlike a figure (ek_figure), which is a separate script beside the result files, a chart contains its data, and its
-!> abscissa is always horizontal, because a page of small charts is read in one direction.
+!> Its script contains the data, and its abscissa is always horizontal, because a page of small charts is read in one
+!> direction. A figure (ek_gnuplot) shows the same charts from the result files beside it.
 module ek_chart
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -10,12 +10,20 @@ module ek_chart
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: put_decimal, longest_decimal
-   use ek_gnuplot, only: palette, axes_look
    use ek_gnuplot_text, only: gnuplot_text, file_letters
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
-   public :: pictures_of, remove_drawn
+   public :: pictures_of, remove_drawn, range_of, palette, axes_look
+
+   !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
+   character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
+      '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
+
+   character(*), parameter :: nl = new_line('a')
+   character(*), parameter :: axes_look = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
+      "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
+      "set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"
 
    character(25), parameter :: dashes(0:3) = [character(25) :: '', ' dashtype (10, 6)', ' dashtype (2, 4)', &
       ' dashtype (10, 4, 2, 4)']
@@ -24,6 +32,8 @@ module ek_chart
    !> One curve.
    type :: trace_t
       character(:), allocatable :: title
+      !> Its columns in the table, or an expression of columns in parentheses: `(abs(column("toe_deg")))`
+      character(:), allocatable :: over, column
       real(wp), allocatable :: x(:), y(:)
       real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
       integer :: colour = 1                  !! index in the palette
@@ -63,7 +73,7 @@ contains
       chart%traces = [chart%traces, trace]
    end subroutine add_trace
 
-   !> Appends a chart to a list.
+   !> Appends a chart to a list. (In place of the call gfortran 12 warns of uninitialised bounds.)
    pure subroutine append_chart(charts, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
       type(chart_t), intent(in) :: chart
@@ -86,12 +96,11 @@ contains
       integer :: k
 
       call script%line('# The charts of a page. Run gnuplot in this folder to draw them again.')
-      call script%line('reset')
-      call script%line('set encoding utf8')
+      call script%line('reset'//nl//'set encoding utf8')
       call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
          " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
       call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//new_line('a')//axes_look)
+      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_look)
       call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
       call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)
@@ -106,29 +115,22 @@ contains
       type(buffer_t), intent(inout) :: script
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: line, look, title
-      real(wp) :: low, high
       integer :: k, row, keys, across, rows
 
       if (size(chart%traces) == 0) return
-      call script%line('')
-      call script%line('$data << EOD')
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
+      call script%line(nl//'$data << EOD')
       do k = 1, size(chart%traces)
          associate (trace => chart%traces(k))
             do row = 1, size(trace%x)
                call add_pair(script, trace%x(row), trace%y(row))
-               if (.not. ieee_is_finite(trace%y(row))) cycle
-               low = min(low, trace%y(row))
-               high = max(high, trace%y(row))
             end do
-            call script%line(new_line('a'))
+            call script%line(nl)
             if (allocated(trace%mark)) then
                call add_pair(script, trace%mark(1), trace%mark(2))
             else
                call script%line('NaN NaN')
             end if
-            call script%line(new_line('a'))
+            call script%line(nl)
          end associate
       end do
       call script%line('EOD')
@@ -139,17 +141,7 @@ contains
       call script%line('set label 2 '//gnuplot_text(chart%y_label)// &
          " at screen 0.02, screen 0.875 font ',12' textcolor rgb '#606060'")
       call script%line('set xlabel '//gnuplot_text(chart%x_label)//" offset 0, 0.65 font ',12' textcolor rgb '#606060'")
-      if (high >= low .and. high - low < chart%noise) then
-         call script%line('set yrange [* < '//str((low + high)/2 - chart%noise, 6)//' : '// &
-            str((low + high)/2 + chart%noise, 6)//' < *]')
-      else if (high >= low .and. high - low <= 0.0_wp) then
-         call script%line('set yrange ['//str(low - max(abs(low)/10, 1.0e-6_wp), 6)//' : '// &
-            str(low + max(abs(low)/10, 1.0e-6_wp), 6)//']')
-      else if (chart%cap > 0.0_wp) then
-         call script%line('set yrange ['//str(-chart%cap)//' < * : * < '//str(chart%cap)//']')
-      else
-         call script%line('set yrange [*:*]')
-      end if
+      call script%line('set yrange '//range_of(chart))
       keys = 0
       if (chart%has_key) keys = size(chart%traces)
       if (keys > 0) then
@@ -180,6 +172,30 @@ contains
          end associate
       end do
    end subroutine add_chart
+
+   !> The range of y: of a span within the noise, and of a constant, the middle; otherwise that of the curves.
+   pure function range_of(chart) result(range)
+      type(chart_t), intent(in) :: chart
+      character(:), allocatable :: range
+      real(wp) :: low, high, margin
+      integer :: k
+
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            low = min(low, minval(y, mask=ieee_is_finite(y)))
+            high = max(high, maxval(y, mask=ieee_is_finite(y)))
+         end associate
+      end do
+      range = '[*:*]'
+      if (chart%cap > 0.0_wp) range = '['//str(-chart%cap)//' < * : * < '//str(chart%cap)//']'
+      if (low > high) return
+      margin = max(abs(low)/10, 1.0e-6_wp)
+      if (high - low <= 0.0_wp) range = '['//str(low - margin, 6)//' : '//str(low + margin, 6)//']'
+      if (high - low < chart%noise) &
+         range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
+   end function range_of
 
    !> x and y with seven digits, more than a picture resolves.
    pure subroutine add_pair(script, x, y)
@@ -219,14 +235,16 @@ contains
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
+      character(:), allocatable :: file
       integer :: k, n
 
       do k = 1, size(charts)
          if (size(charts(k)%traces) == 0) cycle
+         file = picture_file(charts(k))
          do n = 1, pictures%count()
-            if (pictures%line(n) == picture_file(charts(k))) exit
+            if (pictures%line(n) == file) exit
          end do
-         if (n > pictures%count()) call pictures%add(picture_file(charts(k)))
+         if (n > pictures%count()) call pictures%add(file)
       end do
    end subroutine pictures_of
 

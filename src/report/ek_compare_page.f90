@@ -1,5 +1,6 @@
-!> The page of a comparison: charts of the curves of all results, and the table of gradients.
+!> The comparison of results, and its page: charts of the curves of all results, and the table of gradients.
 module ek_compare_page
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
@@ -8,14 +9,20 @@ module ek_compare_page
    use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
    use ek_test_charts, only: quantity_chart, quantities_of
    use ek_chart, only: chart_t, add_trace, append_chart
-   use ek_comparison, only: difference_t, difference, percent
-   use ek_page, only: page_t, begin_page, begin_section, end_section, add_warnings, add_facts, begin_table, &
-      begin_row, add_cell, end_row, add_group, end_table, add_legend, page_text, page_number
+   use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, &
+      add_cell, add_group, end_table, add_legend, page_text, page_number
    use ek_report_files, only: results_t
    use ek_report_page, only: add_charts
    implicit none(type, external)
    private
-   public :: comparison_t, overlay, page_of, test_number, letter_of
+   public :: comparison_t, difference_t, compare_gradients, difference, percent, overlay, page_of, test_number, letter_of
+
+   !> The gradients of one test, quantity and side.
+   type :: difference_t
+      character(:), allocatable :: test, quantity, side, unit, window
+      real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
+      logical, allocatable :: is_there(:)
+   end type difference_t
 
    !> Results and what differs between them.
    type :: comparison_t
@@ -28,6 +35,60 @@ module ek_compare_page
    end type comparison_t
 
 contains
+
+   !> All gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
+   !> result, followed by gradients of the others only.
+   subroutine compare_gradients(results, rows)
+      type(results_t), intent(in) :: results(:)
+      type(difference_t), allocatable, intent(out) :: rows(:)
+      integer :: s, k, row, used
+
+      allocate (rows(sum([(size(results(s)%gradients), s=1, size(results))])))
+      used = 0
+      do s = 1, size(results)
+         do k = 1, size(results(s)%gradients)
+            associate (g => results(s)%gradients(k))
+               do row = 1, used
+                  if (rows(row)%test == g%test .and. rows(row)%quantity == g%quantity .and. rows(row)%side == g%side) exit
+               end do
+               if (row > used) then
+                  used = row
+                  rows(row)%test = g%test
+                  rows(row)%quantity = g%quantity
+                  rows(row)%side = g%side
+                  rows(row)%unit = g%unit
+                  rows(row)%window = g%window
+                  allocate (rows(row)%values(size(results)), rows(row)%is_there(size(results)))
+                  rows(row)%values = ieee_value(1.0_wp, ieee_quiet_nan)
+                  rows(row)%is_there = .false.
+               end if
+               rows(row)%values(s) = g%value
+               rows(row)%is_there(s) = .true.
+               if (rows(row)%window /= g%window) rows(row)%window = 'different windows'
+            end associate
+         end do
+      end do
+      rows = rows(:used)
+   end subroutine compare_gradients
+
+   !> b − a; not a number if one is missing.
+   elemental real(wp) function difference(a, b)
+      real(wp), intent(in) :: a, b
+
+      difference = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
+   end function difference
+
+   !> 100 (b − a)/|a|; not a number if a is zero to rounding.
+   elemental real(wp) function percent(a, b)
+      real(wp), intent(in) :: a, b
+      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
+
+      percent = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
+      if (abs(a) <= nothing) return
+      if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
+   end function percent
 
    !> Charts of every test of the first result: one per column that another result also has, with one curve per result.
    subroutine overlay(results, charts)
@@ -57,7 +118,7 @@ contains
       type(chart_t), allocatable, intent(inout) :: charts(:)
       type(chart_t), allocatable :: own(:)
       type(chart_t) :: chart
-      integer :: r, side, u, k, drawn
+      integer :: r, side, u, k
 
       if (quantity%name == results(1)%tests(test)%abscissa) return
       allocate (own(size(results)))
@@ -76,7 +137,6 @@ contains
                chart%name = chart%name//'_'//name
                chart%title = chart%title//', '//name
             end if
-            drawn = 0
             do r = 1, size(results)
                if (.not. allocated(own(r)%traces)) cycle
                do k = 1, size(own(r)%traces)
@@ -84,11 +144,10 @@ contains
                   own(r)%traces(k)%colour = r
                   own(r)%traces(k)%dash = merge(0, 1 + modulo(r - 2, 3), r == 1)
                   call add_trace(chart, own(r)%traces(k))
-                  drawn = drawn + 1
                end do
             end do
          end associate
-         if (drawn > 1) call append_chart(charts, chart)
+         if (size(chart%traces) > 1) call append_chart(charts, chart)
       end do
    end subroutine overlay_quantity
 
@@ -123,7 +182,6 @@ contains
          call add_legend(page, labels, design_row(this%results(1)%tests(t)%table) > 0, &
             this%results(1)%tests(t)%kind == 'table')
          if (this%has_pictures) call add_charts(page, this%charts, t, this%folder)
-         call end_section(page)
       end do
       text = page_text(page)
    end function page_of
@@ -136,7 +194,7 @@ contains
       character(*), intent(in) :: labels(:)
       character(len(labels) + 1) :: heads(3*size(results) + 1)
       character(:), allocatable :: test
-      integer :: k, r
+      integer :: k, r, t
 
       call begin_section(page, 'gradients', 'Gradients')
       heads(1) = 'Quantity'
@@ -153,9 +211,10 @@ contains
       do k = 1, size(rows)
          if (rows(k)%test /= test) then
             test = rows(k)%test
-            call add_group(page, title_of(results(1), test))
+            t = test_number(results(1), test)
+            if (t > 0) call add_group(page, results(1)%tests(t)%title)
+            if (t == 0) call add_group(page, test)
          end if
-         call begin_row(page)
          call add_cell(page, trim(rows(k)%quantity//' '//rows(k)%side))
          call add_cell(page, page_number(rows(k)%values(1)), 'n')
          do r = 2, size(results)
@@ -165,10 +224,8 @@ contains
          end do
          call add_cell(page, rows(k)%unit)
          call add_cell(page, rows(k)%window)
-         call end_row(page)
       end do
       call end_table(page)
-      call end_section(page)
    end subroutine add_gradients
 
    !> The letter of a result: A is the first.
@@ -181,24 +238,8 @@ contains
    pure integer function longest_label(results) result(longest)
       type(results_t), intent(in) :: results(:)
       integer :: r
-
-      longest = len('difference')
-      do r = 1, size(results)
-         longest = max(longest, len(results(r)%label))
-      end do
+      longest = maxval([len('difference'), (len(results(r)%label), r=1, size(results))])
    end function longest_label
-
-   !> Title of the test of this name.
-   pure function title_of(results, name) result(title)
-      type(results_t), intent(in) :: results
-      character(*), intent(in) :: name
-      character(:), allocatable :: title
-      integer :: k
-
-      title = name
-      k = test_number(results, name)
-      if (k > 0) title = results%tests(k)%title
-   end function title_of
 
    !> The number of the test of this name in a result; 0 if there is none.
    pure integer function test_number(results, name) result(number)

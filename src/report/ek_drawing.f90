@@ -117,16 +117,15 @@ contains
       type(message_list_t), intent(in) :: scripts         !! paths relative to the folder
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: trouble   !! '' if gnuplot succeeded
+      character(14), parameter :: first(5) = [character(14) :: 'env', 'LC_ALL=C.UTF-8', 'gnuplot', '-d', '-e']
       type(message_list_t) :: command
       type(error_t), allocatable :: unread
       character(:), allocatable :: log
       integer :: k, status
 
-      call command%add('env')
-      call command%add('LC_ALL=C.UTF-8')
-      call command%add('gnuplot')
-      call command%add('-d')
-      call command%add('-e')
+      do k = 1, size(first)
+         call command%add(trim(first(k)))
+      end do
       call command%add(before)
       do k = 1, scripts%count()
          call command%add(join_path(folder, scripts%line(k)))

@@ -5,40 +5,36 @@ module ek_gnuplot
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str
    use ek_file, only: write_whole, join_path
-   use ek_figure, only: figure_t, panel_t
+   use ek_chart, only: chart_t, palette, axes_look, range_of
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_name, gnuplot_comment
    use ek_drawing, only: run_gnuplot
    implicit none(type, external)
    private
-   public :: figure_script, write_figure, render_figures, gnuplot_text, palette, axes_look
-
-   !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
-   character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
-      '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
+   public :: figure_t, figure_script, draw_figures
 
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
 
    character(*), parameter :: nl = new_line('a')
-   character(*), parameter :: axes_look = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
-      "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
-      "set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"
+   character(*), parameter :: look = 'reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl// &
+      'set datafile columnheaders'//nl//"set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'"//nl// &
+      "set tics out nomirror textcolor rgb '#404040'"
    character(*), parameter :: label_look = " textcolor rgb '#202020'"
+
+   !> One script: a panel, or several in two columns.
+   type :: figure_t
+      character(:), allocatable :: name      !! name of the files, without extension
+      character(:), allocatable :: title, subtitle
+      character(:), allocatable :: file      !! table with the columns of all curves, relative to the script
+      type(chart_t), allocatable :: panels(:)
+      logical :: is_upward = .false.         !! x upward, y to the right, as usual for wheel travel
+   end type figure_t
 
 contains
 
-   !> Write folder/name.gp.
-   subroutine write_figure(figure, folder, error)
-      type(figure_t), intent(in) :: figure
-      character(*), intent(in) :: folder
-      type(error_t), allocatable, intent(out) :: error   !! exit_file
-
-      call write_whole(join_path(folder, figure%name//'.gp'), figure_script(figure), error, can_be_redrawn=.true.)
-   end subroutine write_figure
-
-   !> Runs gnuplot once on the scripts written by write_figure into a folder.
-   !> Without gnuplot only the scripts are written; a message reports this and it is no error.
-   subroutine render_figures(figures, folder, message, error)
+   !> Writes folder/name.gp of every figure and runs gnuplot once on them. Without gnuplot only the scripts are written; a
+   !> message reports this and it is no error.
+   subroutine draw_figures(figures, folder, message, error)
       type(figure_t), intent(in) :: figures(:)
       character(*), intent(in) :: folder
       character(:), allocatable, intent(out) :: message   !! '' if the pictures were drawn
@@ -47,12 +43,14 @@ contains
       integer :: k
 
       do k = 1, size(figures)
+         call write_whole(join_path(folder, figures(k)%name//'.gp'), figure_script(figures(k)), error, can_be_redrawn=.true.)
+         if (allocated(error)) return
          call scripts%add(figures(k)%name//'.gp')
          call pictures%add(figures(k)%name//'.png')
          call pictures%add(figures(k)%name//'.svg')
       end do
       call run_gnuplot(scripts, pictures, folder, message, error)
-   end subroutine render_figures
+   end subroutine draw_figures
 
    !> The script as text.
    pure function figure_script(figure) result(text)
@@ -65,24 +63,26 @@ contains
 
       is_single = size(figure%panels) == 1
       entries = 0                            ! of the legend; all panels share that of the first
-      longest = 0                            ! characters
-      do k = 1, size(figure%panels(1)%curves)
-         if (len(figure%panels(1)%curves(k)%title) > 0) entries = entries + 1
-         longest = max(longest, len(figure%panels(1)%curves(k)%title))
-      end do
+      longest = len('design')                ! characters
+      associate (traces => figure%panels(1)%traces)
+         do k = 1, size(traces)
+            if (len(traces(k)%title) > 0) entries = entries + 1
+            longest = max(longest, len(traces(k)%title))
+         end do
+         if (any([(allocated(traces(k)%mark), k=1, size(traces))])) entries = entries + 1
+      end associate
       right = 0.97_wp
       if (entries > legend_on_top) right = 1.0_wp - real(120 + 11*longest, wp)/width
 
-      call script%add(gnuplot_comment(figure%title))
-      call script%add('#')
-      call script%add(gnuplot_comment('    gnuplot '//figure%name//'.gp'))
-      call script%add('#')
+      call script%add(gnuplot_comment(figure%title)//nl//'#'//nl//gnuplot_comment('    gnuplot '//figure%name//'.gp')//nl//'#')
       call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
       call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
-      call script%add("if (!exists('formats')) formats = 'png svg'")
-      call script%add('')
-      call add_look(script)
-      call script%add('')
+      call script%add("if (!exists('formats')) formats = 'png svg'"//nl)
+      call script%add(look//nl//axes_look)
+      do k = 1, size(palette)
+         call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)//"' linewidth 2.6 pointtype 7 pointsize 0.7")
+      end do
+      call script%add("set style line 20 linecolor rgb '#202020' linewidth 2 pointtype 6 pointsize 1.8   # marks"//nl)
       if (entries > legend_on_top) then
          call script%add('set key at screen '//str(right + 0.015_wp)//', screen 0.88 left top vertical Left reverse samplen 2.5')
       else if (entries > 0) then
@@ -91,11 +91,9 @@ contains
       if (is_single) then
          call script%add('set lmargin at screen 0.115; set rmargin at screen '//str(right))
          call script%add('set tmargin at screen 0.88; set bmargin at screen 0.115')
-         call add_axes(script, figure%panels(1), '')
+         call add_axes(script, figure%panels(1), figure%is_upward, '')
       end if
-      call script%add("letters = '"//str(merge(15, 12, is_single))//"'")
-      call script%add('')
-      call script%add('do for [format in formats] {')
+      call script%add("letters = '"//str(merge(15, 12, is_single))//"'"//nl//nl//'do for [format in formats] {')
       call script%add("   if (format eq 'png') { set terminal pngcairo size 1200, 900 font 'sans-serif,'.letters noenhanced }")
       call script%add("   if (format eq 'svg') { set terminal svg size 1200, 900 font 'sans-serif,'.letters "// &
          "background 'white' noenhanced }")
@@ -106,59 +104,36 @@ contains
       if (len(figure%subtitle) > 0) call script%add('   set label 2 '//gnuplot_text(figure%subtitle)// &
          " at screen 0.025, screen 0.922 font 'sans-serif,14' textcolor rgb '#606060'")
       if (is_single) then
-         call add_plot(script, figure%panels(1), entries > 0)
+         call add_plot(script, figure, 1, entries > 0)
       else
          call script%add('   set multiplot layout '//str((size(figure%panels) + 1)/2)//', 2 margins 0.095, '// &
             str(right)//', 0.085, 0.85 spacing 0.115, 0.155')
          do k = 1, size(figure%panels)
             call script%add('')
-            call add_axes(script, figure%panels(k), '   ')
-            call add_plot(script, figure%panels(k), k == 1 .and. entries > 0)
+            call add_axes(script, figure%panels(k), figure%is_upward, '   ')
+            call add_plot(script, figure, k, k == 1 .and. entries > 0)
             if (k == 1) call script%add('   unset label 1; unset label 2')
          end do
          call script%add('   unset multiplot')
       end if
-      call script%add('   unset output')
-      call script%add('}')
-      text = script%text()//new_line('a')
+      text = script%text()//nl//'   unset output'//nl//'}'//nl
    end function figure_script
 
-   !> Settings shared by all figures: data format, grid, zero lines, line styles.
-   pure subroutine add_look(script)
-      type(message_list_t), intent(inout) :: script
-      integer :: k
-
-      call script%add('reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl//'set datafile columnheaders')
-      call script%add("set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'")
-      call script%add("set tics out nomirror textcolor rgb '#404040'"//nl//axes_look)
-      do k = 1, size(palette)
-         call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)// &
-            "' linewidth 2.6 pointtype 7 pointsize 0.7")
-      end do
-      call script%add('set style line 20 linecolor rgb ''#202020'' linewidth 2 pointtype 6 pointsize 1.8   # marks')
-   end subroutine add_look
-
    !> Labels and ranges of one panel.
-   pure subroutine add_axes(script, panel, indent)
+   pure subroutine add_axes(script, panel, is_upward, indent)
       type(message_list_t), intent(inout) :: script
-      type(panel_t), intent(in) :: panel
+      type(chart_t), intent(in) :: panel
+      logical, intent(in) :: is_upward
       character(*), intent(in) :: indent
       character(1) :: x, y
 
-      x = merge('y', 'x', panel%swap)
-      y = merge('x', 'y', panel%swap)
+      x = merge('y', 'x', is_upward)
+      y = merge('x', 'y', is_upward)
       if (len(panel%title) > 0) call script%add(indent//'set title '//gnuplot_text(panel%title)// &
          " font 'sans-serif:Bold,14' textcolor rgb '#202020'")
-      call script%add(indent//'set '//x//'label '//label(panel%x_label, panel%swap .and. len(indent) > 0)//label_look)
-      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. panel%swap .and. len(indent) > 0)//label_look)
-      if (panel%log_x) call script%add(indent//'set logscale '//x)
-      if (panel%log_y) call script%add(indent//'set logscale '//y)
-      if (allocated(panel%least_y)) then
-         call script%add(indent//'set '//y//'range [* < '//str(panel%least_y(1), 4)//' : '// &
-            str(panel%least_y(2), 4)//' < *]')
-      else if (len(indent) > 0) then
-         call script%add(indent//'set '//y//'range [*:*]')
-      end if
+      call script%add(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//label_look)
+      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//label_look)
+      call script%add(indent//'set '//y//'range '//range_of(panel))
    end subroutine add_axes
 
    !> The text of a label; its sign, '(+ …)' behind a gap, is placed on a separate line in a small panel.
@@ -173,40 +148,49 @@ contains
       if (is_folded .and. gap > 0) words = gnuplot_text(text(:gap - 1))//'."\n".'//gnuplot_text(text(gap + 4:))
    end function label
 
-   !> The plot command.
-   pure subroutine add_plot(script, panel, has_legend)
+   !> The plot command: the curves, then a ring on each at the design state.
+   pure subroutine add_plot(script, figure, number, has_legend)
       type(message_list_t), intent(inout) :: script
-      type(panel_t), intent(in) :: panel
+      type(figure_t), intent(in) :: figure
+      integer, intent(in) :: number              !! of the panel
       logical, intent(in) :: has_legend
       character(:), allocatable :: line, title
-      integer :: k, colour
+      integer :: k
 
-      colour = 0
-      do k = 1, size(panel%curves)
-         associate (curve => panel%curves(k))
-            line = '        '
-            if (k == 1) line = '   plot '
-            if (panel%swap) then
-               line = line//gnuplot_text(curve%file)//' using '//field(curve%y)//':'//field(curve%x)
-            else
-               line = line//gnuplot_text(curve%file)//' using '//field(curve%x)//':'//field(curve%y)
-            end if
-            if (curve%style == 'mark') then
-               line = line//' with points linestyle 20'
-            else
-               colour = colour + 1
-               if (curve%colour > 0) colour = curve%colour
-               line = line//' with '//trim(merge('points', 'lines ', curve%style == 'points'))//' linestyle '// &
-                  str(modulo(colour - 1, size(palette)) + 1)
-               if (curve%style == 'dashed' .or. colour > size(palette)) line = line//' dashtype (12, 7)'
-            end if
+      line = '   plot '
+      associate (panel => figure%panels(number))
+         do k = 1, size(panel%traces)
+            associate (trace => panel%traces(k))
+               line = line//data_of(trace%over, trace%column)//' with '//trim(merge('points', 'lines ', panel%has_points))// &
+                  ' linestyle '//str(modulo(trace%colour - 1, size(palette)) + 1)
+               if (trace%dash > 0 .and. .not. panel%has_points) line = line//' dashtype (12, 7)'
+               title = ' notitle'
+               if (has_legend .and. len(trace%title) > 0) title = ' title '//gnuplot_text(trace%title)
+               line = line//title//', \'//nl//'        '
+            end associate
+         end do
+         title = ' notitle'
+         if (has_legend) title = ' title '//gnuplot_text('design')
+         do k = 1, size(panel%traces)
+            if (.not. allocated(panel%traces(k)%mark)) cycle
+            line = line//data_of('(column("factor") == 0 ? column("'//panel%traces(k)%over//'") : NaN)', panel%traces(k)%column)// &
+               ' with points linestyle 20'//title//', \'//nl//'        '
             title = ' notitle'
-            if (has_legend .and. len(curve%title) > 0) title = ' title '//gnuplot_text(curve%title)
-            line = line//title
-         end associate
-         if (k < size(panel%curves)) line = line//', \'
-         call script%add(line)
-      end do
+         end do
+      end associate
+      call script%add(line(:index(line, ', \', back=.true.) - 1))
+
+   contains
+
+      !> The data of a curve: the columns that gnuplot calls x and y.
+      pure function data_of(over, column) result(text)
+         character(*), intent(in) :: over, column
+         character(:), allocatable :: text
+
+         text = gnuplot_text(figure%file)//' using '//field(over)//':'//field(column)
+         if (figure%is_upward) text = gnuplot_text(figure%file)//' using '//field(column)//':'//field(over)
+      end function data_of
+
    end subroutine add_plot
 
    !> A column by its name, or an expression unchanged.

@@ -9,20 +9,56 @@ module ek_page
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_svg, only: embedded_svg, escape_html
-   use ek_gnuplot, only: palette
+   use ek_chart, only: palette
    implicit none(type, external)
    private
-   public :: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts
-   public :: begin_table, begin_row, add_cell, end_row, add_group, end_table
+   public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
+   public :: begin_table, add_cell, add_group, end_table
    public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
 
    character(*), parameter :: nl = new_line('a')
+
+   !> The style sheet: screen, dark, phone, paper.
+   character(*), parameter :: style = &
+      ':root{color-scheme:light dark;--ink:#1d2228;--soft:#5b6570;--line:#d9dee4;--paper:#fff;--band:#f4f6f8;'// &
+      '--warn:#fff4e0;--warnline:#e0a030;--link:#0b5cad}'//nl//'@media(prefers-color-scheme:dark){:root{--ink:#e4e8ec;'// &
+      '--soft:#9aa5b1;--line:#38414a;--paper:#15191d;--band:#1f252b;--warn:#3a2d12;--warnline:#b8862d;--link:#7db7f0}}'// &
+      nl//'*{box-sizing:border-box}html{-webkit-text-size-adjust:100%}'//nl//'body{margin:0;background:var(--paper);'// &
+      'color:var(--ink);font:16px/1.5 system-ui,sans-serif}'//nl//'main{max-width:1280px;margin:0 auto;'// &
+      'padding:24px 28px 64px}'//nl//'h1{font-size:1.9rem;line-height:1.2;margin:0 0 4px;overflow-wrap:anywhere}'// &
+      'h2{font-size:1.35rem;margin:48px 0 12px;padding-top:12px;border-top:1px solid var(--line)}h3{font-size:1.02rem;'// &
+      'margin:22px 0 8px}'//nl//'.subtitle{color:var(--soft);margin:0 0 14px}a{color:var(--link)}p{max-width:75ch}'//nl// &
+      'nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:6px 18px;margin:10px 0;padding:0;font-size:.92rem}'//nl// &
+      'dl{display:flex;flex-wrap:wrap;gap:6px 32px;margin:12px 0}dl div{min-width:0}dt{color:var(--soft);font-size:.8rem}'// &
+      'dd{margin:0;overflow-wrap:anywhere}'//nl//'.scroll{overflow-x:auto;margin:10px 0;-webkit-overflow-scrolling:touch}'// &
+      'table{border-collapse:collapse;font-size:.9rem;min-width:100%}'//nl//'th,td{text-align:left;padding:4px 14px 4px 0;'// &
+      'border-bottom:1px solid var(--line);vertical-align:baseline}thead th{color:var(--soft);font-weight:600;'// &
+      'font-size:.8rem;white-space:nowrap}'//nl//'td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;'// &
+      'white-space:nowrap}td.s{color:var(--soft);font-size:.82rem}tr.group th{padding-top:16px;font-weight:650}'//nl// &
+      '.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:14px}'//nl//'figure{margin:0;'// &
+      'background:#fff;border:1px solid var(--line);border-radius:6px;padding:4px}figure.wide{margin:14px 0}svg,'// &
+      'img{display:block;width:100%;height:auto}img{max-width:760px;margin:0 auto}figcaption{color:#5b6570;'// &
+      'font-size:.82rem;padding:2px 10px 8px}'//nl//'.legend{display:flex;flex-wrap:wrap;gap:4px 20px;color:var(--soft);'// &
+      'font-size:.88rem;margin:8px 0}.legend span{display:inline-flex;align-items:center;gap:7px}'// &
+      '.legend i{display:inline-block;width:30px;height:0}.legend b{display:inline-block;width:9px;height:9px;'// &
+      'border:2px solid var(--ink);border-radius:50%}'//nl//'.warning{background:var(--warn);'// &
+      'border:1px solid var(--warnline);border-left-width:5px;border-radius:4px;padding:10px 16px;margin:14px 0}'// &
+      '.warning ul{margin:6px 0 0;padding-left:20px}.warning li{overflow-wrap:anywhere}'//nl//'@media(max-width:700px){'// &
+      'main{padding:16px 14px 48px}h1{font-size:1.45rem}h2{margin-top:34px}.charts{grid-template-columns:1fr}'// &
+      'table{font-size:.84rem}td.s{min-width:15em}td:first-child{min-width:9em}}'//nl//'@page{size:A4;margin:14mm}'//nl// &
+      '@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--band:#fff;--warn:#fff;--link:#000}'// &
+      'body{font-size:10pt}main{max-width:none;padding:0}nav{display:none}section{break-before:page}'// &
+      'section:first-of-type{break-before:auto}h2{margin-top:0;border:0}h2,h3,.legend{break-after:avoid}'// &
+      '.charts{grid-template-columns:1fr 1fr;gap:8px}figure,tr{break-inside:avoid}.scroll{overflow:visible}table,td.s,'// &
+      'thead th{font-size:8pt}th,td{padding:2px 10px 2px 0}figure{border-color:#ddd}}'//nl
 
    type :: page_t
       private
       type(buffer_t) :: body, contents
       character(:), allocatable :: title
       integer :: pictures = 0, table_columns = 0
+      integer :: cells = 0                  !! of the last row, while it has not all
+      logical :: has_section = .false.
    end type page_t
 
 contains
@@ -38,34 +74,23 @@ contains
       call page%body%line('<!--contents--></header>')
    end subroutine begin_page
 
-   !> Begins a section; on paper it starts a page. `id` has letters, digits, _ and -.
+   !> Begins a section and ends the one before; on paper it starts a page. `id` has letters, digits, _ and -.
    pure subroutine begin_section(page, id, title)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
 
+      if (page%has_section) call page%body%line('</section>')
+      page%has_section = .true.
       call page%body%line('<section id="'//escape_html(id)//'"><h2>'//escape_html(title)//'</h2>')
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
-   !> Ends a section.
-   pure subroutine end_section(page)
+   !> Plain text as a paragraph 'p', or as a heading 'h3' within a section; HTML markup in it is escaped.
+   pure subroutine add_text(page, tag, text)
       type(page_t), intent(inout) :: page
-      call page%body%line('</section>')
-   end subroutine end_section
-
-   !> A paragraph of plain text; HTML markup in it is escaped.
-   pure subroutine add_paragraph(page, text)
-      type(page_t), intent(inout) :: page
-      character(*), intent(in) :: text
-      call page%body%line('<p>'//escape_html(text)//'</p>')
-   end subroutine add_paragraph
-
-   !> A heading within a section.
-   pure subroutine add_heading(page, text)
-      type(page_t), intent(inout) :: page
-      character(*), intent(in) :: text
-      call page%body%line('<h3>'//escape_html(text)//'</h3>')
-   end subroutine add_heading
+      character(*), intent(in) :: tag, text
+      call page%body%line('<'//tag//'>'//escape_html(text)//'</'//tag//'>')
+   end subroutine add_text
 
    !> A box of warnings; no box for an empty list.
    pure subroutine add_warnings(page, title, list)
@@ -119,28 +144,19 @@ contains
          escape_html(title)//'</th></tr>')
    end subroutine add_group
 
-   !> Begins a row; as many cells follow as there are heads.
-   pure subroutine begin_row(page)
-      type(page_t), intent(inout) :: page
-      call page%body%add('<tr>')
-   end subroutine begin_row
-
-   !> A cell of text, of a number (kind 'n'), or of small text ('s').
+   !> The next cell, of text, of a number (kind 'n'), or of small text ('s'); a row has as many as the table has headings.
    pure subroutine add_cell(page, text, kind)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
       character(1), intent(in), optional :: kind
 
+      if (page%cells == 0) call page%body%add('<tr>')
       call page%body%add('<td')
       if (present(kind)) call page%body%add(' class="'//kind//'"')
       call page%body%add('>'//escape_html(text)//'</td>')
+      page%cells = modulo(page%cells + 1, page%table_columns)
+      if (page%cells == 0) call page%body%line('</tr>')
    end subroutine add_cell
-
-   !> Ends a row.
-   pure subroutine end_row(page)
-      type(page_t), intent(inout) :: page
-      call page%body%line('</tr>')
-   end subroutine end_row
 
    !> Ends a table.
    pure subroutine end_table(page)
@@ -232,56 +248,15 @@ contains
       call out%line('<link rel="icon" href="data:,">')
       call out%line('<title>'//escape_html(page%title)//'</title>')
       call out%line('<style>')
-      call add_style(out)
+      call out%add(style)
       call out%line('</style></head><body><main>')
       call out%add(body(:at - 1))
       if (page%contents%length() > 0) call out%add('<nav aria-label="Contents"><ul>'//page%contents%text()//'</ul></nav>')
       call out%add(body(at + len(mark):))
+      if (page%has_section) call out%line('</section>')
       call out%line('</main></body></html>')
       text = out%text()
    end function page_text
-
-   pure subroutine add_style(out)
-      type(buffer_t), intent(inout) :: out
-
-      call out%line(':root{color-scheme:light dark;--ink:#1d2228;--soft:#5b6570;--line:#d9dee4;--paper:#fff;--band:#f4f6f8;'// &
-         '--warn:#fff4e0;--warnline:#e0a030;--link:#0b5cad}')
-      call out%line('@media(prefers-color-scheme:dark){:root{--ink:#e4e8ec;--soft:#9aa5b1;--line:#38414a;--paper:#15191d;'// &
-         '--band:#1f252b;--warn:#3a2d12;--warnline:#b8862d;--link:#7db7f0}}')
-      call out%line('*{box-sizing:border-box}html{-webkit-text-size-adjust:100%}')
-      call out%line('body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}')
-      call out%line('main{max-width:1280px;margin:0 auto;padding:24px 28px 64px}')
-      call out%line('h1{font-size:1.9rem;line-height:1.2;margin:0 0 4px;overflow-wrap:anywhere}'// &
-         'h2{font-size:1.35rem;margin:48px 0 12px;padding-top:12px;border-top:1px solid var(--line)}'// &
-         'h3{font-size:1.02rem;margin:22px 0 8px}')
-      call out%line('.subtitle{color:var(--soft);margin:0 0 14px}a{color:var(--link)}p{max-width:75ch}')
-      call out%line('nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:6px 18px;margin:10px 0;padding:0;font-size:.92rem}')
-      call out%line('dl{display:flex;flex-wrap:wrap;gap:6px 32px;margin:12px 0}dl div{min-width:0}'// &
-         'dt{color:var(--soft);font-size:.8rem}dd{margin:0;overflow-wrap:anywhere}')
-      call out%line('.scroll{overflow-x:auto;margin:10px 0;-webkit-overflow-scrolling:touch}'// &
-         'table{border-collapse:collapse;font-size:.9rem;min-width:100%}')
-      call out%line('th,td{text-align:left;padding:4px 14px 4px 0;border-bottom:1px solid var(--line);vertical-align:baseline}'// &
-         'thead th{color:var(--soft);font-weight:600;font-size:.8rem;white-space:nowrap}')
-      call out%line('td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}'// &
-         'td.s{color:var(--soft);font-size:.82rem}tr.group th{padding-top:16px;font-weight:650}')
-      call out%line('.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:14px}')
-      call out%line('figure{margin:0;background:#fff;border:1px solid var(--line);border-radius:6px;padding:4px}'// &
-         'figure.wide{margin:14px 0}svg,img{display:block;width:100%;height:auto}img{max-width:760px;margin:0 auto}'// &
-         'figcaption{color:#5b6570;font-size:.82rem;padding:2px 10px 8px}')
-      call out%line('.legend{display:flex;flex-wrap:wrap;gap:4px 20px;color:var(--soft);font-size:.88rem;margin:8px 0}'// &
-         '.legend span{display:inline-flex;align-items:center;gap:7px}.legend i{display:inline-block;width:30px;height:0}'// &
-         '.legend b{display:inline-block;width:9px;height:9px;border:2px solid var(--ink);border-radius:50%}')
-      call out%line('.warning{background:var(--warn);border:1px solid var(--warnline);border-left-width:5px;border-radius:4px;'// &
-         'padding:10px 16px;margin:14px 0}.warning ul{margin:6px 0 0;padding-left:20px}.warning li{overflow-wrap:anywhere}')
-      call out%line('@media(max-width:700px){main{padding:16px 14px 48px}h1{font-size:1.45rem}h2{margin-top:34px}'// &
-         '.charts{grid-template-columns:1fr}table{font-size:.84rem}td.s{min-width:15em}td:first-child{min-width:9em}}')
-      call out%line('@page{size:A4;margin:14mm}')
-      call out%line('@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--band:#fff;--warn:#fff;--link:#000}'// &
-         'body{font-size:10pt}main{max-width:none;padding:0}nav{display:none}section{break-before:page}'// &
-         'section:first-of-type{break-before:auto}h2{margin-top:0;border:0}h2,h3,.legend{break-after:avoid}'// &
-         '.charts{grid-template-columns:1fr 1fr;gap:8px}figure,tr{break-inside:avoid}.scroll{overflow:visible}'// &
-         'table,td.s,thead th{font-size:8pt}th,td{padding:2px 10px 2px 0}figure{border-color:#ddd}}')
-   end subroutine add_style
 
    !> A number for a table: about four digits, an exponent only from 1e7 on; '–' for a missing value.
    pure function page_number(value) result(text)
@@ -289,22 +264,16 @@ contains
       character(:), allocatable :: text
       character(32) :: buffer
       character(8) :: form
-      integer :: decimals
 
-      if (ieee_is_nan(value)) then
-         text = '–'
-         return
-      end if
-      if (.not. ieee_is_finite(value)) then
-         text = '∞'
-         if (value < 0.0_wp) text = '−∞'
-         return
-      end if
+      text = '–'
+      if (ieee_is_nan(value)) return
+      text = '∞'
+      if (value < 0.0_wp) text = '−∞'
+      if (.not. ieee_is_finite(value)) return
       if (abs(value) >= 1.0e7_wp) then
          text = str(value, 4)
       else
-         decimals = 4 - count(abs(value) >= [1.0_wp, 10.0_wp, 100.0_wp, 1000.0_wp])
-         write (form, '(a,i0,a)') '(f32.', decimals, ')'
+         write (form, '(a,i0,a)') '(f32.', 4 - count(abs(value) >= [1.0_wp, 10.0_wp, 100.0_wp, 1000.0_wp]), ')'
          write (buffer, form) value
          text = trim(adjustl(buffer))
          if (verify(text, '-0.') == 0) text = '0'
@@ -320,23 +289,20 @@ contains
       character(*), intent(in) :: bytes
       character(:), allocatable :: text
       character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'
-      integer :: k, l, three, left, at, sextet
+      integer :: k, l, three, at
 
-      allocate (character(4*((len(bytes) + 2)/3)) :: text)
+      text = repeat('=', 4*((len(bytes) + 2)/3))
       at = 0
       do k = 1, len(bytes), 3
-         left = min(3, len(bytes) - k + 1)
          three = 0
-         do l = 0, 2
-            three = three*256
-            if (l < left) three = three + iachar(bytes(k + l:k + l))
+         do l = k, k + 2
+            three = 256*three
+            if (l <= len(bytes)) three = three + iachar(bytes(l:l))
          end do
-         do l = 3, 0, -1
-            sextet = iand(ishft(three, -6*l), 63) + 1
-            at = at + 1
-            text(at:at) = letters(sextet:sextet)
-            if (3 - l > left) text(at:at) = '='
+         do l = 1, min(4, len(bytes) - k + 2)
+            text(at + l:at + l) = letters(ibits(three, 24 - 6*l, 6) + 1:ibits(three, 24 - 6*l, 6) + 1)
          end do
+         at = at + 4
       end do
    end function base64
 

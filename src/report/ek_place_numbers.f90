@@ -8,7 +8,7 @@ module ek_place_numbers
    use ek_test_result, only: test_result_t, design_row, unfolded_rows
    implicit none(type, external)
    private
-   public :: key_number_t, new_number, nothing, place_numbers
+   public :: key_number_t, new_number, nothing, set_value, append, is_good, place_numbers
 
    real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
    character(*), parameter :: gap_ending = '_gap_mm'
@@ -39,6 +39,25 @@ contains
       number%left = nothing()
       number%right = nothing()
    end subroutine new_number
+
+   !> Sets the value of a wheel: a single wheel has it in `left`.
+   pure subroutine set_value(number, test, wheel, value)
+      type(key_number_t), intent(inout) :: number
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: wheel
+      real(wp), intent(in) :: value
+
+      if (test%sides(wheel) > 0 .and. size(test%prefixes) > 1) then
+         number%right = value
+      else
+         number%left = value
+      end if
+   end subroutine set_value
+
+   pure logical function has_value(number)
+      type(key_number_t), intent(in) :: number
+      has_value = ieee_is_finite(number%left) .or. ieee_is_finite(number%right)
+   end function has_value
 
    !> Appends these numbers as far as the tests provide them.
    subroutine place_numbers(tests, numbers)
@@ -72,13 +91,9 @@ contains
       call new_number('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', number)
       do k = 1, size(test%prefixes)
          value = value_where(test, trim(test%prefixes(k))//'steer_deg', -test%sides(k)*inner_steer, column)
-         if (test%sides(k) > 0 .and. size(test%prefixes) > 1) then
-            number%right = value
-         else
-            number%left = value
-         end if
+         call set_value(number, test, k, value)
       end do
-      call append(number, numbers)
+      if (has_value(number)) call append(number, numbers)
    end subroutine add_at_steer
 
    !> Wheel travel from design to the contact of a stop on its side, both wheels in parallel.
@@ -86,8 +101,7 @@ contains
       type(test_result_t), intent(in) :: test
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       type(key_number_t) :: number
-      character(:), allocatable :: stop, prefix
-      real(wp) :: value
+      character(:), allocatable :: stop
       integer :: c, ends
 
       do c = 1, size(test%table%columns)
@@ -96,21 +110,22 @@ contains
          if (test%table%columns(c) (ends + 1:) /= gap_ending) cycle
          stop = test%table%columns(c) (:ends)
          if (column_index(test%table, stop//'_force_n') == 0) cycle
-         prefix = side_of(stop)
-         if (prefix == 'right_' .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle   ! with the left one
-         value = travel_to(test, stop, prefix)
-         call new_number('Ride', 'wheel travel to '//spaced(stop(len(prefix) + 1:)), 'mm', &
-            'from design to contact, parallel travel', number)
-         number%left = value
-         number%is_of_axle = len(prefix) == 0 .and. size(test%prefixes) > 1
-         if (prefix == 'right_') then
-            number%left = nothing()
-            number%right = value
-         else if (prefix == 'left_') then
-            if (column_index(test%table, 'right_'//stop(6:)//gap_ending) > 0) &
-               number%right = travel_to(test, 'right_'//stop(6:), 'right_')
+         ! with the left one
+         if (index(stop, 'right_') == 1 .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle
+         call new_number('Ride', '', 'mm', 'from design to contact, parallel travel', number)
+         if (index(stop, 'right_') == 1) then
+            stop = stop(7:)
+            number%right = travel_to(test, 'right_'//stop, 'right_')
+         else if (index(stop, 'left_') == 1) then
+            stop = stop(6:)
+            number%left = travel_to(test, 'left_'//stop, 'left_')
+            number%right = travel_to(test, 'right_'//stop, 'right_')
+         else
+            number%left = travel_to(test, stop, '')
+            number%is_of_axle = size(test%prefixes) > 1
          end if
-         call append(number, numbers)
+         number%quantity = 'wheel travel to '//spaced(stop)
+         if (has_value(number)) call append(number, numbers)
       end do
    end subroutine add_stops
 
@@ -147,7 +162,7 @@ contains
          end associate
       end do
       number%is_of_axle = .true.
-      call append(number, numbers)
+      if (has_value(number)) call append(number, numbers)
    end subroutine add_rack_force
 
    !> A column at the point where another one has a given value, interpolated linearly between two neighbouring states; of
@@ -187,24 +202,13 @@ contains
       is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
    end function is_good
 
-   !> 'left_' or 'right_' of a name of that side, otherwise ''.
-   pure function side_of(name) result(prefix)
-      character(*), intent(in) :: name
-      character(:), allocatable :: prefix
-      prefix = ''
-      if (index(name, 'left_') == 1) prefix = 'left_'
-      if (index(name, 'right_') == 1) prefix = 'right_'
-   end function side_of
-
-
-   !> Inserts a number behind the last of its group, if it has a value.
+   !> Inserts a number behind the last of its group.
    subroutine append(number, numbers)
       type(key_number_t), intent(in) :: number
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       type(key_number_t), allocatable :: more(:)
       integer :: k, at
 
-      if (.not. (ieee_is_finite(number%left) .or. ieee_is_finite(number%right))) return
       at = size(numbers)
       do k = 1, size(numbers)
          if (numbers(k)%group == number%group) at = k

@@ -9,12 +9,16 @@ module ek_report_page
    use ek_chart, only: chart_t, picture_file
    use ek_gradient, only: gradient_t
    use ek_key_numbers, only: key_number_t, key_numbers
-   use ek_page, only: page_t, begin_page, begin_section, end_section, add_paragraph, add_heading, add_warnings, add_facts, &
-      begin_table, begin_row, add_cell, end_row, add_group, end_table, begin_charts, end_charts, &
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, &
+      begin_table, add_cell, add_group, end_table, begin_charts, end_charts, &
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
    public :: report_t, add_fact, report_page, add_charts
+
+   ! headings of the values, and whether they belong to a table with two sides
+   character(6), parameter :: values(3) = [character(6) :: '>Left', '>Right', '>Value']
+   logical, parameter :: sides(3) = [.true., .true., .false.]
 
    !> A report: its tests, and what its page shows besides.
    type :: report_t
@@ -80,7 +84,6 @@ contains
          call read_whole(join_path(report%folder, 'animation.gif'), bytes, error)
          if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//report%title, '')
       end if
-      call end_section(page)
    end subroutine add_scene
 
    !> One table of the key numbers.
@@ -97,7 +100,7 @@ contains
       if (size(numbers) == 0) return
       has_sides = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       call begin_section(page, 'key-numbers', 'Key numbers')
-      call begin_values(page, has_sides, [character(8) :: 'Unit', 'Sign'])
+      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Sign'])
       group = ''
       do k = 1, size(numbers)
          if (numbers(k)%group /= group) then
@@ -107,41 +110,22 @@ contains
          call add_values(page, numbers(k)%quantity, has_sides, numbers(k)%is_of_axle, numbers(k)%left, numbers(k)%right)
          call add_cell(page, numbers(k)%unit)
          call add_cell(page, numbers(k)%sign, 's')
-         call end_row(page)
       end do
       call end_table(page)
-      call end_section(page)
    end subroutine add_key_numbers
 
-   !> Begins a table of quantities with one or two columns of values.
-   subroutine begin_values(page, has_sides, others)
-      type(page_t), intent(inout) :: page
-      logical, intent(in) :: has_sides
-      character(8), intent(in) :: others(:)         !! the other columns
-
-      if (has_sides) then
-         call begin_table(page, [character(8) :: 'Quantity', '>Left', '>Right', others])
-      else
-         call begin_table(page, [character(8) :: 'Quantity', '>Value', others])
-      end if
-   end subroutine begin_values
-
-   !> Begins a row with a quantity and one or two cells of numbers; a value of the axle is in the first.
+   !> The first cells of a row: a quantity and one or two cells of numbers; a value of the axle is in the first.
    subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: quantity
       logical, intent(in) :: has_sides, is_of_axle
       real(wp), intent(in) :: left, right
 
-      call begin_row(page)
       call add_cell(page, quantity)
       call add_cell(page, page_number(left), 'n')
       if (.not. has_sides) return
-      if (is_of_axle) then
-         call add_cell(page, '', 'n')
-      else
-         call add_cell(page, page_number(right), 'n')
-      end if
+      if (is_of_axle) call add_cell(page, '', 'n')
+      if (.not. is_of_axle) call add_cell(page, page_number(right), 'n')
    end subroutine add_values
 
    !> Section of a test: warnings, charts, gradients.
@@ -151,14 +135,13 @@ contains
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: number              !! of the test
       character(16), allocatable :: names(:)
-      integer :: k, found
+      integer :: k
 
       call begin_section(page, 'test-'//test%name, test%title)
       call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
-         found = count(converged_rows(test%table))
-         call add_paragraph(page, plural(found, 'state', 'states')//' in equilibrium, plotted over '//test%label// &
-            '. All columns are in '//test%file//'.')
+         call add_text(page, 'p', plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, '// &
+            'plotted over '//test%label//'. All columns are in '//test%file//'.')
          allocate (names(size(test%prefixes)))
          do k = 1, size(names)
             names(k) = wheel_word(test%prefixes(k))
@@ -168,7 +151,6 @@ contains
       end if
       if (report%has_pictures) call add_charts(page, report%charts, number, report%folder)
       call add_gradients(page, test%name, report%gradients)
-      call end_section(page)
    end subroutine add_test
 
    !> The charts of a test drawn by gnuplot, side by side.
@@ -206,8 +188,8 @@ contains
       gradients = pack(list, [(list(k)%test == test, k=1, size(list))])
       if (size(gradients) == 0) return
       has_sides = any([(len(gradients(k)%side) > 0, k=1, size(gradients))])
-      call add_heading(page, 'Gradients: least-squares slopes around design')
-      call begin_values(page, has_sides, [character(8) :: 'Unit', 'Window', 'Sign'])
+      call add_text(page, 'h3', 'Gradients: least-squares slopes around design')
+      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', 'Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))
             if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call unknown%add(noted(gradients(k:))//': '//g%note)
@@ -218,7 +200,6 @@ contains
             call add_cell(page, g%unit)
             call add_cell(page, g%window)
             call add_cell(page, g%sign, 's')
-            call end_row(page)
          end associate
       end do
       call end_table(page)

@@ -32,15 +32,17 @@ contains
       logical, intent(in) :: wants_plots, wants_animation
       character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
       type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
+      character(13), parameter :: in_space(3) = [character(13) :: 'picture.svg', 'picture.png', 'animation.gif']
       type(message_list_t) :: scripts, pictures
       type(camera_t) :: camera
+      integer :: k
 
       message = ''
       if (.not. wants_plots) then
          ! pictures of an earlier report do not belong to this page
-         call remove_file(join_path(report%folder, 'picture.svg'))
-         call remove_file(join_path(report%folder, 'picture.png'))
-         call remove_file(join_path(report%folder, 'animation.gif'))
+         do k = 1, size(in_space)
+            call remove_file(join_path(report%folder, trim(in_space(k))))
+         end do
          call remove_drawn(report%charts, report%folder)
          message = 'switched off by --no-plots'
          return
@@ -92,7 +94,7 @@ contains
          end associate
       end if
       call fit_camera(camera, scenes, 3.0_wp, 2.0_wp, footer=0.11_wp)
-      call write_whole(join_path(report%folder, 'figures/picture.gp'), scene_script(scenes(1), camera, '../picture', &
+      call write_whole(join_path(report%folder, 'figures/picture.gp'), scene_script(scenes(1), camera, 'picture', &
          suspension%name//': design, and the ends of its travel'), error, can_be_redrawn=.true.)
    end subroutine write_picture
 
@@ -133,7 +135,7 @@ contains
       fitted = camera
       call fit_camera(fitted, scenes, 4.0_wp, 3.0_wp, footer=0.06_wp)
       call write_whole(join_path(report%folder, 'figures/animation.gp'), &
-         animation_script(scenes, captions, fitted, '../animation', suspension%name), error, can_be_redrawn=.true.)
+         animation_script(scenes, captions, fitted, 'animation', suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
 
    !> The test of the first of the wanted kinds with more than one state; 0 if there is none.

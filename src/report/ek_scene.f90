@@ -4,6 +4,7 @@
 module ek_scene
    use ek_kinds, only: wp
    use ek_units, only: pi
+   use ek_rotation, only: cross
    implicit none(type, external)
    private
    public :: scene_t, run_t, add_face, add_line, add_label, add_tube, add_surface, add_coil, add_ball
@@ -100,7 +101,7 @@ contains
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
       real(wp), intent(in) :: a(3), b(3), radius      !! m
-      integer, intent(in), optional :: sides
+      integer, intent(in) :: sides
       real(wp), parameter :: piece = 0.07_wp          ! m
       real(wp), allocatable :: along(:), round(:)
       real(wp) :: length
@@ -120,16 +121,14 @@ contains
       integer, intent(in) :: kind
       real(wp), intent(in) :: base(3), axis(3)        !! m, unit
       real(wp), intent(in) :: along(:), radius(:)     !! m
-      integer, intent(in), optional :: sides
+      integer, intent(in) :: sides
       real(wp) :: u(3), v(3), face(3, 4), now(3), next(3)
-      integer :: n, k, l
+      integer :: k, l
 
-      n = 7
-      if (present(sides)) n = sides
       call find_normals(axis, u, v)
-      do k = 1, n
-         now = u*cos(2*pi*(k - 1)/n) + v*sin(2*pi*(k - 1)/n)
-         next = u*cos(2*pi*k/n) + v*sin(2*pi*k/n)
+      do k = 1, sides
+         now = u*cos(2*pi*(k - 1)/sides) + v*sin(2*pi*(k - 1)/sides)
+         next = u*cos(2*pi*k/sides) + v*sin(2*pi*k/sides)
          do l = 1, size(along) - 1
             face(:, 1) = base + axis*along(l) + now*radius(l)
             face(:, 2) = base + axis*along(l) + next*radius(l)
@@ -185,7 +184,7 @@ contains
       type(scene_t), intent(inout) :: scene
       integer, intent(in) :: kind
       real(wp), intent(in) :: at(3), radius
-      integer, intent(in), optional :: sides
+      integer, intent(in) :: sides
 
       call add_surface(scene, kind, at, [0.0_wp, 0.0_wp, 1.0_wp], radius*[-1.0_wp, -0.6_wp, 0.6_wp, 1.0_wp], &
          radius*[0.0_wp, 0.8_wp, 0.8_wp, 0.0_wp], sides)
@@ -202,7 +201,7 @@ contains
       u(least) = 1.0_wp
       u = u - axis*dot_product(axis, u)
       u = u/norm2(u)
-      v = [axis(2)*u(3) - axis(3)*u(2), axis(3)*u(1) - axis(1)*u(3), axis(1)*u(2) - axis(2)*u(1)]
+      v = cross(axis, u)
    end subroutine find_normals
 
 end module ek_scene

@@ -17,11 +17,13 @@ module ek_scene_script
 
    character(7), parameter :: part_colours(parts) = ['#E9EEF2', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', &
       '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B']
-   real(wp), parameter :: part_solidity(parts) = [0.35_wp, 0.16_wp, 0.22_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, &
-      1.0_wp, 1.0_wp]
+   character(22), parameter :: part_fills(parts) = [character(22) :: 'transparent solid 0.35', 'transparent solid 0.16', &
+      'transparent solid 0.22', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid']
    character(16), parameter :: part_names(parts) = [character(16) :: '', 'wheel', '', 'wheel carrier', 'arms', 'rods', &
       'springs', 'struts, dampers', 'bushings', 'joints', 'chassis']
    character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4']
+
+   character(*), parameter :: nl = new_line('a'), default_place = "if (!exists('to')) to = '../'"
 
    !> Direction of view and scale.
    type :: camera_t
@@ -43,55 +45,44 @@ contains
       real(wp), intent(in) :: footer              !! share of the height that is kept free below
       real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, font sizes 12 to 13
       real(wp), parameter :: above_middle = 0.014_wp   ! offset of the centre in picture heights; measured likewise
-      real(wp) :: right(3), up(3), low(2), high(2), p(2), scale
-      integer :: s
+      real(wp), allocatable :: at(:, :), across(:), upward(:)
+      real(wp) :: right(3), up(3), scale
+      integer :: s, k, n
 
       right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
       up = [-sin(camera%turn*degree)*cos(camera%tilt*degree), cos(camera%turn*degree)*cos(camera%tilt*degree), &
          sin(camera%tilt*degree)]
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      camera%span = 0.1_wp
+      allocate (at(3, sum(scenes%faces%used) + sum(scenes%lines%used)))
+      n = 0
       do s = 1, size(scenes)
          call include(scenes(s)%faces)
          call include(scenes(s)%lines)
       end do
-      if (low(1) > high(1)) return
-      p = (low + high)/2
-      scale = 0.95_wp*min(width/max(high(1) - low(1), 1.0e-3_wp), height*(1 - footer)/max(high(2) - low(2), 1.0e-3_wp))
-      camera%centre = right*p(1) + up*(p(2) - (footer/2 - above_middle)*height/scale)
+      camera%span = 0.1_wp
+      if (n == 0) return
+      across = [(dot_product(right, at(:, k)), k=1, n)]
+      upward = [(dot_product(up, at(:, k)), k=1, n)]
+      scale = 0.95_wp*min(width/max(maxval(across) - minval(across), 1.0e-3_wp), &
+         height*(1 - footer)/max(maxval(upward) - minval(upward), 1.0e-3_wp))
+      camera%centre = right*((minval(across) + maxval(across))/2) + &
+         up*((minval(upward) + maxval(upward))/2 - (footer/2 - above_middle)*height/scale)
       ! the box must contain every vertex; gnuplot clips at the box
-      do s = 1, size(scenes)
-         call enclose(scenes(s)%faces)
-         call enclose(scenes(s)%lines)
-      end do
+      camera%span = max(camera%span, 2.1_wp*maxval([(maxval(abs(at(:, k) - camera%centre)), k=1, n)]))
       camera%zoom = scale*camera%span/(box_share*min(width, height))
 
    contains
 
       subroutine include(list)
          type(run_t), intent(in) :: list
-         integer :: k
-         do k = 1, list%used
-            p = [dot_product(right, list%at(:, k)), dot_product(up, list%at(:, k))]
-            low = min(low, p)
-            high = max(high, p)
-         end do
+         if (list%used > 0) at(:, n + 1:n + list%used) = list%at(:, :list%used)
+         n = n + list%used
       end subroutine include
-
-      subroutine enclose(list)
-         type(run_t), intent(in) :: list
-         integer :: k
-         do k = 1, list%used
-            camera%span = max(camera%span, 2.1_wp*maxval(abs(list%at(:, k) - camera%centre)))
-         end do
-      end subroutine enclose
 
    end subroutine fit_camera
 
-   !> A script that draws one scene as <name>.png and <name>.svg. A name with a folder, '../x', is drawn there unless the
-   !> variable `to` gives another folder.
-   pure function scene_script(scene, camera, name, title) result(text)
+   !> A script that draws one scene as <name>.png and <name>.svg in the folder above its own, unless the variable `to` gives
+   !> another folder.
+   function scene_script(scene, camera, name, title) result(text)
       type(scene_t), intent(in) :: scene
       type(camera_t), intent(in) :: camera
       character(*), intent(in) :: name, title
@@ -100,21 +91,21 @@ contains
 
       call script%line(gnuplot_comment(title))
       call script%line(gnuplot_comment('Run gnuplot in this folder to redraw the picture; to rotate it: gnuplot -e "look=1" -p '// &
-         name(index(name, '/', back=.true.) + 1:)//'.gp'))
-      call add_place(script, name)
+         name//'.gp'))
+      call script%line(default_place)
       call add_look(script, camera)
       call add_blocks(script, scene)
       call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
          "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
-         place_of(name//'.svg')//' }')
+         'to.'//gnuplot_text(name//'.svg')//' }')
       call add_splot(script, scene, .true.)
       call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
-         'linewidth 1.5 noenhanced; set output '//place_of(name//'.png')//'; replot; unset output }')
+         'linewidth 1.5 noenhanced; set output to.'//gnuplot_text(name//'.png')//'; replot; unset output }')
       text = script%text()
    end function scene_script
 
    !> A script that draws a sequence of scenes as <name>.gif, which repeats endlessly.
-   pure function animation_script(scenes, captions, camera, name, title) result(text)
+   function animation_script(scenes, captions, camera, name, title) result(text)
       type(scene_t), intent(in) :: scenes(:)
       character(*), intent(in) :: captions(:)
       type(camera_t), intent(in) :: camera
@@ -124,40 +115,18 @@ contains
       integer :: k
 
       call script%line(gnuplot_comment(title//': '//str(size(scenes))//' pictures in sequence'))
-      call add_place(script, name)
+      call script%line(default_place)
       call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
-      call script%line('set output '//place_of(name//'.gif'))
+      call script%line('set output to.'//gnuplot_text(name//'.gif'))
       call add_look(script, camera)
       do k = 1, size(scenes)
          call add_blocks(script, scenes(k))
          call script%line('set label 99 '//gnuplot_text(trim(captions(k)))//' at screen 0.03, screen 0.05')
          call add_splot(script, scenes(k), .false.)
       end do
-      call script%line('unset output')
-      call script%line('unset label 99')
+      call script%line('unset output'//nl//'unset label 99')
       text = script%text()
    end function animation_script
-
-   !> Default folder of a picture whose name has a folder.
-   pure subroutine add_place(script, name)
-      type(buffer_t), intent(inout) :: script
-      character(*), intent(in) :: name
-      integer :: slash
-
-      slash = index(name, '/', back=.true.)
-      if (slash > 0) call script%line("if (!exists('to')) to = "//gnuplot_text(name(:slash)))
-   end subroutine add_place
-
-   !> The file of a picture as a gnuplot expression.
-   pure function place_of(name) result(expression)
-      character(*), intent(in) :: name
-      character(:), allocatable :: expression
-      integer :: slash
-
-      slash = index(name, '/', back=.true.)
-      expression = gnuplot_text(name(slash + 1:))
-      if (slash > 0) expression = 'to.'//expression
-   end function place_of
 
    !> Equal axes without box, direction of view, shading.
    pure subroutine add_look(script, camera)
@@ -166,18 +135,15 @@ contains
       integer :: k
       character(1), parameter :: names(3) = ['x', 'y', 'z']
 
-      call script%line('reset')
-      call script%line('set encoding utf8')
-      call script%line('set view equal xyz')
+      call script%line('reset'//nl//'set encoding utf8'//nl//'set view equal xyz')
       call script%line('set view '//str(camera%tilt, 4)//', '//str(camera%turn, 4)//', '//str(camera%zoom, 5))
       do k = 1, 3
          call script%line('set '//names(k)//'range ['//str((camera%centre(k) - camera%span/2)/millimetre, 6)//' : '// &
             str((camera%centre(k) + camera%span/2)/millimetre, 6)//']')
       end do
       call script%line('set xyplane at '//str((camera%centre(3) - camera%span/2)/millimetre, 6))
-      call script%line('unset border; unset tics; unset key')
-      call script%line('set pm3d depthorder noborder')
-      call script%line('set pm3d lighting primary 0.42 specular 0.12')
+      call script%line('unset border; unset tics; unset key'//nl//'set pm3d depthorder noborder'//nl// &
+         'set pm3d lighting primary 0.42 specular 0.12')
    end subroutine add_look
 
    !> The vertices [mm], one block per kind.
@@ -187,7 +153,7 @@ contains
       integer :: kind
 
       do kind = 1, parts
-         call add_block(script, '$part', scene%faces, kind, new_line('a'))   ! gnuplot needs two blank lines between polygons
+         call add_block(script, '$part', scene%faces, kind, nl)   ! gnuplot needs two blank lines between polygons
       end do
       do kind = 1, line_kinds
          call add_block(script, '$line', scene%lines, kind, '')
@@ -226,7 +192,7 @@ contains
    end subroutine add_block
 
    !> Labels, legend and the splot command.
-   pure subroutine add_splot(script, scene, has_legend)
+   subroutine add_splot(script, scene, has_legend)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
       logical, intent(in) :: has_legend
@@ -252,14 +218,15 @@ contains
       end do
       do kind = 1, parts
          if (.not. has_kind(scene%faces, kind)) cycle
-         call script%line(line//'$part'//str(kind)//' using 1:2:3 with polygons '//fill(kind)//' notitle, \')
+         call script%line(line//'$part'//str(kind)//' using 1:2:3 with polygons fillstyle '//trim(part_fills(kind))// &
+            " noborder fillcolor rgb '"//part_colours(kind)//"' notitle, \")
          line = '      '
       end do
       call script%line("      1/0 notitle")
    end subroutine add_splot
 
    !> Swatches and labels below the picture. (gnuplot's own legend loses entries in splot if it has several columns.)
-   pure subroutine add_legend(script, scene)
+   subroutine add_legend(script, scene)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
       integer :: kind, used
@@ -267,39 +234,30 @@ contains
       used = 0
       do kind = 1, parts
          if (has_kind(scene%faces, kind) .and. len_trim(part_names(kind)) > 0) &
-            call add_entry(script, used, trim(part_names(kind)), &
+            call add_entry(trim(part_names(kind)), &
             merge('#CCCCCC', part_colours(kind), kind == part_tyre), 0.012_wp)     ! a tyre is transparent
       end do
-      if (allocated(scene%bump)) call add_entry(script, used, scene%bump, line_colours(line_bump), 0.003_wp)
-      if (allocated(scene%rebound)) call add_entry(script, used, scene%rebound, line_colours(line_rebound), 0.003_wp)
+      if (allocated(scene%bump)) call add_entry(scene%bump, line_colours(line_bump), 0.003_wp)
+      if (allocated(scene%rebound)) call add_entry(scene%rebound, line_colours(line_rebound), 0.003_wp)
+
+   contains
+
+      !> One swatch and its label.
+      subroutine add_entry(name, colour, height)
+         character(*), intent(in) :: name, colour
+         real(wp), intent(in) :: height              !! of the swatch, share of the picture
+         integer, parameter :: in_a_row = 6
+         character(:), allocatable :: at
+
+         at = 'screen '//str(0.045_wp + 0.158_wp*modulo(used, in_a_row), 4)//', screen '// &
+            str(0.075_wp - 0.04_wp*(used/in_a_row), 4)
+         used = used + 1
+         call script%line('set object '//str(used)//' rectangle center '//at//' size screen 0.024, screen '// &
+            str(height)//" fillcolor rgb '"//colour//"' fillstyle solid noborder")
+         call script%line('set label '//str(used)//' '//gnuplot_text(name)//' at '//at// &
+            " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
+      end subroutine add_entry
+
    end subroutine add_legend
-
-   !> One swatch and its label.
-   pure subroutine add_entry(script, used, name, colour, height)
-      type(buffer_t), intent(inout) :: script
-      integer, intent(inout) :: used
-      character(*), intent(in) :: name, colour
-      real(wp), intent(in) :: height              !! of the swatch, share of the picture
-      integer, parameter :: in_a_row = 6
-      character(:), allocatable :: x, y
-
-      x = str(0.045_wp + 0.158_wp*modulo(used, in_a_row), 4)
-      y = str(0.075_wp - 0.04_wp*(used/in_a_row), 4)
-      used = used + 1
-      call script%line('set object '//str(used)//' rectangle center screen '//x//', screen '//y//' size screen 0.024, screen '// &
-         str(height)//" fillcolor rgb '"//colour//"' fillstyle solid noborder")
-      call script%line('set label '//str(used)//' '//gnuplot_text(name)//' at screen '//x//', screen '//y// &
-         " offset 2.4, 0 font ',12' textcolor rgb '#30343B'")
-   end subroutine add_entry
-
-   !> The gnuplot fill style for the faces of a kind.
-   pure function fill(kind) result(style)
-      integer, intent(in) :: kind
-      character(:), allocatable :: style
-
-      style = 'solid'
-      if (part_solidity(kind) < 1.0_wp) style = 'transparent solid '//str(part_solidity(kind), 2)
-      style = 'fillstyle '//style//" noborder fillcolor rgb '"//part_colours(kind)//"'"
-   end function fill
 
 end module ek_scene_script

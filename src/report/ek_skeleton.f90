@@ -10,7 +10,7 @@ module ek_skeleton
    use ek_state, only: state_t
    implicit none(type, external)
    private
-   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, same_point
+   public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
 
    real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
    integer, parameter :: most_points = 64           !! of a body; further ones are omitted
@@ -39,7 +39,7 @@ contains
       type(measure_t) :: measure
       logical :: is_in(most_points), is_rigid, is_spring
       real(wp) :: best, cost
-      integer :: k, n, from, to, best_from, best_to
+      integer :: k, n, from, to, bar(2)
 
       do k = 1, size(suspension%joints)
          select case (suspension%joints(k)%kind)
@@ -68,8 +68,7 @@ contains
       is_in(1) = .true.
       do while (count(is_in(:skeleton%used)) < skeleton%used)
          best = huge(1.0_wp)
-         best_from = 1
-         best_to = 1
+         bar = 1
          do from = 1, skeleton%used
             if (.not. is_in(from)) cycle
             do to = 1, skeleton%used
@@ -78,13 +77,12 @@ contains
                if (skeleton%nodes(to)%is_held .and. skeleton%nodes(from)%is_held) cost = cost + 100.0_wp
                if (cost >= best) cycle
                best = cost
-               best_from = from
-               best_to = to
+               bar = [from, to]
             end do
          end do
-         is_in(best_to) = .true.
+         is_in(bar(2)) = .true.
          skeleton%count = skeleton%count + 1
-         skeleton%bars(:, skeleton%count) = [best_from, best_to]
+         skeleton%bars(:, skeleton%count) = bar
       end do
 
    contains
@@ -121,42 +119,29 @@ contains
       type(state_t), intent(in) :: state
       real(wp), intent(out) :: a(3), b(3)
 
-      a = state%poses(measure%body_i + 1)%r + rotated(state%poses(measure%body_i + 1)%a, measure%arm_i)
-      b = state%poses(measure%body_j + 1)%r + rotated(state%poses(measure%body_j + 1)%a, measure%arm_j)
+      a = place_of(state, measure%body_i, measure%arm_i)
+      b = place_of(state, measure%body_j, measure%arm_j)
    end subroutine ends_of
 
-   !> Position of a point of a body, global [m].
-   pure function place_of(suspension, state, body, arm) result(at)
-      type(suspension_t), intent(in) :: suspension
+   !> Position of a point of a body, or of the chassis (body 0), global [m].
+   pure function place_of(state, body, arm) result(at)
       type(state_t), intent(in) :: state
       integer, intent(in) :: body
       real(wp), intent(in) :: arm(3)
       real(wp) :: at(3)
-
-      at = arm
-      if (body > 0 .and. body <= size(suspension%bodies)) &
-         at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
+      at = state%poses(body + 1)%r + rotated(state%poses(body + 1)%a, arm)
    end function place_of
 
    !> The ends of bar k of a body's skeleton, global [m].
-   pure function bar_of(suspension, state, body, skeleton, k) result(ends)
-      type(suspension_t), intent(in) :: suspension
+   pure function bar_of(state, body, skeleton, k) result(ends)
       type(state_t), intent(in) :: state
       type(skeleton_t), intent(in) :: skeleton
       integer, intent(in) :: body, k
       real(wp) :: ends(3, 2)
 
-      ends(:, 1) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
-      ends(:, 2) = place_of(suspension, state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
+      ends(:, 1) = place_of(state, body, skeleton%nodes(skeleton%bars(1, k))%arm)
+      ends(:, 2) = place_of(state, body, skeleton%nodes(skeleton%bars(2, k))%arm)
    end function bar_of
-
-   !> Whether a body carries a wheel.
-   pure logical function carries_wheel(suspension, body)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: body
-
-      carries_wheel = any(suspension%wheels%body == body)
-   end function carries_wheel
 
    !> Whether a body slides along another moving body: the rod of a damper.
    pure logical function slides(suspension, body)
@@ -167,9 +152,8 @@ contains
       slides = .false.
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
-            if (joint%kind /= 'cylindrical' .and. joint%kind /= 'translational') cycle
-            if (joint%body_i == 0 .or. joint%body_j == 0) cycle
-            slides = slides .or. joint%body_i == body .or. joint%body_j == body
+            if (joint%kind == 'cylindrical' .or. joint%kind == 'translational') slides = slides .or. &
+               (joint%body_i*joint%body_j > 0 .and. (joint%body_i == body .or. joint%body_j == body))
          end associate
       end do
    end function slides

@@ -18,60 +18,68 @@ contains
       character(*), intent(in) :: title      !! description of the picture, for screen readers
       character(:), allocatable :: svg
       type(buffer_t) :: out
-      character(:), allocatable :: box
-      character(*), parameter :: omitted(5) = [character(7) :: '<script', '<title', '<desc', '<filter', '<!--']
-      character(*), parameter :: ends(5) = [character(9) :: '</script>', '</title>', '</desc>', '</filter>', '-->']
-      integer :: at, last, finish, head, k
+      character(:), allocatable :: used
+      ! first letters of the elements that are left out, and their ends
+      character(4), parameter :: omitted(5) = ['<scr', '<tit', '<des', '<fil', '<!--']
+      character(9), parameter :: ends(5) = ['</script>', '</title> ', '</desc>  ', '</filter>', '-->      ']
+      integer :: at, last, finish, k
 
       svg = ''
       at = index(text, '<svg')
       finish = index(text, '</svg>', back=.true.)
       if (at == 0 .or. finish < at) return
-      head = at + index(text(at:), '>') - 1
-      box = attribute(text(at:head), 'viewBox')
-      if (len(box) == 0) box = '0 0 '//number_of(attribute(text(at:head), 'width'))//' '// &
-         number_of(attribute(text(at:head), 'height'))
+      last = past(text, at, '>')
       ! no xmlns: HTML defines svg and xlink
-      call out%add('<svg viewBox="'//box//'" role="img" aria-label="'//escape_html(title)//'">')
-      at = head + 1
+      call out%add('<svg viewBox="'//attribute(text(at:last - 1), 'viewBox')//'" role="img" aria-label="'//escape_html(title)//'">')
+      used = used_symbols(text)
+      at = last
       do while (at < finish)
-         last = index(text(at:finish - 1), '<')
-         if (last == 0) then
-            call out%add(text(at:finish - 1))
-            exit
-         end if
-         call add_words(out, text(at:at + last - 2))
-         at = at + last - 1
-         do k = 1, size(omitted)
-            if (begins(text, at, trim(omitted(k)))) exit
-         end do
-         if (k <= size(omitted)) then
+         last = next_of(text, at, '<')
+         call add_words(out, text(at:last - 1))
+         if (last == finish) exit
+         at = last
+         k = findloc(omitted, text(at:at + 3), dim=1)
+         if (k > 0) then
             at = past(text, at, trim(ends(k)))
          else
-            last = past(text, at, '>') - 1
-            if (begins(text, at, '<g ')) then            ! gnuplot writes many empty groups
-               if (begins(text, last + 2, '</g>') .and. text(last + 1:last + 1) == achar(10)) then
-                  at = last + 6
-                  cycle
-               end if
+            last = next_of(text, at, '>') + 1
+            if (text(at:at + 2) == '<g ' .and. text(last:min(last + 4, len(text))) == achar(10)//'</g>') then
+               last = last + 5                           ! gnuplot writes many empty groups
+            else if (.not. is_unused(text(at:last - 1), used)) then
+               call add_tag(out, text(at:last - 1), prefix)
             end if
-            if (.not. is_unused(text, text(at:last))) call add_tag(out, text(at:last), prefix)
-            at = last + 1
+            at = last
          end if
       end do
       call out%add('</svg>')
       svg = out%text()
    end function embedded_svg
 
-   !> Whether a point symbol is unused: gnuplot defines all sixteen in every picture.
-   pure logical function is_unused(text, tag)
-      character(*), intent(in) :: text, tag
+   !> The ids that a picture refers to, each as '#id '.
+   pure function used_symbols(text) result(used)
+      character(*), intent(in) :: text
+      character(:), allocatable :: used
+      integer :: at, last
+
+      used = ''
+      at = next_of(text, 1, '#')
+      do while (at < len(text))
+         last = next_of(text, at, "'")
+         if (index(used, text(at:last - 1)//' ') == 0) used = used//text(at:last - 1)//' '
+         at = next_of(text, last, '#')
+      end do
+   end function used_symbols
+
+   !> Whether a tag defines a point symbol that is not used: gnuplot defines all sixteen in every picture.
+   pure logical function is_unused(tag, used)
+      character(*), intent(in) :: tag, used
       character(:), allocatable :: id
 
       is_unused = .false.
-      if (index(tag, 'gpPt') + index(tag, 'gpDot') == 0 .or. tag(max(1, len(tag) - 1):) /= '/>') return
+      if (tag(len(tag) - 1:) /= '/>') return
+      if (index(tag(:min(len(tag), 40)), " id='gp") == 0) return
       id = attribute(tag, 'id')
-      if (len(id) > 0) is_unused = index(text, '#'//id//"'") == 0
+      is_unused = index(used, '#'//id//' ') == 0
    end function is_unused
 
    !> Text between tags; blank text becomes one line end.
@@ -79,10 +87,10 @@ contains
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: words
 
-      if (verify(words, ' '//achar(9)//achar(10)//achar(13)) == 0) then
-         if (index(words, achar(10)) > 0) call out%add(achar(10))
-      else
+      if (verify(words, ' '//achar(9)//achar(10)//achar(13)) > 0) then
          call out%add(words)
+      else if (index(words, achar(10)) > 0) then
+         call out%add(achar(10))
       end if
    end subroutine add_words
 
@@ -91,55 +99,45 @@ contains
       type(buffer_t), intent(inout) :: out
       character(*), intent(in) :: tag, prefix
       character(*), parameter :: defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
-      character(*), parameter :: ids(5) = [character(7) :: " id='", ' id="', "href='#", 'href="#', 'url(#']
-      integer :: at, last, k
+      integer :: from, at, equals, first, last, renamed
 
-      if (begins(tag, 1, '<g ') .and. index(tag, defaults) > 0) then
-         at = index(tag, defaults)
+      at = 0
+      if (index(tag, '<g ') == 1) at = index(tag, defaults)
+      if (at > 0) then
          call add_tag(out, tag(:at - 1)//tag(at + len(defaults):), prefix)
          return
       end if
-      if (index(tag, 'id=') + index(tag, 'href=') + index(tag, 'url(#') + index(tag, ' on') + index(tag, ':Bold') == 0) then
-         call out%add(tag)                ! most of a picture: long paths
-         return
-      end if
-      at = 1
-      do while (at <= len(tag))
-         if (begins(tag, at, ' on') .and. at < len(tag) - 6) then      ! onclick="…", onmousemove='…'
-            last = index(tag(at:), '=')
-            if (last > 0) then
-               last = at + last
-               last = last + index(tag(last + 1:), tag(last:last))
-               if (last > at) then
-                  at = last + 1
-                  cycle
-               end if
-            end if
+      from = 1                                           ! the first character that is not yet written
+      at = max(1, index(tag, ' '))
+      do
+         equals = next_of(tag, at, '=')                  ! name="value"
+         first = equals + scan(tag(equals + 1:), '"'//"'")
+         if (first <= equals) exit
+         last = next_of(tag, first + 1, tag(first:first))
+         if (last > len(tag)) exit
+         at = at - 1 + verify(tag(at:equals), ' '//achar(9)//achar(10))
+         renamed = 0                                     ! the character before the id
+         if (tag(at:equals - 1) == 'id') then
+            renamed = first
+         else if (tag(first + 1:first + 1) == '#' .and. index(tag(at:equals), 'href=') > 0) then
+            renamed = first + 1
+         else if (tag(first + 1:min(last, first + 5)) == 'url(#') then
+            renamed = first + 5
+         else if (tag(at:at + 1) == 'on') then           ! onclick="…"
+            call out%add(tag(from:at - 2))
+            from = last + 1
+         else if (tag(max(first, last - 5):last) == ':Bold"') then     ! the form in which gnuplot writes a bold font
+            call out%add(tag(from:last - 6)//'" font-weight="600"')
+            from = last + 1
          end if
-         do k = 1, size(ids)
-            if (begins(tag, at, trim(ids(k)))) exit
-         end do
-         if (k <= size(ids)) then
-            call out%add(trim(ids(k))//prefix//'_')
-            at = at + len_trim(ids(k))
-         else if (begins(tag, at, ':Bold"')) then          ! the form in which gnuplot writes a bold font
-            call out%add('" font-weight="600"')
-            at = at + 6
-         else
-            call out%add(tag(at:at))
-            at = at + 1
+         if (renamed > 0) then
+            call out%add(tag(from:renamed)//prefix//'_')
+            from = renamed + 1
          end if
+         at = last + 1
       end do
+      call out%add(tag(from:))
    end subroutine add_tag
-
-   !> Whether a word begins at a position of a text.
-   pure logical function begins(text, at, word)
-      character(*), intent(in) :: text, word
-      integer, intent(in) :: at
-
-      begins = .false.
-      if (at + len(word) - 1 <= len(text)) begins = text(at:at + len(word) - 1) == word
-   end function begins
 
    !> The position behind the next `word`, or behind the text.
    pure integer function past(text, at, word)
@@ -154,6 +152,17 @@ contains
       end if
    end function past
 
+   !> The next position of a letter, at `at` or behind it; behind the text if there is none.
+   pure integer function next_of(text, at, letter) result(place)
+      character(*), intent(in) :: text
+      integer, intent(in) :: at
+      character(1), intent(in) :: letter
+
+      do place = at, len(text)
+         if (text(place:place) == letter) return
+      end do
+   end function next_of
+
    !> Value of an attribute, '' if it is missing.
    pure function attribute(tag, name) result(value)
       character(*), intent(in) :: tag, name
@@ -167,14 +176,6 @@ contains
       last = index(tag(at + 1:), tag(at:at))
       if (last > 0) value = tag(at + 1:at + last - 1)
    end function attribute
-
-   !> The leading digits of a text such as '460px'.
-   pure function number_of(text) result(digits)
-      character(*), intent(in) :: text
-      character(verify(text//' ', '0123456789.') - 1) :: digits
-
-      digits = text
-   end function number_of
 
    !> A text with &, <, > and quotes escaped, for HTML content and attributes. Bytes that are not UTF-8, as in a file
    !> name, would make the page invalid and are replaced.

@@ -8,10 +8,10 @@ module ek_test_charts
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
-   use ek_chart, only: chart_t, trace_t, new_chart, add_trace, append_chart
+   use ek_chart, only: chart_t, trace_t, new_chart, add_trace
    implicit none(type, external)
    private
-   public :: test_charts, quantity_chart, quantities_of, largest_forces, most_curves
+   public :: test_charts, quantity_chart, ending_chart, bushing_chart, quantities_of
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
    integer, parameter :: most_curves = 8       !! in one chart, for legibility
@@ -19,28 +19,42 @@ module ek_test_charts
 contains
 
    !> Appends all charts of a test, named <test>_<column>.
-   pure subroutine test_charts(test, charts, number)
+   subroutine test_charts(test, charts, number)
       type(test_result_t), intent(in) :: test
       type(chart_t), allocatable, intent(inout) :: charts(:)
       integer, intent(in), optional :: number         !! of the test
       character(48), allocatable :: columns(:)
-      integer :: k, before
+      type(chart_t), allocatable :: drawn(:)
+      integer :: k, used
 
-      if (.not. allocated(charts)) allocate (charts(0))
-      before = size(charts)
-      columns = quantities_of(test%kind)
+      allocate (columns, source=quantities_of(test%kind))
+      allocate (drawn(size(columns) + 4))
+      used = 0
       do k = 1, size(columns)
          if (columns(k) == test%abscissa) cycle
          if (columns(k) == 'toe_deg' .and. has_column(test, 'steer_deg') .and. any(columns == 'steer_deg')) cycle
-         call append_if_drawn(charts, quantity_chart(test, quantity_named(columns(k))))
+         call take(quantity_chart(test, quantity_named(columns(k))))
       end do
-      call append_if_drawn(charts, ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
+      call take(ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
          'd(length)/d(wheel travel)    (− shortens in bump)', 1.0e-3_wp))
-      call append_if_drawn(charts, ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', &
-         'force, N    (+ compression)', 1.0_wp))
-      call append_if_drawn(charts, ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
-      call append_if_drawn(charts, bushing_chart(test))
-      if (present(number)) charts(before + 1:)%test = number
+      call take(ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', 'force, N    (+ compression)', 1.0_wp))
+      call take(ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
+      call take(bushing_chart(test))
+      if (.not. allocated(charts)) allocate (charts(0))
+      if (present(number)) drawn%test = number
+      charts = [charts, drawn(:used)]
+
+   contains
+
+      !> Keeps a chart that has a curve.
+      subroutine take(chart)
+         type(chart_t), intent(in) :: chart
+
+         if (size(chart%traces) == 0) return
+         used = used + 1
+         drawn(used) = chart
+      end subroutine take
+
    end subroutine test_charts
 
    !> The columns drawn for a kind of test, the most important ones first.
@@ -85,13 +99,6 @@ contains
          if (kind == 'table') columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
       end select
    end function quantities_of
-
-   pure subroutine append_if_drawn(charts, chart)
-      type(chart_t), allocatable, intent(inout) :: charts(:)
-      type(chart_t), intent(in) :: chart
-
-      if (size(chart%traces) > 0) call append_chart(charts, chart)
-   end subroutine append_if_drawn
 
    !> A chart of a test, still without curves. The rows of a load table are no path and are drawn as points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
@@ -162,10 +169,7 @@ contains
       character(*), intent(in) :: name
       integer :: k
 
-      colour = 1
-      do k = 1, size(chart%traces)
-         colour = max(colour, chart%traces(k)%colour + 1)
-      end do
+      colour = maxval([0, chart%traces%colour]) + 1
       if (index(name, 'right_') /= 1) return
       do k = 1, size(chart%traces)
          if (chart%traces(k)%title == 'left_'//name(7:)) colour = chart%traces(k)%colour
@@ -173,38 +177,30 @@ contains
    end function colour_of
 
    !> Magnitude of the force of every bushing; of many bushings those with the largest force.
-   pure type(chart_t) function bushing_chart(test) result(chart)
+   pure type(chart_t) function bushing_chart(test, elements) result(chart)
       type(test_result_t), intent(in) :: test
-      type(trace_t) :: trace
+      character(*), intent(in), optional :: elements(:)    !! only these; absent: all with _fx_n, _fy_n, _fz_n
       real(wp), allocatable :: force(:, :)
       character(name_length), allocatable :: names(:)
-      logical :: is_cut
-      integer :: k, design
+      integer :: k
 
       chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
       chart%noise = 1.0_wp
-      call largest_forces(test%table, converged_rows(test%table), names, force, is_cut)
-      design = design_row(test%table)
+      call largest_forces(test%table, converged_rows(test%table), names, force, elements)
       do k = 1, size(names)
-         trace%title = trim(names(k))      ! gfortran 12 leaks it in a structure constructor
-         trace%colour = k
-         trace%x = abscissa_of(test, side_of(test, names(k)))
-         if (size(trace%x) == 0) return
-         trace%y = force(:, k)
-         if (design > 0) trace%mark = [trace%x(design), trace%y(design)]
-         call add_trace(chart, trace)
+         call add_curve(chart, test, side_of(test, names(k)), '(sqrt(column("'//trim(names(k))//'_fx_n")**2 + column("'// &
+            trim(names(k))//'_fy_n")**2 + column("'//trim(names(k))//'_fz_n")**2))', force(:, k), trim(names(k)), k, 0)
       end do
    end function bushing_chart
 
    !> The elements with columns _fx_n, _fy_n, _fz_n, in the order of the columns, and the magnitudes of their forces; of more
    !> elements than fit in a chart those with the largest force.
-   pure subroutine largest_forces(table, is_good, names, force, is_cut, elements)
+   pure subroutine largest_forces(table, is_good, names, force, elements)
       type(table_t), intent(in) :: table
       logical, intent(in) :: is_good(:)                    !! rows to consider
       character(name_length), allocatable, intent(out) :: names(:)
       real(wp), allocatable, intent(out) :: force(:, :)    !! N (row, name); not a number elsewhere
-      logical, intent(out) :: is_cut                       !! others have a force as well
       character(*), intent(in), optional :: elements(:)    !! only these
       character(*), parameter :: ending = '_fx_n'
       real(wp) :: peak(size(table%columns)), least
@@ -233,7 +229,6 @@ contains
          end do
       end do
       least = 0.0_wp
-      is_cut = count(peak(:n) > least) > most_curves
       do while (count(peak(:n) > least) > most_curves)
          least = minval(peak(:n), mask=peak(:n) > least)
       end do
@@ -241,45 +236,44 @@ contains
       force = force(:, pack([(k, k=1, n)], peak(:n) > least))
    end subroutine largest_forces
 
-   !> Adds a column as a curve if it has a value.
+   !> Adds a column as a curve.
    pure subroutine add_column(chart, test, wheel, place, title, colour, dash)
       type(chart_t), intent(inout) :: chart
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: wheel, place, colour, dash
       character(*), intent(in) :: title
-      type(trace_t) :: trace
-      logical :: is_good(row_count(test%table))
-      integer :: design
 
-      trace%title = title
+      call add_curve(chart, test, wheel, trim(test%table%columns(place)), test%table%values(place, :), title, colour, dash)
+   end subroutine add_column
+
+   !> Adds a curve over the abscissa of a wheel, if it has a value in a converged state and the table has the abscissa.
+   pure subroutine add_curve(chart, test, wheel, column, y, title, colour, dash)
+      type(chart_t), intent(inout) :: chart
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: wheel, colour, dash
+      character(*), intent(in) :: column, title      !! column, or expression of columns
+      real(wp), intent(in) :: y(:)
+      type(trace_t) :: trace
+      logical :: is_good(size(y))
+      integer :: over, design
+
+      over = wheel_column(test, wheel, test%abscissa)
+      if (over == 0) return
+      trace%title = title                            ! gfortran 12 leaks it in a structure constructor
+      trace%over = trim(test%table%columns(over))
+      trace%column = column
       trace%colour = colour
       trace%dash = dash
-      trace%x = abscissa_of(test, wheel)
-      if (size(trace%x) == 0) return
-      trace%y = test%table%values(place, :)
+      trace%x = test%table%values(over, :)
+      where (ieee_is_finite(trace%x)) trace%x = trace%x*test%abscissa_size
+      trace%y = y
       is_good = converged_rows(test%table)
       where (.not. is_good) trace%y = ieee_value(1.0_wp, ieee_quiet_nan)
       if (.not. any(ieee_is_finite(trace%y))) return
       design = design_row(test%table)
       if (design > 0) trace%mark = [trace%x(design), trace%y(design)]
       call add_trace(chart, trace)
-   end subroutine add_column
-
-   !> Values along the abscissa for a wheel; empty if the table lacks it.
-   pure function abscissa_of(test, wheel) result(values)
-      type(test_result_t), intent(in) :: test
-      integer, intent(in) :: wheel
-      real(wp), allocatable :: values(:)
-      integer :: place
-
-      place = wheel_column(test, wheel, test%abscissa)
-      if (place == 0) then
-         allocate (values(0))
-         return
-      end if
-      values = test%table%values(place, :)
-      where (ieee_is_finite(values)) values = values*test%abscissa_size
-   end function abscissa_of
+   end subroutine add_curve
 
    !> The wheel on the side of an element, from the name of the element; the first wheel if the name has no side.
    pure integer function side_of(test, name) result(wheel)
