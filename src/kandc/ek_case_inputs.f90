@@ -145,8 +145,7 @@ contains
                call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
             end do
             do m = 1, size(suspension%joints)
-               if (.not. suspension%joints(m)%is_rig) &
-                  call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
+               call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
             end do
             call mistakes%add(place//': two columns of the results would have the name '//quoted(columns(k))// &
                owners//'; rename one')

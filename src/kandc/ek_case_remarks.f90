@@ -5,7 +5,7 @@ module ek_case_remarks
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, default_tolerance
+   use ek_case, only: case_t, scales_loads, default_tolerance
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
@@ -13,7 +13,6 @@ module ek_case_remarks
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_table, only: table_t, column, row_count
    use ek_attitude, only: attitude_t, wheel_attitude
-   use ek_sweep_table, only: factor_unit
    use ek_model_remarks, only: has_spring
    use ek_remark, only: remark_list_t, note, warning, failure, on_settling, on_drift, on_travel, on_rack, on_closure
    implicit none(type, external)
@@ -96,7 +95,7 @@ contains
          travel = linear%centre(3) - exact%centre(3)
          toe = linear%toe - exact%toe
          camber = linear%camber - exact%camber
-         place = str(path%value(k)/factor_unit(suspension, case))
+         place = str(path%value(k)/case%unit)
          if (.not. outcome%is_converged) then
             call remarks%add(failure, on_drift, case, 'no equilibrium was found near the state at factor '//place// &
                '; the linear method has left the range that the suspension can reach', path%value(k), is_of_method=.true.)
@@ -124,7 +123,7 @@ contains
          'state violates', 'states violate')//' the joint constraints (constraint_error up to '// &
          str(maxval(gap, mask=is_open), 2)//' m or rad) and '// &
          trim(merge('is ', 'are', count(is_open) == 1))//' marked converged = 0; use more increments, or method ''equilibrium''', &
-         table%values(2, findloc(is_open, .true., dim=1))*factor_unit(suspension, case), is_of_method=.true.)
+         table%values(2, findloc(is_open, .true., dim=1))*case%unit, is_of_method=.true.)
    end subroutine closure_remarks
 
    !> Advice on drift.
@@ -148,13 +147,7 @@ contains
       real(wp), parameter :: far = 0.25_wp      ! m: half as much again as the travel of an off-road car
       integer :: k, w, ends(2), n
 
-      if (len(case%drive) > 0) return           ! the deck prescribes the travel of a driven wheel
-      if (allocated(case%courses)) then
-         do k = 1, size(case%courses)
-            if (len(case%courses(k)%load) > 0) exit
-         end do
-         if (k > size(case%courses)) return
-      end if
+      if (.not. scales_loads(case)) return      ! the deck prescribes the travel of a driven wheel
       advice = '; check the rates and their units'
       if (.not. has_spring(suspension)) advice = '; the deck has no spring'
       ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
@@ -166,7 +159,7 @@ contains
          do w = 1, size(suspension%wheels)
             attitude = wheel_attitude(suspension, state, w)
             if (.not. norm2(attitude%centre) > far) cycle
-            call remarks%add(warning, on_travel, case, 'at factor '//str(path%value(k)/factor_unit(suspension, case))// &
+            call remarks%add(warning, on_travel, case, 'at factor '//str(path%value(k)/case%unit)// &
                ' wheel '//quoted(suspension%wheels(w)%name)//' has moved by '//str(norm2(attitude%centre)/millimetre, 3)// &
                ' mm'//advice, path%value(k))
             return

@@ -85,21 +85,19 @@ contains
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
-   subroutine wheel_compliance(suspension, state, demand, released_rows, steer_row, kkt, self)
+   subroutine wheel_compliance(suspension, state, demand, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
-      integer, intent(in) :: released_rows(:)     !! rows of Φ that belong to the rig
       integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
       type(kkt_t), intent(inout) :: kkt           !! work space
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j, p, info
 
-      if (are_checked) call require(all(suspension%rows(released_rows)%is_driver) .and. size(self%columns, 1) == kkt%n, &
-         'wheel_compliance: only drivers of the same model can be released')
+      if (are_checked) call require(size(self%columns, 1) == kkt%n, 'wheel_compliance: work space of another model')
       call assemble(suspension, state, demand, whole_tangent, kkt)
-      do j = 1, size(released_rows)
-         call release(released_rows(j), kkt)
+      do j = suspension%own_rows() + 1, suspension%constraints()
+         call release(j, kkt)
       end do
       call set_ports(suspension, state, self)
       p = size(self%ports, 2)

@@ -18,8 +18,6 @@ module ek_compliance_table
    use ek_wheel_side, only: prefix_of
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
    use ek_compliance_port, only: load_at_patch, read_at_patch
-   use ek_kandc_columns, only: rig_rows
-   use ek_sweep_table, only: factor_unit
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
@@ -53,7 +51,7 @@ contains
          scale(k) = merge(-1.0_wp, 1.0_wp, suspension%is_iso .and. mod(k - 1, 3) < 2)      ! x and y of the deck
       end do
       table = new_table(columns_of(suspension, compliance), count(path%is_reached))
-      unit = factor_unit(suspension, case)
+      unit = case%unit
       schedule = new_schedule(suspension, case)
       state = design_state(suspension)
       row = 0
@@ -64,7 +62,7 @@ contains
          table%values(2, row) = path%value(k)/unit
          call unpack_state(path%packed(:, k), state)
          call demand_at(schedule, path%value(k), demand)
-         call wheel_compliance(suspension, state, demand, rig_rows(suspension), 0, kkt, compliance)
+         call wheel_compliance(suspension, state, demand, 0, kkt, compliance)
          do w = 1, compliance%wheels
             associate (wheel => suspension%wheels(compliance%order(w)))
                arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)

@@ -7,7 +7,7 @@ module ek_failure_words
    use ek_element, only: stop_spring, element_label
    use ek_spring, only: spring_tension
    use ek_suspension, only: suspension_t, body_name
-   use ek_case, only: case_t
+   use ek_case, only: case_t, scales_loads
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
@@ -17,7 +17,7 @@ module ek_failure_words
    use ek_path, only: path_t
    use ek_reach, only: failure_t
    use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
-   use ek_sweep_table, only: factor_unit, nearly_singular
+   use ek_sweep_table, only: nearly_singular
    use ek_model_remarks, only: has_spring
    use ek_remark, only: remark_list_t, warning, on_stability
    implicit none(type, external)
@@ -108,7 +108,7 @@ contains
       case (limit_point)
          text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))// &
             ' moves without resistance'
-         if (path%is_settled .and. is_loaded(case) .and. .not. case%follows_arc) text = text// &
+         if (path%is_settled .and. scales_loads(case) .and. .not. case%follows_arc) text = text// &
             ': drive the travel instead of the load, or follow the path by its arc length (follow = ''arc'')'
       case (mechanism)
          text = '; the matrix is singular there: nothing holds body '//quoted(body_name(suspension, found%body))
@@ -136,21 +136,9 @@ contains
       real(wp), intent(in) :: value
       character(:), allocatable :: text
 
-      text = case%place_name//' = '//str(value/factor_unit(suspension, case), digits)
+      text = case%place_name//' = '//str(value/case%unit, digits)
       if (case%unit_name /= '-') text = text//' '//case%unit_name
    end function place_words
-
-   !> Whether the case scales loads.
-   pure logical function is_loaded(case)
-      type(case_t), intent(in) :: case
-      integer :: k
-
-      is_loaded = len(case%load) > 0
-      if (.not. allocated(case%courses)) return
-      do k = 1, size(case%courses)
-         is_loaded = is_loaded .or. len(case%courses(k)%load) > 0
-      end do
-   end function is_loaded
 
    !> 'a', 'b' and 'c'.
    function joint_list(suspension, is_named) result(text)

@@ -1,6 +1,7 @@
 !> The windows of gradients: the range around design for the fit, by the abscissa of the test.
 module ek_gradient_window
    use ek_kinds, only: wp
+   use ek_rig_test, only: rig_test_t, rig_test, steers
    implicit none(type, external)
    private
    public :: windows_t, set_window, window_of
@@ -33,11 +34,13 @@ contains
       type(windows_t), intent(in) :: windows
       real(wp), intent(out) :: half             !! half width, in `unit`
       character(*), intent(out) :: unit         !! mm, deg, N or N m; 3 letters
+      type(rig_test_t) :: test
       integer :: which
 
+      test = rig_test(kind)
       which = force
-      if (kind == 'aligning_torque') which = torque
-      if (kind == 'steering') which = rack
+      if (test%unit == 'N m') which = torque
+      if (test%action == steers) which = rack
       if (over == 'wheel_travel_mm') which = travel
       if (over == 'axle_roll_deg') which = roll
       if (over == 'steering_wheel_deg') which = wheel

@@ -32,7 +32,7 @@ module ek_kandc_columns
    use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc, rig_rows
+   public :: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc
 
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
 
@@ -128,8 +128,7 @@ contains
       type(stand_t) :: stand
       integer :: w, k, n
 
-      if (self%is_matrix_wanted) &
-         call wheel_compliance(suspension, state, demand, rig_rows(suspension), self%steer_row, kkt, self%compliance)
+      if (self%is_matrix_wanted) call wheel_compliance(suspension, state, demand, self%steer_row, kkt, self%compliance)
       n = size(suspension%wheels)
       do k = 1, n
          w = self%compliance%order(k)
@@ -172,15 +171,6 @@ contains
       rack_force = 0.0_wp
       if (row > 0) rack_force = -state%reaction(row)
    end function rack_force
-
-   !> The rows of Φ of the rig that hold a wheel at a height.
-   pure function rig_rows(suspension) result(rows)
-      type(suspension_t), intent(in) :: suspension
-      integer, allocatable :: rows(:)
-      integer :: k
-
-      rows = pack([(k, k=1, size(suspension%rows))], suspension%joints(suspension%rows%joint)%is_rig)
-   end function rig_rows
 
    !> Positions of both wheels of an axle, in the order of the compliance matrix.
    type(stand_t) function stand_of(suspension, state, self) result(stand)

@@ -8,6 +8,7 @@ module ek_plausible_parts
    use ek_spring, only: spring_tension
    use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number
+   use ek_rig_test, only: rig_test_t, rig_test, moves_heights
    use ek_case, only: case_t
    use ek_plausible_range, only: doubts_t, judge, speak, length, force
    implicit none(type, external)
@@ -273,6 +274,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
       type(doubts_t), intent(inout) :: doubts
+      type(rig_test_t) :: test
       character(:), allocatable :: thing, quantity, vertical
       real(wp) :: far
       integer :: k, l
@@ -284,17 +286,18 @@ contains
             vertical = ''
             if (allocated(case%vertical)) vertical = case%vertical
             quantity = ''
-            select case (case%test)
-            case ('parallel_travel', 'opposite_travel', 'single_travel')
-               quantity = merge('test force  ', 'wheel travel', vertical == 'force')
-            case ('roll')
+            test = rig_test(case%test)
+            select case (merge('N  ', test%unit, test%action == moves_heights .and. vertical == 'force'))
+            case ('mm')
+               quantity = 'wheel travel'
+            case ('deg')
                quantity = 'roll angle'
-            case ('steering')
-               if (suspension%steering%has_steering) quantity = 'rack displacement'
-            case ('lateral_force', 'braking', 'traction', 'vertical_force')
+            case ('N')
                quantity = 'test force'
-            case ('aligning_torque')
+            case ('N m')
                quantity = 'test moment'
+            case ('')
+               if (suspension%steering%has_steering) quantity = 'rack displacement'
             end select
             if (case%drive == 'wheel_travel') quantity = 'wheel travel'
             l = load_number(suspension, case%load)
@@ -308,7 +311,7 @@ contains
                end if
             end if
             if (len(quantity) > 0) call judge(doubts, case%where, thing, trim(quantity), far)
-            if (case%test == 'lateral_force') call judge(doubts, case%where, thing, 'offset of the force', case%offset)
+            if (test%has_trail) call judge(doubts, case%where, thing, 'offset of the force', case%offset)
          end associate
       end do
    end subroutine doubt_cases

@@ -23,7 +23,7 @@ module ek_state_columns
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
    implicit none(type, external)
    private
-   public :: state_columns, state_values, measure_unit
+   public :: state_columns, state_values
 
 contains
 

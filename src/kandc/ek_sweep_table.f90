@@ -5,19 +5,19 @@
 module ek_sweep_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8
-   use ek_suspension, only: suspension_t, driver_row
+   use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state, coordinates
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
-   use ek_state_columns, only: state_columns, state_values, measure_unit
+   use ek_state_columns, only: state_columns, state_values
    use ek_column_list, only: column_list_t, choose
    use ek_kandc_columns, only: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
+   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
@@ -114,7 +114,7 @@ contains
       allocate (values(observer%ended))
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
-      unit = factor_unit(suspension, case)
+      unit = case%unit
       associate (shown => observer%shown, told => observer%told, ended => observer%ended)
          do k = first, last
             row = k - first + 1
@@ -240,18 +240,5 @@ contains
       first = max(first - 1, 1)
       last = min(last + 1, path%states)
    end subroutine reached_rows
-
-   !> Unit of the column `factor` in SI: 1 for a load, mm or deg for a driven measure.
-   pure real(wp) function factor_unit(suspension, case) result(unit)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      integer :: row
-
-      unit = case%unit
-      if (allocated(case%courses)) return
-      row = driver_row(suspension, case%drive)
-      if (row == 0) return
-      unit = measure_unit(suspension%terms(suspension%rows(row)%first)%measure%kind)
-   end function factor_unit
 
 end module ek_sweep_table

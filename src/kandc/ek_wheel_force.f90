@@ -32,8 +32,7 @@ contains
             force = force + share*factor*f(3)
          end associate
       end do
-      do k = 1, size(suspension%rows)
-         if (.not. suspension%joints(suspension%rows(k)%joint)%is_rig) cycle
+      do k = suspension%own_rows() + 1, suspension%constraints()
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
             associate (term => suspension%terms(t))
                force = force - share_of(term%measure%body_j, term%measure%arm_j)* &

@@ -1,10 +1,10 @@
-!> The two sides of an axle: the left and the right wheel, and the names of their columns and drivers.
+!> The two sides of an axle: the left and the right wheel, and the names of their columns.
 module ek_wheel_side
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, height_name, left_and_right, is_axle, single_side, prefix_of, design_track
+   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track
 
 contains
 
@@ -14,13 +14,6 @@ contains
       character(5) :: name
       name = merge('left ', 'right', side == 1)
    end function side_name
-
-   !> Name of the rig's driver of a wheel's height; no name in a deck begins with rig_.
-   pure function height_name(side) result(name)
-      integer, intent(in) :: side
-      character(:), allocatable :: name
-      name = 'rig_'//trim(side_name(side))//'_height'
-   end function height_name
 
    !> The numbers of the left and the right wheel, 0 if there is none.
    pure subroutine left_and_right(suspension, wheels)

@@ -5,6 +5,7 @@ module ek_test_result
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
+   use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, steers, loads_wheels
    use ek_table, only: table_t, name_length, column_index, column_range
    implicit none(type, external)
    private
@@ -88,38 +89,26 @@ contains
    !> Sets the abscissa of the charts for a kind of test, if the table has its column. An abscissa already set is kept.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
+      type(rig_test_t) :: kind
+      character(:), allocatable :: side
+      integer :: at
 
       if (allocated(test%abscissa)) return
+      kind = rig_test(test%kind)
+      test%abscissa = trim(kind%abscissa)
+      test%label = trim(kind%label)
       test%abscissa_size = 1.0_wp
-      select case (test%kind)
-      case ('parallel_travel', 'opposite_travel')
-         call set(travel_column, 'wheel travel [mm]    (+ bump)')
-      case ('single_travel')
-         call set('left_'//travel_column, 'travel of the left wheel [mm]    (+ bump)')
-         if (stroke('right_'//travel_column) > stroke('left_'//travel_column)) &
-            call set('right_'//travel_column, 'travel of the right wheel [mm]    (+ bump)')
-      case ('roll')
-         call set('axle_roll_deg', 'axle roll [deg]    (+ left wheel up)')
-      case ('steering')
-         call set('steering_wheel_deg', 'steering wheel [deg]    (+ left)')
-         if (column_index(test%table, 'steering_wheel_deg') == 0) call set_factor('steering input [mm]    (+ left)')
-      case ('lateral_force')
-         call set_factor('lateral force [N]    (+ to the right)')
-         if (test%is_anti) call set_factor('lateral force on the left wheel [N]    (+ to the right)')
-      case ('braking')
-         call set_factor('braking force per wheel [N]    (+ rearward)')
-      case ('traction')
-         call set_factor('traction force per wheel [N]    (+ forward)')
-      case ('aligning_torque')
-         call set_factor('aligning torque [N m]    (+ to the left)')
-         if (test%is_anti) call set_factor('aligning torque on the left wheel [N m]    (+ to the left)')
-      case ('vertical_force')
-         call set_factor('vertical force [N]    (+ up)')
-      case ('table')
-         call set('factor', 'row of the table')
-      case default
-         call set(travel_column, 'wheel travel [mm]    (+ bump)')
-      end select
+      if (of_one_wheel(kind)) then
+         side = trim(merge('left ', 'right', stroke('right_'//travel_column) <= stroke('left_'//travel_column)))
+         test%abscissa = side//'_'//travel_column
+         test%label = 'travel of the '//side//' wheel [mm]    (+ bump)'
+      else if (kind%action == steers .and. column_index(test%table, test%abscissa) == 0) then
+         call set_factor('steering input [mm]    (+ left)')
+      else if (kind%action == loads_wheels) then
+         at = index(test%label, ' [')
+         if (test%is_anti) test%label = test%label(:at - 1)//' on the left wheel'//test%label(at:)
+         call set_factor(test%label)
+      end if
       if (test%abscissa /= 'factor' .and. .not. has_column(test, test%abscissa)) call set_factor('load factor')
       if (test%kind == 'other' .and. stroke(travel_column) < least_stroke) call set_factor('load factor')
 
@@ -142,16 +131,10 @@ contains
 
       subroutine set_factor(label)
          character(*), intent(in) :: label
-         call set('factor', label)
+         test%abscissa = 'factor'
+         test%label = label
          test%abscissa_size = test%factor_size
       end subroutine set_factor
-
-      subroutine set(name, label)
-         character(*), intent(in) :: name, label
-         test%abscissa = name
-         test%label = label
-         test%abscissa_size = 1.0_wp
-      end subroutine set
 
    end subroutine choose_abscissa
 

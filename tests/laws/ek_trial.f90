@@ -176,8 +176,7 @@ contains
                call include(b%body_i, b%body_j)
             end associate
          end do
-         do k = 1, size(trial%suspension%rows)
-            if (trial%suspension%joints(trial%suspension%rows(k)%joint)%is_rig) cycle
+         do k = 1, trial%suspension%own_rows()
             do t = trial%suspension%rows(k)%first, trial%suspension%rows(k)%first + trial%suspension%rows(k)%terms - 1
                associate (term => trial%suspension%terms(t), m => trial%suspension%terms(t)%measure)
                   gradient = state%reaction(k)*term%coefficient* &
