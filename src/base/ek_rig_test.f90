@@ -1,4 +1,4 @@
-!> The tests of the rig, one row each: what the rig does with the wheels, and how the results of the test are shown.
+!> The tests of the rig, one row each: the loads and heights of the wheels, and how the results are shown.
 !>
 !> | test            | swept value     | left, right wheel                      | wheels held by   |
 !> |-----------------|-----------------|----------------------------------------|------------------|
