@@ -78,10 +78,13 @@ contains
       real(wp) :: travel, toe, camber
       real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
       real(wp), parameter :: much_angle = 1.0e-3_wp*degree
-      character(:), allocatable :: place
+      character(:), allocatable :: place, advice
       integer :: k, ends(2), n
 
       if (case%method == 'equilibrium' .or. size(suspension%wheels) == 0) return
+      advice = '; more increments reduce it'
+      if (case%method == 'recursive') advice = ' (the bias of this method; more increments do not remove it, '// &
+         'method = ''equilibrium'' has none)'
       ends = [1, path%states]
       do n = 1, 2
          k = ends(n)
@@ -102,14 +105,13 @@ contains
          else if (abs(travel) > much_travel .or. max(abs(toe), abs(camber)) > much_angle) then
             call remarks%add(warning, on_drift, case, 'at factor '//place//' the state is off equilibrium by '// &
                str(travel/millimetre, 3)//' mm travel, '//str(toe/degree, 3)//' deg toe, '// &
-               str(camber/degree, 3)//' deg camber'//advice(case), path%value(k), is_of_method=.true.)
+               str(camber/degree, 3)//' deg camber'//advice, path%value(k), is_of_method=.true.)
          end if
       end do
    end subroutine drift_remarks
 
    !> States of a linear method that are marked converged = 0 because they violate the joint constraints.
-   subroutine closure_remarks(suspension, case, table, remarks)
-      type(suspension_t), intent(in) :: suspension
+   subroutine closure_remarks(case, table, remarks)
       type(case_t), intent(in) :: case
       type(table_t), intent(in) :: table         !! of sweep_table
       type(remark_list_t), intent(inout) :: remarks
@@ -125,15 +127,6 @@ contains
          trim(merge('is ', 'are', count(is_open) == 1))//' marked converged = 0; use more increments, or method ''equilibrium''', &
          table%values(2, findloc(is_open, .true., dim=1))*case%unit, is_of_method=.true.)
    end subroutine closure_remarks
-
-   !> Advice on drift.
-   pure function advice(case) result(text)
-      type(case_t), intent(in) :: case
-      character(:), allocatable :: text
-      text = '; more increments reduce it'
-      if (case%method == 'recursive') text = ' (the bias of this method; more increments do not remove it, '// &
-         'method = ''equilibrium'' has none)'
-   end function advice
 
    !> Warns of a load that moves a wheel further than any suspension travels: a rate is missing or has the wrong unit.
    subroutine travel_remarks(suspension, case, path, remarks)

@@ -99,7 +99,7 @@ contains
       call sweep(result%suspension, result%case, result%path, result%kkt, progress)
       if (options%has_remarks) call remark_on_path(options, result)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
-      if (options%has_remarks) call closure_remarks(result%suspension, result%case, result%table, result%remarks)
+      if (options%has_remarks) call closure_remarks(result%case, result%table, result%remarks)
       if (any(result%path%failure%state > 0) .or. result%remarks%has_failed()) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
 
@@ -128,7 +128,7 @@ contains
          call settling_remarks(suspension, case, path, options%least_settling, remarks)
          if (options%is_compared) call drift_remarks(suspension, case, path, result%kkt, remarks)
          call travel_remarks(suspension, case, path, remarks)
-         call stability_remarks(suspension, case, path, remarks)
+         call stability_remarks(case, path, remarks)
          call rack_remarks(suspension, case, remarks)
          call curve_reach_remarks(suspension, case, path, remarks)
       end associate

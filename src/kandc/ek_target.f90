@@ -15,6 +15,7 @@ module ek_target
    use ek_branch, only: branch_t, new_branch, leave
    use ek_quantity, only: unit_of
    use ek_table, only: table_t, column, column_range, row_count
+   use ek_remark, only: swept_words
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
@@ -202,7 +203,7 @@ contains
             f = value(1) - found%wanted
          else
             call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
-               ' has no value at '//case%place_name//' = '//str(place/case%unit, 9)//' '//case%unit_name)
+               ' has no value at '//swept_words(case, place, 9))
          end if
       end subroutine look_at
 
