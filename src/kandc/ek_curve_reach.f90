@@ -71,8 +71,11 @@ contains
                is_told = is_told .or. further(reach(c, s), reach(c, k), s < k)
             end do
             associate (element => suspension%elements(k))
-               curve = element%bushing%laws(c)%curve
-               if (element%has_law) curve = element%law%curve
+               if (element%has_law) then
+                  curve = element%law%curve
+               else
+                  curve = element%bushing%laws(c)%curve
+               end if
                call tell(case, path, curve, reach(c, k), element_label(element), element%measure%kind == rotation .or. c > 3, &
                   is_told, remarks)
             end associate
