@@ -8,9 +8,10 @@ module ek_attitude
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t, wheel_t
    use ek_state, only: state_t
+   use ek_angle_rate, only: axes_t, axes_of
    implicit none(type, external)
    private
-   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of, axis_values
+   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of, axis_values, static_toe
 
    !> A steer axis relative to wheel centre and patch.
    type :: steer_axis_t
@@ -32,6 +33,10 @@ module ek_attitude
       real(wp) :: track_change = 0.0_wp       !! m, positive outward
       real(wp) :: wheelbase_change = 0.0_wp   !! m, positive rearward
       type(steer_axis_t) :: axis         !! of the two points of the deck, if any
+      type(axes_t) :: axes = axes_t()    !! spin axis, and the direction of the steer axis
+      real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact patch at the state [m]
+      real(wp) :: axis_point(3) = 0.0_wp !! first point of the steer axis at the state [m]
+      real(wp) :: side_view = 0.0_wp     !! rotation in the side view: atan2(e_x, e_z), e vertical at design; + top rearward [rad]
    end type attitude_t
 
 contains
@@ -49,22 +54,30 @@ contains
       real(wp), intent(in) :: origin(3)     !! reference point of the carrier at design [m]
       type(pose_t), intent(in) :: now
       type(attitude_t) :: attitude
-      real(wp) :: w(3), contact(3), centre(3), lower(3)
 
-      centre = now%r + rotated(now%a, wheel%centre)
-      contact = now%r + rotated(now%a, wheel%contact)
-      attitude%centre = centre - (origin + wheel%centre)
-      attitude%contact = contact - (origin + wheel%contact)
-      w = rotated(now%a, wheel%spin)
-      attitude%toe = atan2(-w(1), wheel%side*w(2))
-      attitude%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
+      attitude%at_centre = now%r + rotated(now%a, wheel%centre)
+      attitude%at_contact = now%r + rotated(now%a, wheel%contact)
+      attitude%centre = attitude%at_centre - (origin + wheel%centre)
+      attitude%contact = attitude%at_contact - (origin + wheel%contact)
+      attitude%axes = axes_of(wheel, now)
+      associate (w => attitude%axes%spin)
+         attitude%toe = atan2(-w(1), wheel%side*w(2))
+         attitude%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
+      end associate
+      attitude%side_view = atan2(now%a(1, 3), now%a(3, 3))
       attitude%track_change = wheel%side*attitude%contact(2)
       attitude%wheelbase_change = attitude%contact(1)
       if (.not. wheel%has_steer_axis) return
-      lower = now%r + rotated(now%a, wheel%steer_axis(:, 1))
-      attitude%axis = steer_axis_of(wheel%side, lower, rotated(now%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), &
-         centre, contact)
+      attitude%axis_point = now%r + rotated(now%a, wheel%steer_axis(:, 1))
+      attitude%axis = steer_axis_of(wheel%side, attitude%axis_point, attitude%axes%steer_axis, attitude%at_centre, &
+         attitude%at_contact)
    end function attitude_of
+
+   !> Toe of a wheel in the design position [rad].
+   pure real(wp) function static_toe(wheel)
+      type(wheel_t), intent(in) :: wheel
+      static_toe = atan2(-wheel%spin(1), wheel%side*wheel%spin(2))
+   end function static_toe
 
    !> Angles of a line, and its distances from patch and wheel centre, each in the horizontal plane through the point.
    !>

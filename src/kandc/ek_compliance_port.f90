@@ -8,7 +8,7 @@ module ek_compliance_port
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
-   public :: load_at_patch, read_at_patch, hold
+   public :: load_at_patch, read_at_patch, hold, lock
 
 contains
 
@@ -49,36 +49,53 @@ contains
    end function read_at_patch
 
    !> The displacements M while the heights of all wheel centres are held: M − C(:,z) C_zz⁻¹ M(z,:), z one row per wheel.
-   !>
-   !> The heights are held one after the other, the more compliant first; a height without compliance once the other is held
-   !> (wheels that can only move together; below 1e-9 of its own compliance is rounding) is held already.
    !> Equation (C.6) of docs/theory/compliance.md.
    pure function hold(c, m) result(held)
       real(wp), intent(in) :: c(:, :)        !! at the wheel centres
       real(wp), intent(in) :: m(:, :)        !! response at the wheel centres to any loads
       real(wp) :: held(size(m, 1), size(m, 2))
-      real(wp) :: left(size(c, 1), size(c, 2)), row(size(c, 2)), column(size(c, 1))
-      integer :: order(size(c, 1)/6), k, j, z
+      integer :: k
 
-      left = c
       held = m
-      order = [(6*k - 3, k=1, size(order))]
-      if (size(order) == 2) then
-         if (abs(c(9, 9)) > abs(c(3, 3))) order = [9, 3]
-      end if
-      do k = 1, size(order)
-         z = order(k)
-         if (abs(left(z, z)) <= 1.0e-9_wp*abs(c(z, z)) .or. abs(c(z, z)) <= tiny(1.0_wp)) cycle
-         column = left(:, z)/left(z, z)
-         row = held(z, :)
-         do j = 1, size(m, 2)
-            held(:, j) = held(:, j) - column*row(j)
+      call lock(c, [(6*k - 3, k=1, size(c, 1)/6)], held)
+   end function hold
+
+   !> Takes from displacements M those of the loads at some ports that undo the displacements of these ports.
+   !>
+   !> The ports are held one after the other, the one that is most compliant then first; a port without compliance once others are
+   !> held (wheels that can only move together, two springs on one arm; below 1e-9 of its own compliance is rounding) is held
+   !> already.
+   !> Equations (C.6) of docs/theory/compliance.md and (S.8) of docs/theory/suspension.md.
+   pure subroutine lock(c, ports, m)
+      real(wp), intent(in) :: c(:, :)           !! response to the loads of all ports
+      integer, intent(in) :: ports(:)
+      real(wp), intent(inout) :: m(:, :)        !! response to any loads
+      real(wp) :: left(size(c, 1), size(ports)), own(size(ports)), column(size(c, 1)), compliance, most
+      logical :: is_held(size(ports))
+      integer :: k, j, next
+
+      left = c(:, ports)
+      own = [(abs(left(ports(k), k)), k=1, size(ports))]
+      is_held = own <= tiny(own)
+      do k = 1, size(ports)
+         next = 0
+         most = 0.0_wp
+         do j = 1, size(ports)
+            compliance = abs(left(ports(j), j))
+            if (is_held(j) .or. compliance <= 1.0e-9_wp*own(j) .or. compliance <= most) cycle
+            next = j
+            most = compliance
          end do
-         row = left(z, :)
-         do j = 1, size(c, 2)
-            left(:, j) = left(:, j) - column*row(j)
+         if (next == 0) return
+         is_held(next) = .true.
+         column = left(:, next)/left(ports(next), next)
+         do j = 1, size(m, 2)
+            m(:, j) = m(:, j) - column*m(ports(next), j)
+         end do
+         do j = 1, size(ports)
+            if (.not. is_held(j)) left(:, j) = left(:, j) - column*left(ports(next), j)
          end do
       end do
-   end function hold
+   end subroutine lock
 
 end module ek_compliance_port

@@ -15,7 +15,7 @@ module ek_compliance_table
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
    use ek_block, only: rotated
-   use ek_wheel_side, only: prefix_of
+   use ek_wheel_side, only: prefix_of, deck_frame
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
    use ek_compliance_port, only: load_at_patch, read_at_patch
    use ek_table, only: table_t, new_table, name_length
@@ -47,9 +47,7 @@ contains
       compliance = new_compliance(suspension, .false.)
       n = 6*compliance%wheels
       allocate (c(n, n), scale(n), arm(3, compliance%wheels))
-      do k = 1, n
-         scale(k) = merge(-1.0_wp, 1.0_wp, suspension%is_iso .and. mod(k - 1, 3) < 2)      ! x and y of the deck
-      end do
+      scale = [(deck_frame(suspension), k=1, n/3)]
       table = new_table(columns_of(suspension, compliance), count(path%is_reached))
       unit = case%unit
       schedule = new_schedule(suspension, case)

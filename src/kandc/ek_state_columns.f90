@@ -18,7 +18,7 @@ module ek_state_columns
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
-   use ek_wheel_side, only: prefix_of
+   use ek_wheel_side, only: prefix_of, deck_frame
    use ek_attitude, only: attitude_t, wheel_attitude, axis_values
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
    implicit none(type, external)
@@ -99,8 +99,7 @@ contains
       real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
       integer :: k, at, r
 
-      frame = 1.0_wp
-      if (suspension%is_iso) frame = [-1.0_wp, -1.0_wp, 1.0_wp]
+      frame = deck_frame(suspension)
       do k = 1, size(suspension%wheels)
          now = wheel_attitude(suspension, state, k)
          call fill_block(list, k, [now%centre(3), now%toe, now%camber, now%track_change, now%wheelbase_change, &

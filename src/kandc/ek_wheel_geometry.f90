@@ -8,20 +8,15 @@ module ek_wheel_geometry
    use ek_rotation, only: cross
    implicit none(type, external)
    private
-   public :: axis_distances_t, axis_distances, side_view_angle, ride_frequency
+   public :: axis_distances, ride_frequency
 
    real(wp), parameter :: parallel = 1.0e-9_wp        !! sine of the angle of spin and steer axis: parallel below
 
-   !> A wheel centre, a patch and a spin axis relative to a line [m].
-   type :: axis_distances_t
-      real(wp) :: centre = 0.0_wp, patch = 0.0_wp   !! shortest distances of the two points from the line, never negative
-      real(wp) :: along = 0.0_wp                    !! along the spin axis, from the foot of the common perpendicular, + outboard
-      real(wp) :: across = 0.0_wp                   !! length of the common perpendicular, + spin axis behind the line
-   end type axis_distances_t
-
 contains
 
-   !> Distances of a wheel from a steer axis: line through `point` along `direction`.
+   !> Distances of a wheel from a steer axis, the line through `point` along `direction`: of the centre and of the patch, never
+   !> negative; along the spin axis, from the foot of the common perpendicular, + outboard; length of the common perpendicular,
+   !> + spin axis behind the line.
    !>
    !> With d = centre − point, k the unit direction upward, w the spin axis outboard, n = side w×k/|w×k|:
    !>
@@ -29,33 +24,27 @@ contains
    !>
    !> which solves d = along w + μ k + across n. `along` and `across` are not numbers if w and k are parallel.
    !> Equation (S.10) of docs/theory/suspension.md.
-   pure type(axis_distances_t) function axis_distances(side, point, direction, centre, patch, spin) result(is)
+   pure function axis_distances(side, point, direction, centre, patch, spin) result(is)
       integer, intent(in) :: side
       real(wp), intent(in) :: point(3), direction(3)       !! of the line [m, any length, not 0]
       real(wp), intent(in) :: centre(3), patch(3)          !! m
       real(wp), intent(in) :: spin(3)                      !! unit, outboard
+      real(wp) :: is(4)                                    !! centre, patch, along, across [m]
       real(wp) :: k(3), n(3), d(3), turn
 
       k = direction/norm2(direction)
       if (k(3) < 0.0_wp) k = -k
       d = centre - point
-      is%centre = norm2(cross(d, k))
-      is%patch = norm2(cross(patch - point, k))
+      is = ieee_value(1.0_wp, ieee_quiet_nan)
+      is(1) = norm2(cross(d, k))
+      is(2) = norm2(cross(patch - point, k))
       n = cross(spin, k)
       turn = norm2(n)
-      is%along = ieee_value(1.0_wp, ieee_quiet_nan)
-      is%across = is%along
       if (turn <= parallel) return
       n = side*n/turn
-      is%across = dot_product(d, n)
-      is%along = side*dot_product(cross(d, k), n)/turn
+      is(4) = dot_product(d, n)
+      is(3) = side*dot_product(cross(d, k), n)/turn
    end function axis_distances
-
-   !> Rotation of a carrier in the side view: atan2(e_x, e_z), e its direction that is vertical at design. Positive: top rearward.
-   pure real(wp) function side_view_angle(a) result(angle)
-      real(wp), intent(in) :: a(3, 3)      !! its axes, global
-      angle = atan2(a(1, 3), a(3, 3))
-   end function side_view_angle
 
    !> √(k/m)/2π [Hz]
    pure real(wp) function ride_frequency(rate, mass) result(frequency)

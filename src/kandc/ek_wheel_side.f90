@@ -4,7 +4,7 @@ module ek_wheel_side
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track
+   public :: side_name, left_and_right, is_axle, single_side, prefix_of, design_track, deck_frame
 
 contains
 
@@ -42,6 +42,14 @@ contains
       end do
       track = abs(y(2) - y(1))
    end function design_track
+
+   !> The factors of x, y, z from the frame of the program to that of the deck.
+   pure function deck_frame(suspension) result(frame)
+      type(suspension_t), intent(in) :: suspension
+      real(wp) :: frame(3)
+      frame = 1.0_wp
+      if (suspension%is_iso) frame(1:2) = -1.0_wp
+   end function deck_frame
 
    !> Whether a model is an axle: two wheels, one on either side.
    pure logical function is_axle(suspension)
