@@ -1,6 +1,6 @@
 !> The command line as values: one command, its files, its options. ek_command reads it.
 module ek_arguments
-   use ek_gradient_window, only: windows_t
+   use ek_gradient_definition, only: windows_t
    implicit none(type, external)
    private
    public :: arguments_t, setting_t

@@ -4,7 +4,7 @@ module ek_command_line
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: nearest_name, quoted
    use ek_decimal, only: get_decimal
-   use ek_gradient_window, only: windows_t, set_window
+   use ek_gradient_definition, only: windows_t, set_window
    use ek_arguments, only: arguments_t, setting_t
    use ek_command, only: commands, options, uses, option_number, command_names
    implicit none(type, external)

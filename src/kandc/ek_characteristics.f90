@@ -2,12 +2,12 @@
 !> roll, swing arms, roll centre, compliances, anti features.
 !>
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
-!> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance_port).
+!> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance).
 !> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
 !> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_angle_rate.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
-!> (`hold` of ek_compliance_port).
+!> (`hold` of ek_compliance).
 !>
 !> Everything is SI and radians. A quotient with a vanishing denominator is not a number. No suspension is stiffer
 !> than a block of steel (about 1e10 N/m), so a compliance below 1e-12 m/N is rounding, and a swing arm longer than one
@@ -19,7 +19,7 @@ module ek_characteristics
    use ek_suspension, only: axle_t
    use ek_steer_angle, only: steer_rate
    use ek_angle_rate, only: axes_t, toe_rate, camber_rate, caster_rate
-   use ek_compliance_port, only: load_at_patch, read_at_patch, hold
+   use ek_compliance, only: load_at_patch, read_at_patch, hold
    implicit none(type, external)
    private
    public :: wheel_characteristics_t, axle_characteristics_t, response_t, stand_t

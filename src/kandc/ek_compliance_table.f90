@@ -16,8 +16,7 @@ module ek_compliance_table
    use ek_path, only: path_t
    use ek_block, only: rotated
    use ek_wheel_side, only: prefix_of, deck_frame
-   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
-   use ek_compliance_port, only: load_at_patch, read_at_patch
+   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private

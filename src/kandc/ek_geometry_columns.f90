@@ -18,8 +18,7 @@ module ek_geometry_columns
    use ek_attitude, only: attitude_t, static_toe
    use ek_angle_rate, only: camber_rate
    use ek_steer_angle, only: steer_of, steer_rate, turning_circle, ideal_outer_steer, outer_wheel, wall_to_wall
-   use ek_steer_axis, only: locked_twist
-   use ek_wheel_geometry, only: axis_distances, ride_frequency
+   use ek_steer_axis, only: locked_twist, axis_distances, ride_frequency
    implicit none(type, external)
    private
    public :: wheel_geometry_values, axle_geometry_values, element_values, mass_on

@@ -19,8 +19,7 @@ module ek_gradient
    use ek_quantity, only: slope_unit, unit_text
    use ek_table, only: row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
-   use ek_gradient_definition, only: definition_t, definitions_of
-   use ek_gradient_window, only: windows_t, window_of
+   use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
    implicit none(type, external)
    private
    public :: gradient_t, test_gradients, slope_over_window

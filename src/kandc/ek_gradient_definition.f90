@@ -1,12 +1,13 @@
-!> The gradients of each set of tests: column over column, with unit and sign.
+!> The gradients of each set of tests: column over column, with unit and sign; their windows around design, by the abscissa.
 !>
 !> A new gradient is one line below; ek_gradient computes its value, slope_unit of ek_quantity its unit.
 module ek_gradient_definition
+   use ek_kinds, only: wp
    use ek_rig_test, only: rig_test_t, rig_test, steers, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, &
       of_traction, of_aligning, of_vertical
    implicit none(type, external)
    private
-   public :: definition_t, definitions_of, fitted
+   public :: definition_t, definitions_of, fitted, windows_t, set_window, window_of
 
    !> Ends the name of every gradient, because a least-squares slope over a window differs from the slope at a state in a
    !> column of the compliance matrix.
@@ -25,7 +26,7 @@ module ek_gradient_definition
    end type definition_t
 
    character(*), parameter :: in_bump = ' in bump', left_up = ' with the left wheel up', under = ' under a force to the right', &
-      torque = ' under a torque to the left', inner = ', inner wheel', force_up = ' under a force up', &
+      left_torque = ' under a torque to the left', inner = ', inner wheel', force_up = ' under a force up', &
       inward = '+ front edge moves inward', outward = '+ top moves outward', rearward = '+ top of the axis moves rearward', &
       to_left = '+ steers to the left'
 
@@ -51,8 +52,8 @@ module ek_gradient_definition
       definition_t(of_lateral, 'lateral force steer', 'toe_deg', to_left//under, 's'), &
       definition_t(of_lateral, 'lateral force camber', 'camber_deg', outward//under), &
       definition_t(of_lateral, 'lateral deflection', 'track_change_mm', '+ patch moves with the force', 'i'), &
-      definition_t(of_aligning, 'aligning torque steer', 'toe_deg', to_left//torque, 's'), &
-      definition_t(of_aligning, 'aligning torque camber', 'camber_deg', outward//torque), &
+      definition_t(of_aligning, 'aligning torque steer', 'toe_deg', to_left//left_torque, 's'), &
+      definition_t(of_aligning, 'aligning torque camber', 'camber_deg', outward//left_torque), &
       definition_t(of_braking, 'braking deflection', 'wheelbase_change_mm', '+ patch moves rearward'), &
       definition_t(of_braking, 'braking camber', 'camber_deg', outward), &
       definition_t(of_braking, 'braking steer', 'toe_deg', to_left, 's'), &
@@ -75,6 +76,15 @@ module ek_gradient_definition
       definition_t(of_vertical, 'vertical force camber', 'camber_deg', outward//force_up), &
       definition_t(of_vertical, 'vertical force caster', 'caster_deg', '+ top moves rearward'//force_up)]
 
+   integer, parameter :: travel = 1, roll = 2, force = 3, torque = 4, rack = 5, wheel = 6
+   character(*), parameter :: names(6) = [character(6) :: 'travel', 'roll', 'force', 'torque', 'rack', 'wheel']
+   character(*), parameter :: units(6) = [character(3) :: 'mm', 'deg', 'N', 'N m', 'mm', 'deg']
+
+   !> Half widths of the windows in these units, each centred on 0; rack: of steering input, wheel: of the steering wheel.
+   type :: windows_t
+      real(wp) :: half(6) = [15.0_wp, 1.0_wp, 1000.0_wp, 100.0_wp, 10.0_wp, 20.0_wp]
+   end type windows_t
+
 contains
 
    !> The gradients of a test; empty for a test without any.
@@ -91,5 +101,36 @@ contains
          if (list(k)%over == '') list(k)%over = merge('factor            ', test%abscissa, test%action == steers)
       end do
    end function definitions_of
+
+   !> Sets the half width of one window by its name.
+   pure subroutine set_window(windows, word, half, is_known)
+      type(windows_t), intent(inout) :: windows
+      character(*), intent(in) :: word
+      real(wp), intent(in) :: half         !! mm, deg, N or N m; positive
+      logical, intent(out) :: is_known
+
+      is_known = any(names == word)
+      where (names == word) windows%half = half
+   end subroutine set_window
+
+   !> The window of a gradient; over `factor` it is that of the quantity scaled by the test.
+   pure subroutine window_of(kind, over, windows, half, unit)
+      character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
+      type(windows_t), intent(in) :: windows
+      real(wp), intent(out) :: half             !! half width, in `unit`
+      character(*), intent(out) :: unit         !! mm, deg, N or N m; 3 letters
+      type(rig_test_t) :: test
+      integer :: which
+
+      test = rig_test(kind)
+      which = force
+      if (test%unit == 'N m') which = torque
+      if (test%action == steers) which = rack
+      if (over == 'wheel_travel_mm') which = travel
+      if (over == 'axle_roll_deg') which = roll
+      if (over == 'steering_wheel_deg') which = wheel
+      half = windows%half(which)
+      unit = units(which)
+   end subroutine window_of
 
 end module ek_gradient_definition
