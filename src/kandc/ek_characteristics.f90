@@ -82,7 +82,7 @@ module ek_characteristics
 contains
 
    !> a/b, not a number where |b| is at most `least`.
-   pure real(wp) function quotient(a, b, least)
+   elemental real(wp) function quotient(a, b, least)
       real(wp), intent(in) :: a, b, least
       quotient = ieee_value(1.0_wp, ieee_quiet_nan)
       if (abs(b) > least) quotient = a/b
@@ -119,14 +119,6 @@ contains
       if (stand%axes(place)%has_steer_axis) is%caster = caster_rate(stand%axes(place), twist(4:6))
    end function respond
 
-   !> A twist per unit of an input, not a number where the input is at most `least`.
-   pure function per(twist, amount, least) result(rate)
-      real(wp), intent(in) :: twist(6), amount, least
-      real(wp) :: rate(6)
-      rate = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(amount) > least) rate = twist/amount
-   end function per
-
    !> All quantities of one wheel. C is 6×6 (a single wheel, without the other) or 12×12, left wheel first. Ride and hop rate
    !> and the roll with tyres are defined only with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat
    !> only with data of the axle.
@@ -150,13 +142,11 @@ contains
       anti = phase(c, place, -1.0_wp)
       tyre = stand%tyre_rate(place)
 
-      do k = 1, 6
-         is%stiffness(k) = quotient(1.0_wp, in(k, k), merge(least_compliance, least_turn, k <= 3))
-      end do
+      is%stiffness = quotient(1.0_wp, [(in(k, k), k=1, 6)], [(merge(least_compliance, least_turn, k <= 3), k=1, 6)])
       is%wheel_rate = is%stiffness(3)
       if (tyre > 0.0_wp) is%ride_rate = quotient(1.0_wp, in(3, 3) + 1.0_wp/tyre, least_compliance)
       is%hop_rate = is%wheel_rate + tyre
-      is%bump = respond(stand, place, per(in(:, 3), in(3, 3), least_compliance))
+      is%bump = respond(stand, place, quotient(in(:, 3), in(3, 3), least_compliance))
       call swing_arm(in(1, 3), in(3, 3), in(5, 3), is%side_arm_length, is%side_arm_angle)
       call swing_arm(-stand%axes(place)%side*anti(2, 3), anti(3, 3), anti(4, 3), is%front_arm_length, is%front_arm_angle)
       is%side_arm_centre = arm_centre(stand%centre([1, 3], place), in([1, 3], 3), in(5, 3), -1.0_wp)
@@ -208,9 +198,9 @@ contains
       twist = m(at + 1:at + 6, 3) - m(at + 1:at + 6, 9)       ! loads +1 left, −1 right
       height = roll_compliance(cp)
       per_height = cos(stand%roll)**2/stand%track
-      is%wheel_roll = respond(stand, place, per(twist, height*per_height, least_compliance*per_height))
+      is%wheel_roll = respond(stand, place, quotient(twist, height*per_height, least_compliance*per_height))
       if (all(stand%tyre_rate > 0.0_wp)) is%roll = respond(stand, place, &
-         per(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, least_compliance*per_height))
+         quotient(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, least_compliance*per_height))
       is%single_rate(load_held) = quotient(1.0_wp, c(at + 3, at + 3), least_compliance)
       is%single_rate(height_held) = ieee_value(1.0_wp, ieee_quiet_nan)
       if (abs(c(other + 3, other + 3)) > least_compliance) is%single_rate(height_held) = quotient(1.0_wp, &

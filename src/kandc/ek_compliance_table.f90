@@ -82,22 +82,11 @@ contains
       do i = 1, size(c, 1)
          do j = 1, size(c, 2)
             at = at + 1
-            values(at) = frame(i)*frame(j)*c(i, j)/(move_unit(i)/load_unit(j))
+            values(at) = frame(i)*frame(j)*c(i, j)/(merge(1.0e-3_wp, degree, mod(i - 1, 6) < 3)/ &      ! mm or deg
+               merge(1.0e3_wp, 1.0e2_wp, mod(j - 1, 6) < 3))                                             ! per kN or 100 N m
          end do
       end do
    end subroutine put
-
-   !> mm or deg in SI.
-   pure real(wp) function move_unit(i)
-      integer, intent(in) :: i
-      move_unit = merge(1.0e-3_wp, degree, mod(i - 1, 6) < 3)
-   end function move_unit
-
-   !> kN or 100 N m in SI.
-   pure real(wp) function load_unit(j)
-      integer, intent(in) :: j
-      load_unit = merge(1.0e3_wp, 1.0e2_wp, mod(j - 1, 6) < 3)
-   end function load_unit
 
    !> 'state', 'factor', then every entry of both matrices, row by row.
    function columns_of(suspension, compliance) result(names)

@@ -66,21 +66,9 @@ contains
             end if
             if (place == 0) cycle
             if (wheel_column(test, wheel, trim(list(k)%over)) == 0) cycle
-            call append(one_gradient(test, windows, list(k), wheel, place, is_of_axle))
+            gradients = [gradients, one_gradient(test, windows, list(k), wheel, place, is_of_axle)]
          end do
       end do
-
-   contains
-
-      subroutine append(gradient)
-         type(gradient_t), intent(in) :: gradient
-         type(gradient_t), allocatable :: grown(:)
-
-         allocate (grown(size(gradients) + 1))
-         grown(:size(gradients)) = gradients
-         grown(size(grown)) = gradient
-         call move_alloc(grown, gradients)
-      end subroutine append
 
    end subroutine test_gradients
 
@@ -175,39 +163,19 @@ contains
       real(wp), intent(in) :: half
       real(wp), intent(out) :: slope
       integer, intent(out) :: points       !! states in the window
-      real(wp) :: mean_x, mean_y, across, along, low, high
       real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state nominally on the edge is inside: travel is driven to 1e-7 mm
       logical :: is_inside(size(x))
-      integer :: k
+      real(wp) :: mean(2), spread
 
       slope = ieee_value(1.0_wp, ieee_quiet_nan)
-      is_inside = .false.
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      mean_x = 0.0_wp
-      mean_y = 0.0_wp
-      do k = 1, size(x)
-         if (.not. (ieee_is_finite(x(k)) .and. ieee_is_finite(y(k)))) cycle
-         if (abs(x(k)) > half*rim) cycle
-         is_inside(k) = .true.
-         low = min(low, x(k))
-         high = max(high, x(k))
-         mean_x = mean_x + x(k)
-         mean_y = mean_y + y(k)
-      end do
+      is_inside = ieee_is_finite(x) .and. ieee_is_finite(y)
+      where (is_inside) is_inside = abs(x) <= half*rim
       points = count(is_inside)
       if (points < least_points) return
-      if (high - low <= 1.0e-3_wp*half) return        ! all at one x: no slope
-      mean_x = mean_x/points
-      mean_y = mean_y/points
-      across = 0.0_wp
-      along = 0.0_wp
-      do k = 1, size(x)
-         if (.not. is_inside(k)) cycle
-         along = along + (x(k) - mean_x)**2
-         across = across + (x(k) - mean_x)*(y(k) - mean_y)
-      end do
-      slope = across/along
+      if (maxval(x, mask=is_inside) - minval(x, mask=is_inside) <= 1.0e-3_wp*half) return        ! all at one x: no slope
+      mean = [sum(x, mask=is_inside), sum(y, mask=is_inside)]/points
+      spread = sum((x - mean(1))**2, mask=is_inside)
+      slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
    end subroutine slope_over_window
 
 end module ek_gradient

@@ -30,14 +30,13 @@ module ek_kandc_columns
    use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc
+   public :: kandc_t, start_kandc, same_columns, tell_kandc
 
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
 
    !> The columns of a model and the work space to fill them.
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
-      real(wp) :: steer_ratio = 0.0_wp         !! rack travel per revolution of the steering wheel [m], never negative
       integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
       real(wp), allocatable :: values(:)       !! of the columns, in their units
       type(compliance_t) :: compliance
@@ -54,7 +53,6 @@ contains
 
       if (suspension%steering%has_steering) self%steer_row = driver_row(suspension, suspension%steering%driver)
       self%compliance = new_compliance(suspension, self%steer_row > 0)
-      call renew_kandc(suspension, self)
       allocate (self%has(0:size(suspension%wheels)))
       call conditions_of(suspension, self%compliance%order, self%steer_row > 0, self%has)
       both = self%has(0)
@@ -94,14 +92,6 @@ contains
       allocate (self%values(self%used), source=0.0_wp)
    end subroutine start_kandc
 
-   !> Takes the numbers of another design with the same columns.
-   subroutine renew_kandc(suspension, self)
-      type(suspension_t), intent(in) :: suspension
-      type(kandc_t), intent(inout) :: self
-
-      if (suspension%steering%has_steering) self%steer_ratio = abs(suspension%steering%ratio)
-   end subroutine renew_kandc
-
    !> Whether another design of the same parts has the columns of `self`.
    logical function same_columns(suspension, self)
       type(suspension_t), intent(in) :: suspension
@@ -122,7 +112,7 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(kandc_t), intent(inout) :: self
       type(attitude_t) :: now(size(suspension%wheels))
-      real(wp) :: lift(size(suspension%wheels)), springs(self%compliance%springs)
+      real(wp) :: lift(size(suspension%wheels)), springs(self%compliance%springs), rack
       type(stand_t) :: stand
       integer :: w, k, n
 
@@ -141,8 +131,9 @@ contains
       if (self%is_wanted(n + 1)) call fill(n + 1, [axle_values(suspension, now, lift, stand, self), &
          steering_values(suspension, state, now, self)])
       if (self%is_wanted(2*n + 2)) call fill(2*n + 2, axle_geometry_values(suspension, self%compliance, now))
-      if (self%is_wanted(2*n + 3)) call fill(2*n + 3, [element_values(suspension, self%compliance, state), &
-         rack_force(state, self%steer_row)])
+      rack = 0.0_wp
+      if (self%steer_row > 0) rack = -state%reaction(self%steer_row)
+      if (self%is_wanted(2*n + 3)) call fill(2*n + 3, [element_values(suspension, self%compliance, state), rack])
       if (.not. self%is_wanted(2*n + 4)) return
       springs = 0.0_wp
       if (self%compliance%is_known .and. n > 0) then
@@ -161,14 +152,6 @@ contains
       end subroutine fill
 
    end subroutine tell_kandc
-
-   !> Reaction of the steering driver [N].
-   pure real(wp) function rack_force(state, row)
-      type(state_t), intent(in) :: state
-      integer, intent(in) :: row        !! 0: none
-      rack_force = 0.0_wp
-      if (row > 0) rack_force = -state%reaction(row)
-   end function rack_force
 
    !> Positions of wheels of the compliance matrix: both of an axle, or a single one.
    type(stand_t) function stand_of(suspension, now, order) result(stand)
@@ -305,8 +288,8 @@ contains
       integer :: k
 
       values = 0.0_wp
-      if (self%steer_row == 0 .or. .not. self%steer_ratio > 0.0_wp) return
-      per_rack = 2.0_wp*pi/self%steer_ratio
+      if (self%steer_row == 0 .or. .not. abs(suspension%steering%ratio) > 0.0_wp) return
+      per_rack = 2.0_wp*pi/abs(suspension%steering%ratio)
       rate = 0.0_wp
       if (self%compliance%is_known) then
          do k = 1, self%compliance%wheels

@@ -13,7 +13,7 @@ module ek_sweep_table
    use ek_path, only: path_t
    use ek_state_columns, only: state_columns, state_values
    use ek_column_list, only: column_list_t, choose
-   use ek_kandc_columns, only: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc
+   use ek_kandc_columns, only: kandc_t, start_kandc, same_columns, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
@@ -47,10 +47,7 @@ contains
       character(name_length), allocatable :: columns(:)
       integer :: k
 
-      if (is_for(self, suspension, case, wanted)) then
-         if (case%has_all) call renew_kandc(suspension, self%kandc)
-         return
-      end if
+      if (is_for(self, suspension, case, wanted)) return
       call list_columns(suspension, case, columns, self%list, self%kandc)
       self%has_all = case%has_all
       self%has_stability = knows_stability(case)
@@ -218,27 +215,19 @@ contains
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last
-      integer :: k
 
+      first = findloc(path%is_reached, .true., dim=1)
+      last = findloc(path%is_reached, .true., dim=1, back=.true.)
       if (path%is_table) then
          first = 1
          last = path%states
-         return
-      end if
-      first = path%states + 1
-      last = 0
-      do k = 1, path%states
-         if (.not. path%is_reached(k)) cycle
-         first = min(first, k)
-         last = max(last, k)
-      end do
-      if (last == 0) then     ! no state: the design state has failed
+      else if (last == 0) then     ! no state: the design state has failed
          first = max(path%start, 1)
          last = first
-         return
+      else
+         first = max(first - 1, 1)
+         last = min(last + 1, path%states)
       end if
-      first = max(first - 1, 1)
-      last = min(last + 1, path%states)
    end subroutine reached_rows
 
 end module ek_sweep_table
