@@ -127,17 +127,14 @@ contains
       character(*), intent(in) :: column
 
       noise = 1.0e-12_wp
-      if (ends('_mm')) noise = 1.0e-6_wp
-      if (ends('_deg')) noise = 1.0e-7_wp
-      if (ends('_n') .or. ends('_nm')) noise = 1.0e-2_wp
-
-   contains
-
-      pure logical function ends(ending)
-         character(*), intent(in) :: ending
-         ends = index(column, ending, back=.true.) == len(column) - len(ending) + 1 .and. len(column) > len(ending)
-      end function ends
-
+      select case (column(index(column, '_', back=.true.):))
+      case ('_mm')
+         noise = 1.0e-6_wp
+      case ('_deg')
+         noise = 1.0e-7_wp
+      case ('_n', '_nm')
+         noise = 1.0e-2_wp
+      end select
    end function noise_of
 
    !> s_y/s_x of a wheel.
@@ -150,10 +147,11 @@ contains
       select case (definition%y_turn)
       case ('s', 'i')
          turn = side
+      case ('o')
+         turn = -side                                                ! + on the left wheel
       case ('d')
          turn = merge(1.0_wp, -1.0_wp, test%is_iso)
       end select
-      if (definition%y_turn == 'o') turn = -side*turn                ! + on the left wheel
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 

@@ -210,21 +210,11 @@ contains
    pure real(wp) function deck_unit(dimension, units) result(unit)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
+      real(wp) :: sizes(10)
 
-      select case (dimension)
-      case (length, derived)
-         unit = units%length
-      case (rate)
-         unit = units%force/units%length
-      case (turn_rate)
-         unit = units%force*units%length/units%angle
-      case (force)
-         unit = units%force
-      case (angle)
-         unit = units%angle
-      case default
-         unit = 1.0_wp
-      end select
+      sizes = [units%length, units%force/units%length, units%force*units%length/units%angle, units%force, 1.0_wp, units%angle, &
+         1.0_wp, 1.0_wp, 1.0_wp, units%length]
+      unit = sizes(dimension)
    end function deck_unit
 
    !> Name of a deck's unit.
@@ -232,30 +222,14 @@ contains
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
       character(:), allocatable :: name, force_name, length_name, angle_name
+      character(12) :: names(10)
 
       force_name = trim(merge('kN', 'N ', units%force > 1.0_wp))
       length_name = trim(merge('m ', 'mm', units%length > 0.5_wp))
       angle_name = merge('rad', 'deg', units%angle > 0.5_wp)
-      select case (dimension)
-      case (length, derived)
-         name = length_name
-      case (rate)
-         name = force_name//'/'//length_name
-      case (turn_rate)
-         name = force_name//' '//length_name//'/'//angle_name
-      case (force)
-         name = force_name
-      case (moment)
-         name = 'N m'
-      case (angle)
-         name = angle_name
-      case (mass)
-         name = 'kg'
-      case (acceleration)
-         name = 'm/s²'
-      case default
-         name = '1'
-      end select
+      names = [character(12) :: length_name, force_name//'/'//length_name, force_name//' '//length_name//'/'//angle_name, &
+         force_name, 'N m', angle_name, 'kg', '1', 'm/s²', length_name]
+      name = trim(names(dimension))
    end function deck_name
 
 end module ek_plausible_range

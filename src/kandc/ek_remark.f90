@@ -38,8 +38,6 @@ module ek_remark
       procedure :: add => list_add
       procedure :: count => list_count
       procedure :: item => list_item
-      procedure :: line => list_line         !! text of remark number k, without its head
-      procedure :: text => list_text         !! all texts, one after the other
       procedure :: failures => list_failures
       procedure :: has_failed => list_has_failed
    end type remark_list_t
@@ -101,25 +99,6 @@ contains
       integer, intent(in) :: k
       list_item = self%remarks(k)
    end function list_item
-
-   pure function list_line(self, k) result(text)
-      class(remark_list_t), intent(in) :: self
-      integer, intent(in) :: k
-      character(:), allocatable :: text
-      text = self%remarks(k)%text
-   end function list_line
-
-   pure function list_text(self) result(text)
-      class(remark_list_t), intent(in) :: self
-      character(:), allocatable :: text
-      integer :: k
-
-      text = ''
-      do k = 1, self%count()
-         if (k > 1) text = text//new_line('a')
-         text = text//self%remarks(k)%text
-      end do
-   end function list_text
 
    pure logical function list_has_failed(self)
       class(remark_list_t), intent(in) :: self
