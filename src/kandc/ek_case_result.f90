@@ -82,7 +82,11 @@ contains
          end if
       end if
       if (.not. is_mountable(case)) then
-         call give_up(not_mountable, unread_words(case))
+         if (allocated(case%table%fault)) then
+            call give_up(not_mountable, case%table%fault)
+         else
+            call give_up(not_mountable, 'case '//quoted(case%name)//': its table was not read')
+         end if
          return
       end if
       call mount(base, case, result%suspension, result%case)
@@ -133,15 +137,6 @@ contains
          call curve_reach_remarks(suspension, case, path, remarks)
       end associate
    end subroutine remark_on_path
-
-   !> Why a case cannot be put on the rig.
-   pure function unread_words(case) result(words)
-      type(case_t), intent(in) :: case
-      character(:), allocatable :: words
-
-      words = 'case '//quoted(case%name)//': its table was not read'
-      if (allocated(case%table%fault)) words = case%table%fault
-   end function unread_words
 
    !> The failures of a result as an error; none if all states converged.
    subroutine failure_of(result, error)

@@ -4,7 +4,7 @@
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
 !> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance).
 !> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
-!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_angle_rate.
+!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_attitude.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
 !> (`hold` of ek_compliance).
@@ -18,7 +18,7 @@ module ek_characteristics
    use ek_rotation, only: cross
    use ek_suspension, only: axle_t
    use ek_steer_angle, only: steer_rate
-   use ek_angle_rate, only: axes_t, toe_rate, camber_rate, caster_rate
+   use ek_attitude, only: axes_t, toe_rate, camber_rate, caster_rate
    use ek_compliance, only: load_at_patch, read_at_patch, hold
    implicit none(type, external)
    private

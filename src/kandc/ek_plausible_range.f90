@@ -133,11 +133,17 @@ contains
          if (self%seen%line(k) == rule//' '//self%where) return
       end do
       call self%seen%add(rule//' '//self%where)
-      if (len(self%thing) > 0) then
-         call self%remarks%add(self%where//': '//self%thing//': '//text)
-      else
-         call self%remarks%add(text)
-      end if
+      call self%remarks%add(head(self%where)//head(self%thing)//text)
+
+   contains
+
+      pure function head(of)
+         character(*), intent(in) :: of
+         character(:), allocatable :: head
+         head = ''
+         if (len(of) > 0) head = of//': '
+      end function head
+
    end subroutine add
 
    !> Compares a value with the range of its quantity, and adds a remark if it lies outside.

@@ -17,7 +17,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
       real(wp), parameter :: much = 0.05_wp           ! m: more than any staggered axle
-      real(wp) :: centre(3, size(suspension%wheels)), height, ratio, off
+      real(wp) :: centre(3, size(suspension%wheels)), height, off
       character(26) :: hint
       integer :: w, v
 
@@ -29,10 +29,9 @@ contains
             call doubts%judge('half track', centre(2, w))
             call doubts%judge('wheel radius', wheel%radius)
             call doubts%judge('height of centre', height)
-            ratio = wheel%radius/height
             hint = ''
-            if (ratio > 1.7_wp .and. ratio < 2.3_wp) hint = '; looks like the diameter'
-            if (ratio > 0.43_wp .and. ratio < 0.58_wp) hint = '; looks like half of it'
+            if (wheel%radius > 1.7_wp*height .and. wheel%radius < 2.3_wp*height) hint = '; looks like the diameter'
+            if (wheel%radius > 0.43_wp*height .and. wheel%radius < 0.58_wp*height) hint = '; looks like half of it'
             if (abs(wheel%radius - height) > 0.15_wp*height) call doubts%add('radius', 'radius '// &
                doubts%speak(length, wheel%radius)//', but its centre is '//doubts%speak(length, height)// &
                ' above its contact point'//trim(hint))

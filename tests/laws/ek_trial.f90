@@ -24,7 +24,7 @@ module ek_trial
    use ek_reading, only: state_of
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t, new_table, column, column_index, row_count
-   use ek_wheel_force, only: vertical_force
+   use ek_wheel_side, only: vertical_force
    implicit none(type, external)
    private
    public :: trial_t, try, go_through, put_on_rig, values, elastic_energy, chassis_lift, wheel_force
