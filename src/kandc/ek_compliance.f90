@@ -314,7 +314,8 @@ contains
    !> The ports are held one after the other, the one that is most compliant then first; a port without compliance once others are
    !> held (wheels that can only move together, two springs on one arm; below 1e-9 of its own compliance is rounding) is held
    !> already.
-   !> Equations (C.6) of docs/theory/compliance.md and (S.8) of docs/theory/suspension.md.
+   !> Equation (C.6) of docs/theory/compliance.md.
+   !> Equation (S.8) of docs/theory/suspension.md.
    pure subroutine lock(c, ports, m)
       real(wp), intent(in) :: c(:, :)           !! response to the loads of all ports
       integer, intent(in) :: ports(:)
