@@ -5,7 +5,7 @@ module ek_command_line
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: nearest_name, quoted
    use ek_decimal, only: get_decimal
-   use ek_gradient_window, only: windows_t, set_window
+   use ek_gradient_definition, only: windows_t, set_window
    implicit none(type, external)
    private
    public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows

@@ -11,7 +11,7 @@ module ek_compare
    use ek_drawing, only: run_gnuplot
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
    use ek_report_files, only: results_t, read_results
-   use ek_gradient_window, only: windows_t
+   use ek_gradient_definition, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_console, only: print_note, print_text
    use ek_compare_page, only: comparison_t, difference_t, compare_gradients, difference, percent, overlay, page_of, test_number, &

@@ -18,7 +18,7 @@ module ek_report
    use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
    use ek_report_page, only: report_t, report_page, add_fact
    use ek_report_pictures, only: draw_pictures
-   use ek_gradient_window, only: windows_t
+   use ek_gradient_definition, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_report_tests, only: planned_tests, run_planned

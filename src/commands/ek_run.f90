@@ -4,6 +4,7 @@ module ek_run
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_file, only: make_folder, join_path, base_name
+   use ek_rig_test, only: rig_test, lifts
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_balance, only: balance
@@ -236,10 +237,9 @@ contains
    pure logical function is_vertical(suspension, case)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      character(*), parameter :: vertical_tests(3) = [character(15) :: 'parallel_travel', 'single_travel', 'vertical_force']
       integer :: k
 
-      is_vertical = case%drive == 'wheel_travel' .or. any(case%test == vertical_tests)
+      is_vertical = case%drive == 'wheel_travel' .or. lifts(rig_test(case%test))
       k = load_number(suspension, case%load)
       if (k == 0) return
       is_vertical = abs(suspension%loads(k)%force(3)) >= norm2(suspension%loads(k)%force(1:2)) &

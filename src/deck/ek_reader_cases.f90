@@ -183,10 +183,10 @@ contains
       end do
       this%load = trim(load(1))
       if (loads > 1) then
-         allocate (this%courses(loads))
+         allocate (this%actuations(loads))
          do j = 1, loads
-            this%courses(j)%load = trim(load(j))
-            this%courses(j)%drive = ''
+            this%actuations(j)%load = trim(load(j))
+            this%actuations(j)%drive = ''
             if (j > 1) this%load = this%load//', '//trim(load(j))
          end do
       end if

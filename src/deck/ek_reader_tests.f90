@@ -2,6 +2,7 @@
 module ek_reader_tests
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
+   use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rolls, steers, loads_wheels, takes_table
    use ek_case, only: case_t
    use ek_record, only: element, is_given
    use ek_group, only: wheel_group, joint_group, word_length
@@ -13,10 +14,6 @@ module ek_reader_tests
    private
    public :: read_test
 
-   !> The tests of the rig, see ek_rig.
-   character(*), parameter :: test_names(11) = [character(15) :: 'parallel_travel', 'opposite_travel', 'single_travel', &
-      'roll', 'steering', 'lateral_force', 'braking', 'traction', 'aligning_torque', 'vertical_force', 'table']
-   character(*), parameter :: load_tests(4) = [character(15) :: 'lateral_force', 'braking', 'traction', 'aligning_torque']
    character(*), parameter :: verticals(4) = [character(6) :: 'centre', 'patch', 'force', 'road']
 
 contains
@@ -27,60 +24,63 @@ contains
       real(wp), intent(in) :: from, to       !! in the unit of the deck
       type(case_t), intent(inout) :: this
       real(wp), intent(inout) :: unit        !! of from and to → SI
+      type(rig_test_t) :: test
       integer :: c, wheels(2)
 
-      call choice(draft, 'test', test_names, c)
+      call choice(draft, 'test', rig_tests%name, c)
       this%load = ''
       if (c == 0) return
-      this%test = trim(test_names(c))
+      test = rig_tests(c)
+      this%test = trim(test%name)
       call refuse('load', .true., 'a test applies its own loads')
-      call refuse('drive', this%test /= 'steering', 'only test ''steering'' drives a joint')
-      call refuse('phase', .not. any(load_tests == this%test), 'only tests with forces or torques have a phase')
-      call refuse('offset', this%test /= 'lateral_force', 'only test ''lateral_force'' has an offset')
-      call refuse('file', this%test /= 'table', 'only test ''table'' reads a file')
-      call refuse('from', this%test == 'table', 'the table sets the range')
-      call refuse('to', this%test == 'table', 'the table sets the range')
-      call refuse('increments', this%test == 'table', 'each row of the table is one state')
-      call refuse('target', this%test == 'table', 'the rows of a table form no path to search')
+      call refuse('drive', test%action /= steers, 'only test ''steering'' drives a joint')
+      call refuse('phase', .not. test%has_phase, 'only tests with forces or torques have a phase')
+      call refuse('offset', .not. test%has_trail, 'only test ''lateral_force'' has an offset')
+      call refuse('file', test%action /= takes_table, 'only test ''table'' reads a file')
+      call refuse('from', test%action == takes_table, 'the table sets the range')
+      call refuse('to', test%action == takes_table, 'the table sets the range')
+      call refuse('increments', test%action == takes_table, 'each row of the table is one state')
+      call refuse('target', test%action == takes_table, 'the rows of a table form no path to search')
 
       call count_wheels()
       call choice(draft, 'vertical', verticals, c)
       if (c > 0) this%vertical = trim(verticals(c))
-      if (this%test == 'roll') call refuse('vertical', c == 3, &
+      if (test%action == rolls) call refuse('vertical', c == 3, &
          'the test prescribes heights: ''centre'', ''patch'' or ''road''')
-      if (this%test == 'vertical_force') call refuse('vertical', c > 0 .and. c /= 3, 'the test prescribes the force')
+      if (test%action == loads_wheels .and. lifts(test)) call refuse('vertical', c > 0 .and. c /= 3, &
+         'the test prescribes the force')
       if (c == 4) call check_tyres()
       call choice(draft, 'phase', [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
-      if (this%is_anti .or. this%test == 'opposite_travel' .or. this%test == 'roll') then
+      if (this%is_anti .or. needs_both(test)) then
          if (any(wheels == 0)) call complain(draft, 'test', 'a left and a right wheel are needed; the deck has '// &
             str(count(wheels > 0)))
       end if
       this%offset = number_of(draft, 'offset', 0.0_wp)*draft%units%length
       this%wheel = max(wheels(1), 1)
       if (wheels(1) == 0) this%wheel = max(wheels(2), 1)
-      call find_wheel(draft, this%test == 'single_travel', "with test = 'single_travel'", this%wheel)
+      call find_wheel(draft, of_one_wheel(test), "with test = 'single_travel'", this%wheel)
 
-      select case (this%test)
-      case ('parallel_travel', 'opposite_travel', 'single_travel')
+      select case (test%unit)
+      case ('mm')
          unit = merge(draft%units%force, draft%units%length, this%vertical == 'force')
-      case ('roll')
+      case ('deg')
          unit = draft%units%angle
-         if (max(abs(from), abs(to))*unit > steepest_roll) call complain(draft, 'to', &
-            'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
-      case ('steering')
-         call find_steering(draft, this%drive, unit)
-      case ('aligning_torque')
+      case ('N')
+         unit = draft%units%force
+      case default
          unit = 1.0_wp          ! N m, as on every rig
-      case ('table')
+      end select
+      if (test%action == rolls .and. max(abs(from), abs(to))*unit > steepest_roll) call complain(draft, 'to', &
+         'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
+      if (test%action == steers) call find_steering(draft, this%drive, unit)
+      if (test%action == takes_table) then
          if (.not. has_key(draft, 'file')) call complain(draft, '', "'file' is missing")
          this%file = text_of(draft, 'file')
          associate (deck_file => draft%records(draft%k)%file)
             if (index(this%file, '/') /= 1) this%file = deck_file(:index(deck_file, '/', back=.true.))//this%file
          end associate
-      case default
-         unit = draft%units%force
-      end select
+      end if
 
    contains
 

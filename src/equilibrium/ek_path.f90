@@ -122,7 +122,7 @@ contains
          path%start = before + 1
       end if
       path%states = n + 1
-      if (allocated(case%courses)) path%is_table = path%start == 0 .and. any(case%courses%law == follows_table)
+      if (allocated(case%actuations)) path%is_table = path%start == 0 .and. any(case%actuations%law == follows_table)
       allocate (path%value(n + 1), path%pivot_ratio(n + 1), source=0.0_wp)
       allocate (path%packed(coordinates(suspension), n + 1), path%settled(coordinates(suspension)), source=0.0_wp)
       allocate (path%is_reached(n + 1), source=.false.)

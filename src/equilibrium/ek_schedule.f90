@@ -4,7 +4,7 @@
 !> or the row number of a table. Each actuation of a case is a function of it.
 module ek_schedule
    use ek_kinds, only: wp
-   use ek_case, only: case_t, course_t, follows_tangent, follows_table
+   use ek_case, only: case_t, actuation_t, follows_tangent, follows_table
    use ek_suspension, only: suspension_t, driver_row, load_number
    use ek_state, only: demand_t, most_driven
    implicit none(type, external)
@@ -16,7 +16,7 @@ module ek_schedule
       integer :: loads = 0, rows = 0
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
       integer :: load(most_driven) = 0, row(most_driven) = 0     !! their numbers in the suspension
-      type(course_t), allocatable :: load_course(:), row_course(:)
+      type(actuation_t), allocatable :: load_actuation(:), row_actuation(:)
    end type schedule_t
 
 contains
@@ -26,37 +26,37 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(schedule_t) :: schedule
-      type(course_t) :: course
+      type(actuation_t) :: actuation
       integer :: k
 
-      allocate (schedule%load_course(most_driven), schedule%row_course(most_driven))
-      if (allocated(case%courses)) then
-         do k = 1, size(case%courses)
-            call include(case%courses(k))
+      allocate (schedule%load_actuation(most_driven), schedule%row_actuation(most_driven))
+      if (allocated(case%actuations)) then
+         do k = 1, size(case%actuations)
+            call include(case%actuations(k))
          end do
       else
-         course%load = case%load
-         course%drive = case%drive
-         call include(course)
+         actuation%load = case%load
+         actuation%drive = case%drive
+         call include(actuation)
       end if
 
    contains
 
       subroutine include(this)
-         type(course_t), intent(in) :: this
+         type(actuation_t), intent(in) :: this
          integer :: number
 
          number = load_number(suspension, this%load)
          if (number > 0 .and. schedule%loads < most_driven) then
             schedule%loads = schedule%loads + 1
             schedule%load(schedule%loads) = number
-            schedule%load_course(schedule%loads) = this
+            schedule%load_actuation(schedule%loads) = this
          end if
          number = driver_row(suspension, this%drive)
          if (number > 0 .and. schedule%rows < most_driven) then
             schedule%rows = schedule%rows + 1
             schedule%row(schedule%rows) = number
-            schedule%row_course(schedule%rows) = this
+            schedule%row_actuation(schedule%rows) = this
          end if
       end subroutine include
 
@@ -72,34 +72,34 @@ contains
       demand%loads = schedule%loads
       demand%load = schedule%load
       do k = 1, schedule%loads
-         demand%factor(k) = value_at(schedule%load_course(k), place, schedule%rest)
+         demand%factor(k) = value_at(schedule%load_actuation(k), place, schedule%rest)
       end do
       demand%rows = schedule%rows
       demand%row = schedule%row
       do k = 1, schedule%rows
-         demand%change(k) = value_at(schedule%row_course(k), place, schedule%rest)
+         demand%change(k) = value_at(schedule%row_actuation(k), place, schedule%rest)
       end do
    end subroutine demand_at
 
    !> share × place, share × tan(place), or the value of the table: linear between its rows, and from 0 at
    !> place `rest` to the next row (initially from swept value 0 to row 1).
-   pure real(wp) function value_at(course, place, rest) result(value)
-      type(course_t), intent(in) :: course
+   pure real(wp) function value_at(actuation, place, rest) result(value)
+      type(actuation_t), intent(in) :: actuation
       real(wp), intent(in) :: place
       integer, intent(in) :: rest
       real(wp) :: before
       integer :: k
 
-      select case (course%law)
+      select case (actuation%law)
       case (follows_tangent)
-         value = course%share*tan(place)
+         value = actuation%share*tan(place)
       case (follows_table)
-         k = min(max(int(place), 0), size(course%values) - 1)
+         k = min(max(int(place), 0), size(actuation%values) - 1)
          before = 0.0_wp
-         if (k /= rest) before = course%values(k)
-         value = before + (place - k)*(course%values(k + 1) - before)
+         if (k /= rest) before = actuation%values(k)
+         value = before + (place - k)*(actuation%values(k + 1) - before)
       case default
-         value = course%share*place
+         value = actuation%share*place
       end select
    end function value_at
 

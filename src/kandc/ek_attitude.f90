@@ -1,6 +1,15 @@
 !> The attitude of a wheel from the pose of its carrier: toe, camber, steer axis, and displacements.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
+!>
+!> Derivatives of the angles with respect to a small rotation θ of the carrier about global axes: the spin axis w and the steer
+!> axis k are fixed to it, so δw = θ×w and δk = θ×k. By the chain rule, exact for any attitude (h² = w_x² + w_y²):
+!>
+!>     steer  = side·atan2(−w_x, side·w_y):   δsteer  = θ_z − w_z (θ_x w_x + θ_y w_y)/h²,   δtoe = side δsteer
+!>     camber = asin(−w_z):                   δcamber = (θ_y w_x − θ_x w_y)/h
+!>     caster = atan2(k_x, k_z):              δcaster = θ_y − k_y (θ_x k_x + θ_z k_z)/(k_x² + k_z²)
+!>
+!> A vertical spin axis has no toe, a steer axis along y no caster: the quotients are then infinite or not a number.
 module ek_attitude
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -8,9 +17,19 @@ module ek_attitude
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t, wheel_t
    use ek_state, only: state_t
+   use ek_steer_angle, only: steer_rate
    implicit none(type, external)
    private
-   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of, axis_values
+   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of, axis_values, static_toe
+   public :: axes_t, axes_of, toe_rate, camber_rate, caster_rate
+
+   !> The directions of a wheel at a state, global axes.
+   type :: axes_t
+      integer :: side = -1                                     !! −1 left, +1 right
+      real(wp) :: spin(3) = [0.0_wp, -1.0_wp, 0.0_wp]          !! unit, outboard
+      logical :: has_steer_axis = .false.                      !! the deck gives two points of the steer axis
+      real(wp) :: steer_axis(3) = [0.0_wp, 0.0_wp, 1.0_wp]     !! of any length
+   end type axes_t
 
    !> A steer axis relative to wheel centre and patch.
    type :: steer_axis_t
@@ -32,6 +51,10 @@ module ek_attitude
       real(wp) :: track_change = 0.0_wp       !! m, positive outward
       real(wp) :: wheelbase_change = 0.0_wp   !! m, positive rearward
       type(steer_axis_t) :: axis         !! of the two points of the deck, if any
+      type(axes_t) :: axes = axes_t()    !! spin axis, and the direction of the steer axis
+      real(wp) :: at_centre(3) = 0.0_wp, at_contact(3) = 0.0_wp   !! wheel centre and contact patch at the state [m]
+      real(wp) :: axis_point(3) = 0.0_wp !! first point of the steer axis at the state [m]
+      real(wp) :: side_view = 0.0_wp     !! rotation in the side view: atan2(e_x, e_z), e vertical at design; + top rearward [rad]
    end type attitude_t
 
 contains
@@ -49,22 +72,30 @@ contains
       real(wp), intent(in) :: origin(3)     !! reference point of the carrier at design [m]
       type(pose_t), intent(in) :: now
       type(attitude_t) :: attitude
-      real(wp) :: w(3), contact(3), centre(3), lower(3)
 
-      centre = now%r + rotated(now%a, wheel%centre)
-      contact = now%r + rotated(now%a, wheel%contact)
-      attitude%centre = centre - (origin + wheel%centre)
-      attitude%contact = contact - (origin + wheel%contact)
-      w = rotated(now%a, wheel%spin)
-      attitude%toe = atan2(-w(1), wheel%side*w(2))
-      attitude%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
+      attitude%at_centre = now%r + rotated(now%a, wheel%centre)
+      attitude%at_contact = now%r + rotated(now%a, wheel%contact)
+      attitude%centre = attitude%at_centre - (origin + wheel%centre)
+      attitude%contact = attitude%at_contact - (origin + wheel%contact)
+      attitude%axes = axes_of(wheel, now)
+      associate (w => attitude%axes%spin)
+         attitude%toe = atan2(-w(1), wheel%side*w(2))
+         attitude%camber = asin(max(-1.0_wp, min(1.0_wp, -w(3))))
+      end associate
+      attitude%side_view = atan2(now%a(1, 3), now%a(3, 3))
       attitude%track_change = wheel%side*attitude%contact(2)
       attitude%wheelbase_change = attitude%contact(1)
       if (.not. wheel%has_steer_axis) return
-      lower = now%r + rotated(now%a, wheel%steer_axis(:, 1))
-      attitude%axis = steer_axis_of(wheel%side, lower, rotated(now%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), &
-         centre, contact)
+      attitude%axis_point = now%r + rotated(now%a, wheel%steer_axis(:, 1))
+      attitude%axis = steer_axis_of(wheel%side, attitude%axis_point, attitude%axes%steer_axis, attitude%at_centre, &
+         attitude%at_contact)
    end function attitude_of
+
+   !> Toe of a wheel in the design position [rad].
+   pure real(wp) function static_toe(wheel)
+      type(wheel_t), intent(in) :: wheel
+      static_toe = atan2(-wheel%spin(1), wheel%side*wheel%spin(2))
+   end function static_toe
 
    !> Angles of a line, and its distances from patch and wheel centre, each in the horizontal plane through the point.
    !>
@@ -112,5 +143,42 @@ contains
          attitude = attitude_of(wheel, suspension%bodies(wheel%body)%origin, state%poses(wheel%body + 1))
       end associate
    end function wheel_attitude
+
+   !> The axes of a wheel whose carrier is at a pose.
+   pure type(axes_t) function axes_of(wheel, pose) result(axes)
+      type(wheel_t), intent(in) :: wheel
+      type(pose_t), intent(in) :: pose
+
+      axes%side = wheel%side
+      axes%spin = rotated(pose%a, wheel%spin)
+      axes%has_steer_axis = wheel%has_steer_axis
+      if (wheel%has_steer_axis) axes%steer_axis = rotated(pose%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1))
+   end function axes_of
+
+   !> Change of toe [rad, positive inward].
+   !> Equation (C.10) of docs/theory/compliance.md.
+   pure real(wp) function toe_rate(axes, turn) result(rate)
+      type(axes_t), intent(in) :: axes
+      real(wp), intent(in) :: turn(3)
+      rate = axes%side*steer_rate(axes%spin, turn)
+   end function toe_rate
+
+   !> Change of camber [rad, positive: top outward].
+   !> Equation (C.11) of docs/theory/compliance.md.
+   pure real(wp) function camber_rate(axes, turn) result(rate)
+      type(axes_t), intent(in) :: axes
+      real(wp), intent(in) :: turn(3)
+      rate = (turn(2)*axes%spin(1) - turn(1)*axes%spin(2))/sqrt(axes%spin(1)**2 + axes%spin(2)**2)
+   end function camber_rate
+
+   !> Change of the caster of the geometric steer axis [rad, positive: top rearward].
+   !> Equation (C.11) of docs/theory/compliance.md.
+   pure real(wp) function caster_rate(axes, turn) result(rate)
+      type(axes_t), intent(in) :: axes
+      real(wp), intent(in) :: turn(3)
+      associate (k => axes%steer_axis)
+         rate = turn(2) - k(2)*(turn(1)*k(1) + turn(3)*k(3))/(k(1)**2 + k(3)**2)
+      end associate
+   end function caster_rate
 
 end module ek_attitude

@@ -38,12 +38,7 @@ contains
          call take_tables(suspension, has_model, cases, k, mistakes, unread)
          if (has_model) call look_up_target(suspension, cases(k), mistakes)
       end do
-      if (mistakes%count() == 0) return
-      if (mistakes%count() == unread) then
-         call fail(error, exit_file, mistakes%text())
-      else
-         call fail(error, exit_deck, mistakes%text())
-      end if
+      if (mistakes%count() > 0) call fail(error, merge(exit_file, exit_deck, mistakes%count() == unread), mistakes%text())
    end subroutine check_inputs
 
    !> Reads the table of case k for all cases that name it, unless an earlier case names the same one.
@@ -103,8 +98,7 @@ contains
 
       if (.not. allocated(case%target)) return
       mark = index(case%target, '=')
-      if (mark < 2) return
-      if (case%target(:mark - 1) == '') return
+      if (case%target(:max(mark - 1, 0)) == '') return
       if (.not. case%is_good .and. index(adjustl(case%target), 'rig_') == 1) return     ! the case cannot be mounted on the rig
       if (case%is_good .and. .not. is_mountable(case)) return
       if (case%is_good) then
@@ -145,8 +139,7 @@ contains
                call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
             end do
             do m = 1, size(suspension%joints)
-               if (.not. suspension%joints(m)%is_rig) &
-                  call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
+               call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
             end do
             call mistakes%add(place//': two columns of the results would have the name '//quoted(columns(k))// &
                owners//'; rename one')
@@ -161,11 +154,7 @@ contains
          character(*), intent(in) :: name, where
 
          if (index(columns(k), name//'_') /= 1) return
-         if (owners == '') then
-            owners = ', of '//quoted(name)//' ('//where//')'
-         else
-            owners = owners//' and of '//quoted(name)//' ('//where//')'
-         end if
+         owners = owners//trim(merge(', of   ', ' and of', owners == ''))//' '//quoted(name)//' ('//where//')'
          place = where
       end subroutine add_owner
 

@@ -5,7 +5,7 @@ module ek_case_remarks
    use ek_units, only: degree, millimetre
    use ek_text, only: str, quoted, plural
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, default_tolerance
+   use ek_case, only: case_t, scales_loads, default_tolerance
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
@@ -13,7 +13,6 @@ module ek_case_remarks
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_table, only: table_t, column, row_count
    use ek_attitude, only: attitude_t, wheel_attitude
-   use ek_sweep_table, only: factor_unit
    use ek_model_remarks, only: has_spring
    use ek_remark, only: remark_list_t, note, warning, failure, on_settling, on_drift, on_travel, on_rack, on_closure
    implicit none(type, external)
@@ -79,10 +78,13 @@ contains
       real(wp) :: travel, toe, camber
       real(wp), parameter :: much_travel = 1.0e-5_wp     ! m: 0.01 mm, about what a K&C rig resolves
       real(wp), parameter :: much_angle = 1.0e-3_wp*degree
-      character(:), allocatable :: place
+      character(:), allocatable :: place, advice
       integer :: k, ends(2), n
 
       if (case%method == 'equilibrium' .or. size(suspension%wheels) == 0) return
+      advice = '; more increments reduce it'
+      if (case%method == 'recursive') advice = ' (the bias of this method; more increments do not remove it, '// &
+         'method = ''equilibrium'' has none)'
       ends = [1, path%states]
       do n = 1, 2
          k = ends(n)
@@ -96,21 +98,20 @@ contains
          travel = linear%centre(3) - exact%centre(3)
          toe = linear%toe - exact%toe
          camber = linear%camber - exact%camber
-         place = str(path%value(k)/factor_unit(suspension, case))
+         place = str(path%value(k)/case%unit)
          if (.not. outcome%is_converged) then
             call remarks%add(failure, on_drift, case, 'no equilibrium was found near the state at factor '//place// &
                '; the linear method has left the range that the suspension can reach', path%value(k), is_of_method=.true.)
          else if (abs(travel) > much_travel .or. max(abs(toe), abs(camber)) > much_angle) then
             call remarks%add(warning, on_drift, case, 'at factor '//place//' the state is off equilibrium by '// &
                str(travel/millimetre, 3)//' mm travel, '//str(toe/degree, 3)//' deg toe, '// &
-               str(camber/degree, 3)//' deg camber'//advice(case), path%value(k), is_of_method=.true.)
+               str(camber/degree, 3)//' deg camber'//advice, path%value(k), is_of_method=.true.)
          end if
       end do
    end subroutine drift_remarks
 
    !> States of a linear method that are marked converged = 0 because they violate the joint constraints.
-   subroutine closure_remarks(suspension, case, table, remarks)
-      type(suspension_t), intent(in) :: suspension
+   subroutine closure_remarks(case, table, remarks)
       type(case_t), intent(in) :: case
       type(table_t), intent(in) :: table         !! of sweep_table
       type(remark_list_t), intent(inout) :: remarks
@@ -124,17 +125,8 @@ contains
          'state violates', 'states violate')//' the joint constraints (constraint_error up to '// &
          str(maxval(gap, mask=is_open), 2)//' m or rad) and '// &
          trim(merge('is ', 'are', count(is_open) == 1))//' marked converged = 0; use more increments, or method ''equilibrium''', &
-         table%values(2, findloc(is_open, .true., dim=1))*factor_unit(suspension, case), is_of_method=.true.)
+         table%values(2, findloc(is_open, .true., dim=1))*case%unit, is_of_method=.true.)
    end subroutine closure_remarks
-
-   !> Advice on drift.
-   pure function advice(case) result(text)
-      type(case_t), intent(in) :: case
-      character(:), allocatable :: text
-      text = '; more increments reduce it'
-      if (case%method == 'recursive') text = ' (the bias of this method; more increments do not remove it, '// &
-         'method = ''equilibrium'' has none)'
-   end function advice
 
    !> Warns of a load that moves a wheel further than any suspension travels: a rate is missing or has the wrong unit.
    subroutine travel_remarks(suspension, case, path, remarks)
@@ -148,13 +140,7 @@ contains
       real(wp), parameter :: far = 0.25_wp      ! m: half as much again as the travel of an off-road car
       integer :: k, w, ends(2), n
 
-      if (len(case%drive) > 0) return           ! the deck prescribes the travel of a driven wheel
-      if (allocated(case%courses)) then
-         do k = 1, size(case%courses)
-            if (len(case%courses(k)%load) > 0) exit
-         end do
-         if (k > size(case%courses)) return
-      end if
+      if (.not. scales_loads(case)) return      ! the deck prescribes the travel of a driven wheel
       advice = '; check the rates and their units'
       if (.not. has_spring(suspension)) advice = '; the deck has no spring'
       ends = [findloc(path%is_reached, .true., dim=1), findloc(path%is_reached, .true., dim=1, back=.true.)]
@@ -166,7 +152,7 @@ contains
          do w = 1, size(suspension%wheels)
             attitude = wheel_attitude(suspension, state, w)
             if (.not. norm2(attitude%centre) > far) cycle
-            call remarks%add(warning, on_travel, case, 'at factor '//str(path%value(k)/factor_unit(suspension, case))// &
+            call remarks%add(warning, on_travel, case, 'at factor '//str(path%value(k)/case%unit)// &
                ' wheel '//quoted(suspension%wheels(w)%name)//' has moved by '//str(norm2(attitude%centre)/millimetre, 3)// &
                ' mm'//advice, path%value(k))
             return

@@ -82,7 +82,11 @@ contains
          end if
       end if
       if (.not. is_mountable(case)) then
-         call give_up(not_mountable, unread_words(case))
+         if (allocated(case%table%fault)) then
+            call give_up(not_mountable, case%table%fault)
+         else
+            call give_up(not_mountable, 'case '//quoted(case%name)//': its table was not read')
+         end if
          return
       end if
       call mount(base, case, result%suspension, result%case)
@@ -99,7 +103,7 @@ contains
       call sweep(result%suspension, result%case, result%path, result%kkt, progress)
       if (options%has_remarks) call remark_on_path(options, result)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
-      if (options%has_remarks) call closure_remarks(result%suspension, result%case, result%table, result%remarks)
+      if (options%has_remarks) call closure_remarks(result%case, result%table, result%remarks)
       if (any(result%path%failure%state > 0) .or. result%remarks%has_failed()) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
 
@@ -128,20 +132,11 @@ contains
          call settling_remarks(suspension, case, path, options%least_settling, remarks)
          if (options%is_compared) call drift_remarks(suspension, case, path, result%kkt, remarks)
          call travel_remarks(suspension, case, path, remarks)
-         call stability_remarks(suspension, case, path, remarks)
+         call stability_remarks(case, path, remarks)
          call rack_remarks(suspension, case, remarks)
          call curve_reach_remarks(suspension, case, path, remarks)
       end associate
    end subroutine remark_on_path
-
-   !> Why a case cannot be put on the rig.
-   pure function unread_words(case) result(words)
-      type(case_t), intent(in) :: case
-      character(:), allocatable :: words
-
-      words = 'case '//quoted(case%name)//': its table was not read'
-      if (allocated(case%table%fault)) words = case%table%fault
-   end function unread_words
 
    !> The failures of a result as an error; none if all states converged.
    subroutine failure_of(result, error)

@@ -2,12 +2,12 @@
 !> roll, swing arms, roll centre, compliances, anti features.
 !>
 !> C(i,j): displacement i per unit load j, 1–6 the wheel centre of this wheel (x y z, rotations about them), global
-!> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance_port).
+!> axes. M is C with the loads at the contact points, CP with the displacements there as well (ek_compliance).
 !> Parallel (in phase): both wheels carry the load; opposed (anti phase): the other carries the opposite load. The
-!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_angle_rate.
+!> slopes of steer, toe, camber and caster are those of the columns of that name, by the chain rule of ek_attitude.
 !>
 !> Two conditions in the vertical direction: vertical force held (the unchanged matrix), or heights of the wheel centres held
-!> (`hold` of ek_compliance_port).
+!> (`hold` of ek_compliance).
 !>
 !> Everything is SI and radians. A quotient with a vanishing denominator is not a number. No suspension is stiffer
 !> than a block of steel (about 1e10 N/m), so a compliance below 1e-12 m/N is rounding, and a swing arm longer than one
@@ -18,8 +18,8 @@ module ek_characteristics
    use ek_rotation, only: cross
    use ek_suspension, only: axle_t
    use ek_steer_angle, only: steer_rate
-   use ek_angle_rate, only: axes_t, toe_rate, camber_rate, caster_rate
-   use ek_compliance_port, only: load_at_patch, read_at_patch, hold
+   use ek_attitude, only: axes_t, toe_rate, camber_rate, caster_rate
+   use ek_compliance, only: load_at_patch, read_at_patch, hold
    implicit none(type, external)
    private
    public :: wheel_characteristics_t, axle_characteristics_t, response_t, stand_t
@@ -82,7 +82,7 @@ module ek_characteristics
 contains
 
    !> a/b, not a number where |b| is at most `least`.
-   pure real(wp) function quotient(a, b, least)
+   elemental real(wp) function quotient(a, b, least)
       real(wp), intent(in) :: a, b, least
       quotient = ieee_value(1.0_wp, ieee_quiet_nan)
       if (abs(b) > least) quotient = a/b
@@ -119,14 +119,6 @@ contains
       if (stand%axes(place)%has_steer_axis) is%caster = caster_rate(stand%axes(place), twist(4:6))
    end function respond
 
-   !> A twist per unit of an input, not a number where the input is at most `least`.
-   pure function per(twist, amount, least) result(rate)
-      real(wp), intent(in) :: twist(6), amount, least
-      real(wp) :: rate(6)
-      rate = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(amount) > least) rate = twist/amount
-   end function per
-
    !> All quantities of one wheel. C is 6×6 (a single wheel, without the other) or 12×12, left wheel first. Ride and hop rate
    !> and the roll with tyres are defined only with tyre rates, roll only with two wheels, anti-dive, anti-lift and anti-squat
    !> only with data of the axle.
@@ -150,13 +142,11 @@ contains
       anti = phase(c, place, -1.0_wp)
       tyre = stand%tyre_rate(place)
 
-      do k = 1, 6
-         is%stiffness(k) = quotient(1.0_wp, in(k, k), merge(least_compliance, least_turn, k <= 3))
-      end do
+      is%stiffness = quotient(1.0_wp, [(in(k, k), k=1, 6)], [(merge(least_compliance, least_turn, k <= 3), k=1, 6)])
       is%wheel_rate = is%stiffness(3)
       if (tyre > 0.0_wp) is%ride_rate = quotient(1.0_wp, in(3, 3) + 1.0_wp/tyre, least_compliance)
       is%hop_rate = is%wheel_rate + tyre
-      is%bump = respond(stand, place, per(in(:, 3), in(3, 3), least_compliance))
+      is%bump = respond(stand, place, quotient(in(:, 3), in(3, 3), least_compliance))
       call swing_arm(in(1, 3), in(3, 3), in(5, 3), is%side_arm_length, is%side_arm_angle)
       call swing_arm(-stand%axes(place)%side*anti(2, 3), anti(3, 3), anti(4, 3), is%front_arm_length, is%front_arm_angle)
       is%side_arm_centre = arm_centre(stand%centre([1, 3], place), in([1, 3], 3), in(5, 3), -1.0_wp)
@@ -208,9 +198,9 @@ contains
       twist = m(at + 1:at + 6, 3) - m(at + 1:at + 6, 9)       ! loads +1 left, −1 right
       height = roll_compliance(cp)
       per_height = cos(stand%roll)**2/stand%track
-      is%wheel_roll = respond(stand, place, per(twist, height*per_height, least_compliance*per_height))
+      is%wheel_roll = respond(stand, place, quotient(twist, height*per_height, least_compliance*per_height))
       if (all(stand%tyre_rate > 0.0_wp)) is%roll = respond(stand, place, &
-         per(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, least_compliance*per_height))
+         quotient(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, least_compliance*per_height))
       is%single_rate(load_held) = quotient(1.0_wp, c(at + 3, at + 3), least_compliance)
       is%single_rate(height_held) = ieee_value(1.0_wp, ieee_quiet_nan)
       if (abs(c(other + 3, other + 3)) > least_compliance) is%single_rate(height_held) = quotient(1.0_wp, &

@@ -61,28 +61,26 @@ contains
       class(column_list_t), intent(inout) :: list
       character(*), intent(in) :: name
       logical, intent(in), optional :: is_of_matrix    !! default .false.
-      type(column_list_t) :: more
+      character(name_length), allocatable :: names(:)
       integer :: n
 
-      n = list%used
-      if (n == size(list%names)) then
-         call begin_list(more, 2*n)
-         more%names(:n) = list%names
-         more%is_of_matrix(:n) = list%is_of_matrix
-         more%place(:n) = list%place
-         more%unit(:n) = list%unit
-         call move_alloc(more%names, list%names)
-         call move_alloc(more%is_of_matrix, list%is_of_matrix)
-         call move_alloc(more%place, list%place)
-         call move_alloc(more%unit, list%unit)
+      n = size(list%is_of_matrix)
+      if (list%used == n) then
+         allocate (names(2*n))
+         names(:n) = list%names
+         call move_alloc(names, list%names)
+         list%is_of_matrix = [list%is_of_matrix, list%is_of_matrix]
+         list%place = [list%place, list%place]
+         list%unit = [list%unit, list%unit]
       end if
       list%offered = list%offered + 1
-      list%used = n + 1
-      list%names(n + 1) = name
-      list%is_of_matrix(n + 1) = .false.
-      if (present(is_of_matrix)) list%is_of_matrix(n + 1) = is_of_matrix
-      list%place(n + 1) = list%offered
-      list%unit(n + 1) = 1.0_wp
+      list%used = list%used + 1
+      n = list%used
+      list%names(n) = name
+      list%is_of_matrix(n) = .false.
+      if (present(is_of_matrix)) list%is_of_matrix(n) = is_of_matrix
+      list%place(n) = list%offered
+      list%unit(n) = 1.0_wp
    end subroutine add_column
 
    !> Ends a block.

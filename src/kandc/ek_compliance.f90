@@ -21,6 +21,9 @@
 !>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own rotation less ½ g̃)
 !>
 !> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
+!>
+!> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
+!> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
 !> Equation (C.4) of docs/theory/compliance.md.
 !> Equation (R.8) of docs/theory/rotations.md.
 module ek_compliance
@@ -37,7 +40,7 @@ module ek_compliance
    use ek_lapack, only: dsytrs, dgesv
    implicit none(type, external)
    private
-   public :: compliance_t, new_compliance, wheel_compliance
+   public :: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch, hold, lock
 
    real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is singular to rounding
 
@@ -85,21 +88,19 @@ contains
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
-   subroutine wheel_compliance(suspension, state, demand, released_rows, steer_row, kkt, self)
+   subroutine wheel_compliance(suspension, state, demand, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(demand_t), intent(in) :: demand
-      integer, intent(in) :: released_rows(:)     !! rows of Φ that belong to the rig
       integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
       type(kkt_t), intent(inout) :: kkt           !! work space
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j, p, info
 
-      if (are_checked) call require(all(suspension%rows(released_rows)%is_driver) .and. size(self%columns, 1) == kkt%n, &
-         'wheel_compliance: only drivers of the same model can be released')
+      if (are_checked) call require(size(self%columns, 1) == kkt%n, 'wheel_compliance: work space of another model')
       call assemble(suspension, state, demand, whole_tangent, kkt)
-      do j = 1, size(released_rows)
-         call release(released_rows(j), kkt)
+      do j = suspension%own_rows() + 1, suspension%constraints()
+         call release(j, kkt)
       end do
       call set_ports(suspension, state, self)
       p = size(self%ports, 2)
@@ -259,5 +260,92 @@ contains
       end subroutine add
 
    end subroutine solve_full
+
+   !> M = C B: loads at the contact points, displacements at the wheel centres.
+   !> Equation (C.7) of docs/theory/compliance.md.
+   pure function load_at_patch(c, arm) result(m)
+      real(wp), intent(in) :: c(:, :)
+      real(wp), intent(in) :: arm(:, :)      !! contact point less wheel centre, of each wheel in the order of C [m]
+      real(wp) :: m(size(c, 1), size(c, 2))
+      real(wp) :: moment(3)
+      integer :: w, k, at
+
+      m = c
+      do w = 1, size(arm, 2)
+         at = 6*(w - 1)
+         do k = 1, 3
+            moment = cross(arm(:, w), identity3(:, k))
+            m(:, at + k) = c(:, at + k) + moment(1)*c(:, at + 4) + moment(2)*c(:, at + 5) + moment(3)*c(:, at + 6)
+         end do
+      end do
+   end function load_at_patch
+
+   !> Bᵀ M: displacements of the contact points.
+   !> Equation (C.7) of docs/theory/compliance.md.
+   pure function read_at_patch(m, arm) result(cp)
+      real(wp), intent(in) :: m(:, :)
+      real(wp), intent(in) :: arm(:, :)
+      real(wp) :: cp(size(m, 1), size(m, 2))
+      integer :: w, j, at
+
+      cp = m
+      do w = 1, size(arm, 2)
+         at = 6*(w - 1)
+         do j = 1, size(m, 2)
+            cp(at + 1:at + 3, j) = m(at + 1:at + 3, j) + cross(m(at + 4:at + 6, j), arm(:, w))
+         end do
+      end do
+   end function read_at_patch
+
+   !> The displacements M while the heights of all wheel centres are held: M − C(:,z) C_zz⁻¹ M(z,:), z one row per wheel.
+   !> Equation (C.6) of docs/theory/compliance.md.
+   pure function hold(c, m) result(held)
+      real(wp), intent(in) :: c(:, :)        !! at the wheel centres
+      real(wp), intent(in) :: m(:, :)        !! response at the wheel centres to any loads
+      real(wp) :: held(size(m, 1), size(m, 2))
+      integer :: k
+
+      held = m
+      call lock(c, [(6*k - 3, k=1, size(c, 1)/6)], held)
+   end function hold
+
+   !> Takes from displacements M those of the loads at some ports that undo the displacements of these ports.
+   !>
+   !> The ports are held one after the other, the one that is most compliant then first; a port without compliance once others are
+   !> held (wheels that can only move together, two springs on one arm; below 1e-9 of its own compliance is rounding) is held
+   !> already.
+   !> Equation (C.6) of docs/theory/compliance.md.
+   !> Equation (S.8) of docs/theory/suspension.md.
+   pure subroutine lock(c, ports, m)
+      real(wp), intent(in) :: c(:, :)           !! response to the loads of all ports
+      integer, intent(in) :: ports(:)
+      real(wp), intent(inout) :: m(:, :)        !! response to any loads
+      real(wp) :: left(size(c, 1), size(ports)), own(size(ports)), column(size(c, 1)), compliance, most
+      logical :: is_held(size(ports))
+      integer :: k, j, next
+
+      left = c(:, ports)
+      own = [(abs(left(ports(k), k)), k=1, size(ports))]
+      is_held = own <= tiny(own)
+      do k = 1, size(ports)
+         next = 0
+         most = 0.0_wp
+         do j = 1, size(ports)
+            compliance = abs(left(ports(j), j))
+            if (is_held(j) .or. compliance <= 1.0e-9_wp*own(j) .or. compliance <= most) cycle
+            next = j
+            most = compliance
+         end do
+         if (next == 0) return
+         is_held(next) = .true.
+         column = left(:, next)/left(ports(next), next)
+         do j = 1, size(m, 2)
+            m(:, j) = m(:, j) - column*m(ports(next), j)
+         end do
+         do j = 1, size(ports)
+            if (.not. is_held(j)) left(:, j) = left(:, j) - column*left(ports(next), j)
+         end do
+      end do
+   end subroutine lock
 
 end module ek_compliance

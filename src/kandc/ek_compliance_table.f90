@@ -15,11 +15,8 @@ module ek_compliance_table
    use ek_kkt, only: kkt_t
    use ek_path, only: path_t
    use ek_block, only: rotated
-   use ek_wheel_side, only: prefix_of
-   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
-   use ek_compliance_port, only: load_at_patch, read_at_patch
-   use ek_kandc_columns, only: rig_rows
-   use ek_sweep_table, only: factor_unit
+   use ek_wheel_side, only: prefix_of, deck_frame
+   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
@@ -49,11 +46,9 @@ contains
       compliance = new_compliance(suspension, .false.)
       n = 6*compliance%wheels
       allocate (c(n, n), scale(n), arm(3, compliance%wheels))
-      do k = 1, n
-         scale(k) = merge(-1.0_wp, 1.0_wp, suspension%is_iso .and. mod(k - 1, 3) < 2)      ! x and y of the deck
-      end do
+      scale = [(deck_frame(suspension), k=1, n/3)]
       table = new_table(columns_of(suspension, compliance), count(path%is_reached))
-      unit = factor_unit(suspension, case)
+      unit = case%unit
       schedule = new_schedule(suspension, case)
       state = design_state(suspension)
       row = 0
@@ -64,7 +59,7 @@ contains
          table%values(2, row) = path%value(k)/unit
          call unpack_state(path%packed(:, k), state)
          call demand_at(schedule, path%value(k), demand)
-         call wheel_compliance(suspension, state, demand, rig_rows(suspension), 0, kkt, compliance)
+         call wheel_compliance(suspension, state, demand, 0, kkt, compliance)
          do w = 1, compliance%wheels
             associate (wheel => suspension%wheels(compliance%order(w)))
                arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
@@ -87,22 +82,11 @@ contains
       do i = 1, size(c, 1)
          do j = 1, size(c, 2)
             at = at + 1
-            values(at) = frame(i)*frame(j)*c(i, j)/(move_unit(i)/load_unit(j))
+            values(at) = frame(i)*frame(j)*c(i, j)/(merge(1.0e-3_wp, degree, mod(i - 1, 6) < 3)/ &      ! mm or deg
+               merge(1.0e3_wp, 1.0e2_wp, mod(j - 1, 6) < 3))                                             ! per kN or 100 N m
          end do
       end do
    end subroutine put
-
-   !> mm or deg in SI.
-   pure real(wp) function move_unit(i)
-      integer, intent(in) :: i
-      move_unit = merge(1.0e-3_wp, degree, mod(i - 1, 6) < 3)
-   end function move_unit
-
-   !> kN or 100 N m in SI.
-   pure real(wp) function load_unit(j)
-      integer, intent(in) :: j
-      load_unit = merge(1.0e3_wp, 1.0e2_wp, mod(j - 1, 6) < 3)
-   end function load_unit
 
    !> 'state', 'factor', then every entry of both matrices, row by row.
    function columns_of(suspension, compliance) result(names)

@@ -13,7 +13,7 @@ module ek_curve_reach
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, unpack_state
    use ek_path, only: path_t
-   use ek_remark, only: remark_list_t, warning, on_curve
+   use ek_remark, only: swept_words, remark_list_t, warning, on_curve
    implicit none(type, external)
    private
    public :: curve_reach_remarks
@@ -36,10 +36,11 @@ contains
       type(reach_t) :: reach(6, size(suspension%elements))      ! of an element of one measure: the first
       type(state_t) :: state
       type(bushing_view_t) :: view
+      type(curve_t) :: curve
       logical :: is_told(2)
       integer :: s, k, c
 
-      if (.not. has_curves(suspension)) return
+      if (.not. (any(suspension%elements%law%has_curve) .or. any(suspension%elements%bushing%has_curves))) return
       state = design_state(suspension)
       do s = 1, path%states
          if (.not. path%is_reached(s)) cycle
@@ -71,21 +72,16 @@ contains
             end do
             associate (element => suspension%elements(k))
                if (element%has_law) then
-                  call tell(case, path, element%law%curve, reach(c, k), element_label(element), &
-                     element%measure%kind == rotation, is_told, remarks)
+                  curve = element%law%curve
                else
-                  call tell(case, path, element%bushing%laws(c)%curve, reach(c, k), element_label(element), c > 3, is_told, remarks)
+                  curve = element%bushing%laws(c)%curve
                end if
+               call tell(case, path, curve, reach(c, k), element_label(element), element%measure%kind == rotation .or. c > 3, &
+                  is_told, remarks)
             end associate
          end do
       end do
    end subroutine curve_reach_remarks
-
-   !> Whether any element has a curve.
-   pure logical function has_curves(suspension)
-      type(suspension_t), intent(in) :: suspension
-      has_curves = any(suspension%elements%law%has_curve) .or. any(suspension%elements%bushing%has_curves)
-   end function has_curves
 
    !> Includes the deflection of a state; a stop without contact has none.
    subroutine extend(reach, law, value, state)
@@ -135,31 +131,26 @@ contains
 
       n = size(curve%breaks)
       slack = 1.0e-3_wp*(curve%breaks(n) - curve%breaks(1))
-      unit = millimetre
-      unit_name = ' mm'
-      if (is_angle) then
-         unit = degree
-         unit_name = ' deg'
-      end if
+      unit = merge(degree, millimetre, is_angle)
+      unit_name = trim(merge(' deg', ' mm ', is_angle))
       head = 'curve'
       if (allocated(curve%name)) head = head//' '//quoted(curve%name)
       head = head//' of '//thing
-      if (reach%least < curve%breaks(1) - slack .and. .not. is_told(1)) call remarks%add(warning, on_curve, case, &
-         head//' begins at '//str(curve%breaks(1)/unit, 4)//unit_name//' and was used to '//str(reach%least/unit, 4)//unit_name// &
-         at_place(reach%at_least)//'; before its first point it is extrapolated linearly', path%value(reach%at_least))
-      if (reach%most > curve%breaks(n) + slack .and. .not. is_told(2)) call remarks%add(warning, on_curve, case, &
-         head//' ends at '//str(curve%breaks(n)/unit, 4)//unit_name//' and was used to '//str(reach%most/unit, 4)//unit_name// &
-         at_place(reach%at_most)//'; beyond its last point it is extrapolated linearly', path%value(reach%at_most))
+      if (reach%least < curve%breaks(1) - slack .and. .not. is_told(1)) &
+         call warn('begins', curve%breaks(1), reach%least, reach%at_least, 'before its first')
+      if (reach%most > curve%breaks(n) + slack .and. .not. is_told(2)) &
+         call warn('ends', curve%breaks(n), reach%most, reach%at_most, 'beyond its last')
 
    contains
 
-      !> ', at wheel travel = 120 mm'
-      function at_place(state) result(text)
+      subroutine warn(verb, limit, used, state, beyond)
+         character(*), intent(in) :: verb, beyond
+         real(wp), intent(in) :: limit, used
          integer, intent(in) :: state
-         character(:), allocatable :: text
-         text = ', at '//case%place_name//' = '//str(path%value(state)/case%unit, 4)
-         if (case%unit_name /= '-') text = text//' '//case%unit_name
-      end function at_place
+         call remarks%add(warning, on_curve, case, head//' '//verb//' at '//str(limit/unit, 4)//unit_name//' and was used to '// &
+            str(used/unit, 4)//unit_name//', at '//swept_words(case, path%value(state), 4)//'; '//beyond// &
+            ' point it is extrapolated linearly', path%value(state))
+      end subroutine warn
 
    end subroutine tell
 

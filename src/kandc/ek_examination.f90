@@ -63,11 +63,9 @@ contains
          words = diagnosis%words()
          head = 'case '//quoted(cases(k)%name)//': the model cannot be solved'
          call add_distinct(found%distinct, words, is_new)
-         if (is_new) then
-            call found%faults%add(head//new_line('a')//words)
-         else
-            call found%faults%add(head//', for the reason given above')
-         end if
+         if (.not. is_new) words = ', for the reason given above'
+         if (is_new) words = new_line('a')//words
+         call found%faults%add(head//words)
       end do
    end subroutine examine_cases
 
@@ -108,22 +106,18 @@ contains
       type(suspension_t) :: suspension
       type(case_t) :: mounted
       type(kkt_t) :: kkt
-      logical :: is_sound
 
       if (.not. is_mountable(case)) return
       call mount(base, case, suspension, mounted)
       if (present(on_rig)) on_rig = mounted
       kkt = new_kkt(suspension)
-      if (.not. present(known)) then
-         call diagnose(suspension, design_state(suspension), kkt, diagnosis)
-         return
+      if (present(known)) then
+         if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
+            if (is_surely_sound(suspension, design_state(suspension), known%negative, kkt)) return
+         end if
       end if
-      is_sound = .false.
-      if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
-         is_sound = is_surely_sound(suspension, design_state(suspension), known%negative, kkt)
-      end if
-      if (is_sound) return
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
+      if (.not. present(known)) return
       known%diagnoses = known%diagnoses + 1
       if (known%is_known .or. .not. diagnosis%is_solvable()) return
       known%is_known = .true.

@@ -7,7 +7,7 @@ module ek_failure_words
    use ek_element, only: stop_spring, element_label
    use ek_spring, only: spring_tension
    use ek_suspension, only: suspension_t, body_name
-   use ek_case, only: case_t
+   use ek_case, only: case_t, scales_loads
    use ek_state, only: state_t, demand_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, demand_at
    use ek_kkt, only: kkt_t
@@ -17,9 +17,9 @@ module ek_failure_words
    use ek_path, only: path_t
    use ek_reach, only: failure_t
    use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
-   use ek_sweep_table, only: factor_unit, nearly_singular
+   use ek_sweep_table, only: nearly_singular
    use ek_model_remarks, only: has_spring
-   use ek_remark, only: remark_list_t, warning, on_stability
+   use ek_remark, only: swept_words, remark_list_t, warning, on_stability
    implicit none(type, external)
    private
    public :: failure_words, stability_remarks
@@ -37,46 +37,44 @@ contains
       type(kkt_t), intent(inout) :: kkt                !! work space
       character(:), allocatable :: text
 
-      text = ''
       if (.not. path%is_settled) then
-         text = text//'no equilibrium under the constant loads'
+         text = 'no equilibrium under the constant loads'
       else if (path%is_table) then
-         text = text//row_words(path, failure)
+         text = row_words(path, failure)
       else if (failure%ending /= arrived) then
-         text = text//arc_words(suspension, case, path, failure)
+         text = arc_words(case, path, failure)
          if (failure%ending /= stuck) return
       else if (failure%is_off_path) then
-         text = text//'method '//case%method//' has left the path from design: its states from '// &
-            place_words(suspension, case, path%value(failure%state))//' on are marked converged = 0; use more increments, or '// &
+         text = 'method '//case%method//' has left the path from design: its states from '// &
+            swept_words(case, path%value(failure%state), digits)//' on are marked converged = 0; use more increments, or '// &
             'method ''equilibrium'''
          return
       else
-         text = text//'no equilibrium at '//place_words(suspension, case, path%value(failure%state))//' (state '// &
-            str(failure%state - 1)//'); the last one is at '//place_words(suspension, case, failure%reached)
+         text = 'no equilibrium at '//swept_words(case, path%value(failure%state), digits)//' (state '// &
+            str(failure%state - 1)//'); the last one is at '//swept_words(case, failure%reached, digits)
       end if
       text = text//reason_words(suspension, case, path, failure, kkt)
    end function failure_words
 
    !> A path followed by its arc length that does not reach its end, with the reason.
-   function arc_words(suspension, case, path, failure) result(text)
-      type(suspension_t), intent(in) :: suspension
+   function arc_words(case, path, failure) result(text)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
       character(:), allocatable :: text
 
-      text = 'the path does not reach '//place_words(suspension, case, path%value(failure%state))//' (state '// &
+      text = 'the path does not reach '//swept_words(case, path%value(failure%state), digits)//' (state '// &
          str(failure%state - 1)//'): '
       select case (failure%ending)
       case (stuck)
-         text = text//'it ends at '//place_words(suspension, case, failure%reached)
+         text = text//'it ends at '//swept_words(case, failure%reached, digits)
       case (gone_round)
          text = text//'it is closed and returns to design; the other states are distributed over one circuit of it'
       case (gone_far)
-         text = text//'it was followed to '//place_words(suspension, case, failure%reached)//', where a body or the swept '// &
+         text = text//'it was followed to '//swept_words(case, failure%reached, digits)//', where a body or the swept '// &
             'value is further from design than in any suspension'
       case default
-         text = text//'it was abandoned at '//place_words(suspension, case, failure%reached)//' after '//str(most_steps)//' steps'
+         text = text//'it was abandoned at '//swept_words(case, failure%reached, digits)//' after '//str(most_steps)//' steps'
       end select
    end function arc_words
 
@@ -108,7 +106,7 @@ contains
       case (limit_point)
          text = '; there the stiffness vanishes (limit point), body '//quoted(body_name(suspension, found%body))// &
             ' moves without resistance'
-         if (path%is_settled .and. is_loaded(case) .and. .not. case%follows_arc) text = text// &
+         if (path%is_settled .and. scales_loads(case) .and. .not. case%follows_arc) text = text// &
             ': drive the travel instead of the load, or follow the path by its arc length (follow = ''arc'')'
       case (mechanism)
          text = '; the matrix is singular there: nothing holds body '//quoted(body_name(suspension, found%body))
@@ -129,43 +127,18 @@ contains
       end if
    end function reason_words
 
-   !> 'wheel travel = 12.5 mm'.
-   function place_words(suspension, case, value) result(text)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      real(wp), intent(in) :: value
-      character(:), allocatable :: text
-
-      text = case%place_name//' = '//str(value/factor_unit(suspension, case), digits)
-      if (case%unit_name /= '-') text = text//' '//case%unit_name
-   end function place_words
-
-   !> Whether the case scales loads.
-   pure logical function is_loaded(case)
-      type(case_t), intent(in) :: case
-      integer :: k
-
-      is_loaded = len(case%load) > 0
-      if (.not. allocated(case%courses)) return
-      do k = 1, size(case%courses)
-         is_loaded = is_loaded .or. len(case%courses(k)%load) > 0
-      end do
-   end function is_loaded
-
    !> 'a', 'b' and 'c'.
    function joint_list(suspension, is_named) result(text)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: is_named(:)
       character(:), allocatable :: text
-      integer :: k, named
+      integer :: named(count(is_named)), k
 
+      named = pack([(k, k=1, size(is_named))], is_named)
       text = ''
-      named = 0
-      do k = 1, size(is_named)
-         if (.not. is_named(k)) cycle
-         named = named + 1
-         if (named > 1) text = text//trim(merge(' and', ',   ', named == count(is_named)))//' '
-         text = text//quoted(suspension%joints(k)%name)
+      do k = 1, size(named)
+         if (k > 1) text = text//trim(merge(' and', ',   ', k == size(named)))//' '
+         text = text//quoted(suspension%joints(named(k))%name)
       end do
    end function joint_list
 
@@ -196,37 +169,24 @@ contains
       type(failure_t), intent(in) :: failure
       character(:), allocatable :: text
       integer, parameter :: most_named = 10
-      integer :: k, lost, row
+      integer :: lost(count(.not. path%is_reached)), k, row
 
-      text = ''
-      lost = 0
-      do k = 1, path%states
-         if (path%is_reached(k)) cycle
-         lost = lost + 1
-         if (lost > most_named) cycle
-         if (lost > 1) text = text//', '
-         text = text//str(nint(path%value(k)))
+      lost = nint(pack(path%value, .not. path%is_reached))
+      text = trim(merge('rows', 'row ', size(lost) > 1))
+      do k = 1, min(size(lost), most_named)
+         text = text//trim(merge(', ', '  ', k > 1))//' '//str(lost(k))
       end do
-      if (lost == 1) then
-         text = 'row '//text//' of the table did not converge'
-      else if (lost <= most_named) then
-         text = 'rows '//text//' of the table did not converge'
-      else
-         text = 'rows '//text//' … of the table, '//str(lost)//' in all, did not converge'
-      end if
+      if (size(lost) <= most_named) text = text//' of the table'
+      if (size(lost) > most_named) text = text//' … of the table, '//str(size(lost))//' in all,'
       row = nint(path%value(failure%state))
-      text = text//'; the last equilibrium on the way from '
-      if (row == 1) then
-         text = text//'design'
-      else
-         text = text//'row '//str(row - 1)
-      end if
+      text = text//' did not converge; the last equilibrium on the way from '
+      if (row == 1) text = text//'design'
+      if (row > 1) text = text//'row '//str(row - 1)
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_words
 
    !> One warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
-   subroutine stability_remarks(suspension, case, path, remarks)
-      type(suspension_t), intent(in) :: suspension
+   subroutine stability_remarks(case, path, remarks)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(remark_list_t), intent(inout) :: remarks
@@ -257,7 +217,7 @@ contains
       subroutine tell(before, place, after)
          character(*), intent(in) :: before, after
          real(wp), intent(in) :: place
-         call remarks%add(warning, on_stability, case, before//place_words(suspension, case, place)//after, place)
+         call remarks%add(warning, on_stability, case, before//swept_words(case, place, digits)//after, place)
       end subroutine tell
 
    end subroutine stability_remarks

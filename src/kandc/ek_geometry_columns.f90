@@ -6,21 +6,17 @@ module ek_geometry_columns
    use ek_units, only: millimetre
    use ek_quantity, only: wheel_geometry, axle_geometry
    use ek_rotation, only: cross
-   use ek_block, only: rotated
    use ek_measure, only: view_t, look, measure_value
    use ek_law, only: deflection
    use ek_element, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
-   use ek_wheel_side, only: is_axle
-   use ek_wheel_force, only: vertical_force
+   use ek_wheel_side, only: is_axle, vertical_force
    use ek_compliance, only: compliance_t
    use ek_characteristics, only: motion_ratio, quotient
-   use ek_attitude, only: attitude_t
-   use ek_angle_rate, only: axes_of, camber_rate
+   use ek_attitude, only: attitude_t, static_toe, camber_rate
    use ek_steer_angle, only: steer_of, steer_rate, turning_circle, ideal_outer_steer, outer_wheel, wall_to_wall
-   use ek_steer_axis, only: locked_twist
-   use ek_wheel_geometry, only: axis_distances_t, axis_distances, side_view_angle, ride_frequency
+   use ek_steer_axis, only: locked_twist, axis_distances, ride_frequency
    implicit none(type, external)
    private
    public :: wheel_geometry_values, axle_geometry_values, element_values, mass_on
@@ -33,46 +29,33 @@ module ek_geometry_columns
 contains
 
    !> The values of wheel_geometry: side view, steer axes, slopes, frequency.
-   function wheel_geometry_values(suspension, compliance, state, place) result(values)
+   function wheel_geometry_values(suspension, compliance, now, place) result(values)
       type(suspension_t), intent(in) :: suspension
       type(compliance_t), intent(in) :: compliance
-      type(state_t), intent(in) :: state
+      type(attitude_t), intent(in) :: now
       integer, intent(in) :: place                 !! index of the wheel in the compliance matrix
       real(wp) :: values(size(wheel_geometry))
-      type(axis_distances_t) :: is
-      real(wp) :: centre(3), patch(3), spin(3), twist(6), column(6), mass, fixed(4), instant(4), recession, steer_camber, frequency
+      real(wp) :: twist(6), column(6), mass
+      integer :: at
 
-      recession = ieee_value(1.0_wp, ieee_quiet_nan)
-      fixed = recession
-      instant = recession
-      steer_camber = recession
-      frequency = recession
-      associate (wheel => suspension%wheels(compliance%order(place)), &
-                 pose => state%poses(suspension%wheels(compliance%order(place))%body + 1))
-         centre = pose%r + rotated(pose%a, wheel%centre)
-         patch = pose%r + rotated(pose%a, wheel%contact)
-         spin = rotated(pose%a, wheel%spin)
-         if (wheel%has_steer_axis) then
-            is = axis_distances(wheel%side, pose%r + rotated(pose%a, wheel%steer_axis(:, 1)), &
-               rotated(pose%a, wheel%steer_axis(:, 2) - wheel%steer_axis(:, 1)), centre, patch, spin)
-            fixed = [is%centre, is%patch, is%along, is%across]
-         end if
-         if (compliance%is_known) then      ! a comparison with NaN would trap
-            twist = locked_twist(compliance, place, .false.)
-            if (norm2(twist(4:6)) > least_turn) then
-               is = axis_distances(wheel%side, centre + cross(twist(4:6), twist(1:3))/dot_product(twist(4:6), twist(4:6)), &
-                  twist(4:6), centre, patch, spin)
-               instant = [is%centre, is%patch, is%along, is%across]
-            end if
-            column = in_phase(compliance, place)
-            recession = 1.0e3_wp*quotient(column(1), column(3), least_compliance)
-            twist = locked_twist(compliance, place, .true.)
-            steer_camber = quotient(camber_rate(axes_of(wheel, pose), twist(4:6)), steer_rate(spin, twist(4:6)), least_turn)
-            mass = 0.0_wp
-            if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, compliance%order(place))
-            if (mass > 0.0_wp) frequency = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
-         end if
-         values = [side_view_angle(pose%a), fixed, instant, recession, steer_camber, frequency]
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      values(1) = now%side_view
+      associate (wheel => suspension%wheels(compliance%order(place)), turn => twist(4:6))
+         if (wheel%has_steer_axis) values(2:5) = axis_distances(wheel%side, now%axis_point, now%axes%steer_axis, now%at_centre, &
+            now%at_contact, now%axes%spin)
+         if (.not. compliance%is_known) return      ! a comparison with NaN would trap
+         twist = locked_twist(compliance, place, .false.)
+         if (norm2(turn) > least_turn) values(6:9) = axis_distances(wheel%side, &
+            now%at_centre + cross(turn, twist(1:3))/dot_product(turn, turn), turn, now%at_centre, now%at_contact, now%axes%spin)
+         at = 6*(place - 1)      ! response of the wheel centre per vertical force on every wheel [m/N, rad/N]
+         column = compliance%response(at + 1:at + 6, at + 3)
+         if (compliance%wheels == 2) column = column + compliance%response(at + 1:at + 6, 9 - at)
+         values(10) = 1.0e3_wp*quotient(column(1), column(3), least_compliance)
+         twist = locked_twist(compliance, place, .true.)
+         values(11) = quotient(camber_rate(now%axes, turn), steer_rate(now%axes%spin, turn), least_turn)
+         mass = 0.0_wp
+         if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, compliance%order(place))
+         if (mass > 0.0_wp) values(12) = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
       end associate
    end function wheel_geometry_values
 
@@ -89,9 +72,9 @@ contains
       if (.not. is_axle(suspension)) return
       do k = 1, 2
          associate (wheel => suspension%wheels(compliance%order(k)))
-            y(k) = suspension%bodies(wheel%body)%origin(2) + wheel%contact(2) + now(k)%contact(2)
+            y(k) = now(k)%at_contact(2)
             steer(k) = steer_of(now(k)%toe, wheel%side)
-            static(k) = steer_of(atan2(-wheel%spin(1), wheel%side*wheel%spin(2)), wheel%side)
+            static(k) = steer_of(static_toe(wheel), wheel%side)
          end associate
       end do
       track = y(2) - y(1)
@@ -169,20 +152,6 @@ contains
       end associate
       ratio = motion_ratio(compliance%response(:n, :n), length)
    end function length_ratio
-
-   !> Response of the wheel centre per vertical force on every wheel: the third column of C, parallel loads. [m/N, rad/N]
-   pure function in_phase(compliance, place) result(column)
-      type(compliance_t), intent(in) :: compliance     !! known
-      integer, intent(in) :: place
-      real(wp) :: column(6)
-      integer :: at, k
-
-      at = 6*(place - 1)
-      column = compliance%response(at + 1:at + 6, at + 3)
-      if (compliance%wheels /= 2) return
-      k = 9 - at
-      column = column + compliance%response(at + 1:at + 6, k)
-   end function in_phase
 
    !> The sprung mass of a wheel [kg]: from the deck, otherwise from the wheel load at design; 0 if there is neither.
    real(wp) function mass_on(suspension, wheel) result(mass)

@@ -19,8 +19,7 @@ module ek_gradient
    use ek_quantity, only: slope_unit, unit_text
    use ek_table, only: row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
-   use ek_gradient_definition, only: definition_t, definitions_of
-   use ek_gradient_window, only: windows_t, window_of
+   use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
    implicit none(type, external)
    private
    public :: gradient_t, test_gradients, slope_over_window
@@ -67,21 +66,9 @@ contains
             end if
             if (place == 0) cycle
             if (wheel_column(test, wheel, trim(list(k)%over)) == 0) cycle
-            call append(one_gradient(test, windows, list(k), wheel, place, is_of_axle))
+            gradients = [gradients, one_gradient(test, windows, list(k), wheel, place, is_of_axle)]
          end do
       end do
-
-   contains
-
-      subroutine append(gradient)
-         type(gradient_t), intent(in) :: gradient
-         type(gradient_t), allocatable :: grown(:)
-
-         allocate (grown(size(gradients) + 1))
-         grown(:size(gradients)) = gradients
-         grown(size(grown)) = gradient
-         call move_alloc(grown, gradients)
-      end subroutine append
 
    end subroutine test_gradients
 
@@ -140,17 +127,14 @@ contains
       character(*), intent(in) :: column
 
       noise = 1.0e-12_wp
-      if (ends('_mm')) noise = 1.0e-6_wp
-      if (ends('_deg')) noise = 1.0e-7_wp
-      if (ends('_n') .or. ends('_nm')) noise = 1.0e-2_wp
-
-   contains
-
-      pure logical function ends(ending)
-         character(*), intent(in) :: ending
-         ends = index(column, ending, back=.true.) == len(column) - len(ending) + 1 .and. len(column) > len(ending)
-      end function ends
-
+      select case (column(index(column, '_', back=.true.):))
+      case ('_mm')
+         noise = 1.0e-6_wp
+      case ('_deg')
+         noise = 1.0e-7_wp
+      case ('_n', '_nm')
+         noise = 1.0e-2_wp
+      end select
    end function noise_of
 
    !> s_y/s_x of a wheel.
@@ -163,10 +147,11 @@ contains
       select case (definition%y_turn)
       case ('s', 'i')
          turn = side
+      case ('o')
+         turn = -side                                                ! + on the left wheel
       case ('d')
          turn = merge(1.0_wp, -1.0_wp, test%is_iso)
       end select
-      if (definition%y_turn == 'o') turn = -side*turn                ! + on the left wheel
       if (test%is_anti .and. side > 0) turn = -turn                  ! the load on the right wheel is −factor
    end function turn_of
 
@@ -176,39 +161,19 @@ contains
       real(wp), intent(in) :: half
       real(wp), intent(out) :: slope
       integer, intent(out) :: points       !! states in the window
-      real(wp) :: mean_x, mean_y, across, along, low, high
       real(wp), parameter :: rim = 1.0_wp + 1.0e-6_wp   !! a state nominally on the edge is inside: travel is driven to 1e-7 mm
       logical :: is_inside(size(x))
-      integer :: k
+      real(wp) :: mean(2), spread
 
       slope = ieee_value(1.0_wp, ieee_quiet_nan)
-      is_inside = .false.
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      mean_x = 0.0_wp
-      mean_y = 0.0_wp
-      do k = 1, size(x)
-         if (.not. (ieee_is_finite(x(k)) .and. ieee_is_finite(y(k)))) cycle
-         if (abs(x(k)) > half*rim) cycle
-         is_inside(k) = .true.
-         low = min(low, x(k))
-         high = max(high, x(k))
-         mean_x = mean_x + x(k)
-         mean_y = mean_y + y(k)
-      end do
+      is_inside = ieee_is_finite(x) .and. ieee_is_finite(y)
+      where (is_inside) is_inside = abs(x) <= half*rim
       points = count(is_inside)
       if (points < least_points) return
-      if (high - low <= 1.0e-3_wp*half) return        ! all at one x: no slope
-      mean_x = mean_x/points
-      mean_y = mean_y/points
-      across = 0.0_wp
-      along = 0.0_wp
-      do k = 1, size(x)
-         if (.not. is_inside(k)) cycle
-         along = along + (x(k) - mean_x)**2
-         across = across + (x(k) - mean_x)*(y(k) - mean_y)
-      end do
-      slope = across/along
+      if (maxval(x, mask=is_inside) - minval(x, mask=is_inside) <= 1.0e-3_wp*half) return        ! all at one x: no slope
+      mean = [sum(x, mask=is_inside), sum(y, mask=is_inside)]/points
+      spread = sum((x - mean(1))**2, mask=is_inside)
+      slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
    end subroutine slope_over_window
 
 end module ek_gradient

@@ -1,10 +1,13 @@
-!> The gradients of each kind of test: column over column, with unit and sign.
+!> The gradients of each set of tests: column over column, with unit and sign; their windows around design, by the abscissa.
 !>
 !> A new gradient is one line below; ek_gradient computes its value, slope_unit of ek_quantity its unit.
 module ek_gradient_definition
+   use ek_kinds, only: wp
+   use ek_rig_test, only: rig_test_t, rig_test, steers, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, &
+      of_traction, of_aligning, of_vertical
    implicit none(type, external)
    private
-   public :: definition_t, definitions_of, fitted
+   public :: definition_t, definitions_of, fitted, windows_t, set_window, window_of
 
    !> Ends the name of every gradient, because a least-squares slope over a window differs from the slope at a state in a
    !> column of the compliance matrix.
@@ -12,109 +15,122 @@ module ek_gradient_definition
 
    !> Definition of a gradient, for the equation at the top of ek_gradient.
    type :: definition_t
+      integer :: set                      !! of a test: of_travel, of_roll, …
       character(52) :: quantity = ''
       character(28) :: column = ''
       character(72) :: sign = ''
       character(1) :: y_turn = ' '        !! 's': times side (toe → steer); 'd': x of the deck, reported forward;
       !!                                     'i': outward, reported to the right; 'o': x is positive towards the side of the
       !!                                     wheel, mirrored on the right one
-      character(20) :: over = 'factor'    !! column of x; 'factor' in units of the case (N, N m, mm)
+      character(18) :: over = ''          !! column of x; '': abscissa of the test, or `factor` in units of the case (N, N m, mm)
    end type definition_t
 
    character(*), parameter :: in_bump = ' in bump', left_up = ' with the left wheel up', under = ' under a force to the right', &
-      torque = ' under a torque to the left', inner = ', inner wheel', force_up = ' under a force up', &
+      left_torque = ' under a torque to the left', inner = ', inner wheel', force_up = ' under a force up', &
       inward = '+ front edge moves inward', outward = '+ top moves outward', rearward = '+ top of the axis moves rearward', &
       to_left = '+ steers to the left'
 
-   type(definition_t), parameter :: travel_list(*) = [ &
-      definition_t('bump toe', 'toe_deg', inward//in_bump), definition_t('bump steer', 'toe_deg', to_left//in_bump, 's'), &
-      definition_t('bump camber', 'camber_deg', outward//in_bump), definition_t('bump caster', 'caster_deg', rearward//in_bump), &
-      definition_t('bump caster, instant axis', 'instant_caster_deg', rearward//in_bump), &
-      definition_t('half-track change', 'track_change_mm', '+ patch moves outward'//in_bump), &
-      definition_t('wheelbase change', 'wheelbase_change_mm', '+ patch moves rearward'//in_bump), &
-      definition_t('wheel rate', 'vertical_force_n', '+ load increases'//in_bump), &
-      definition_t('roll-centre height change', 'roll_centre_height_mm', '+ rises over the ground'//in_bump)]
+   type(definition_t), parameter :: definitions(*) = [ &
+      definition_t(of_travel, 'bump toe', 'toe_deg', inward//in_bump), &
+      definition_t(of_travel, 'bump steer', 'toe_deg', to_left//in_bump, 's'), &
+      definition_t(of_travel, 'bump camber', 'camber_deg', outward//in_bump), &
+      definition_t(of_travel, 'bump caster', 'caster_deg', rearward//in_bump), &
+      definition_t(of_travel, 'bump caster, instant axis', 'instant_caster_deg', rearward//in_bump), &
+      definition_t(of_travel, 'half-track change', 'track_change_mm', '+ patch moves outward'//in_bump), &
+      definition_t(of_travel, 'wheelbase change', 'wheelbase_change_mm', '+ patch moves rearward'//in_bump), &
+      definition_t(of_travel, 'wheel rate', 'vertical_force_n', '+ load increases'//in_bump), &
+      definition_t(of_travel, 'roll-centre height change', 'roll_centre_height_mm', '+ rises over the ground'//in_bump), &
+      ! Per roll of the wheels relative to the body, positive with the left wheel up for both wheels, as the column axle_roll_deg;
+      ! the columns wheel_roll_… of the matrix are the slopes at a state
+      definition_t(of_roll, 'wheel roll steer', 'toe_deg', to_left//left_up, 's'), &
+      definition_t(of_roll, 'wheel roll toe', 'toe_deg', inward//left_up), &
+      definition_t(of_roll, 'wheel roll camber', 'camber_deg', outward//left_up), &
+      definition_t(of_roll, 'camber relative to road in roll', 'inclination_deg', outward//' relative to the road'//left_up), &
+      definition_t(of_roll, 'wheel roll caster', 'caster_deg', rearward//left_up), &
+      definition_t(of_roll, 'wheel load in roll', 'vertical_force_n', '+ increases'//left_up), &
+      definition_t(of_roll, 'roll rate', 'roll_moment_nm', '+ restoring'), &
+      definition_t(of_lateral, 'lateral force steer', 'toe_deg', to_left//under, 's'), &
+      definition_t(of_lateral, 'lateral force camber', 'camber_deg', outward//under), &
+      definition_t(of_lateral, 'lateral deflection', 'track_change_mm', '+ patch moves with the force', 'i'), &
+      definition_t(of_aligning, 'aligning torque steer', 'toe_deg', to_left//left_torque, 's'), &
+      definition_t(of_aligning, 'aligning torque camber', 'camber_deg', outward//left_torque), &
+      definition_t(of_braking, 'braking deflection', 'wheelbase_change_mm', '+ patch moves rearward'), &
+      definition_t(of_braking, 'braking camber', 'camber_deg', outward), &
+      definition_t(of_braking, 'braking steer', 'toe_deg', to_left, 's'), &
+      definition_t(of_braking, 'braking toe', 'toe_deg', inward), &
+      definition_t(of_braking, 'braking caster', 'caster_deg', rearward), &
+      definition_t(of_traction, 'traction deflection', 'wheel_centre_x_mm', '+ wheel centre moves forward', 'd'), &
+      definition_t(of_traction, 'traction camber', 'camber_deg', outward), &
+      definition_t(of_traction, 'traction steer', 'toe_deg', to_left, 's'), &
+      definition_t(of_traction, 'traction toe', 'toe_deg', inward), &
+      definition_t(of_traction, 'traction caster', 'caster_deg', rearward), &
+      definition_t(of_steer, 'steer per steering wheel', 'toe_deg', '+ to the left', 's', 'steering_wheel_deg'), &
+      definition_t(of_steer, 'steer per steering input', 'toe_deg', '+ to the left', 's'), &
+      definition_t(of_steer, 'steer camber', 'camber_deg', outward//inner, 'o'), &
+      definition_t(of_steer, 'steer caster', 'caster_deg', '+ top moves rearward'//inner, 'o'), &
+      definition_t(of_steer, 'scrub radius change', 'scrub_radius_mm', '+ increases'//inner, 'o'), &
+      definition_t(of_steer, 'caster trail change', 'caster_trail_mm', '+ increases'//inner, 'o'), &
+      definition_t(of_steer, 'wheel lift in steer', 'wheel_travel_mm', '+ wheel moves up'//inner, 'o'), &
+      definition_t(of_vertical, 'vertical deflection', 'wheel_travel_mm', '+ wheel moves up'//force_up), &
+      definition_t(of_vertical, 'vertical force toe', 'toe_deg', inward//force_up), &
+      definition_t(of_vertical, 'vertical force camber', 'camber_deg', outward//force_up), &
+      definition_t(of_vertical, 'vertical force caster', 'caster_deg', '+ top moves rearward'//force_up)]
 
-   ! Per roll of the wheels relative to the body, positive with the left wheel up for both wheels, as the column axle_roll_deg;
-   ! the columns wheel_roll_… of the matrix are the slopes at a state
-   type(definition_t), parameter :: roll_list(*) = [ &
-      definition_t('wheel roll steer', 'toe_deg', to_left//left_up, 's'), &
-      definition_t('wheel roll toe', 'toe_deg', inward//left_up), &
-      definition_t('wheel roll camber', 'camber_deg', outward//left_up), &
-      definition_t('camber relative to road in roll', 'inclination_deg', outward//' relative to the road'//left_up), &
-      definition_t('wheel roll caster', 'caster_deg', rearward//left_up), &
-      definition_t('wheel load in roll', 'vertical_force_n', '+ increases'//left_up), &
-      definition_t('roll rate', 'roll_moment_nm', '+ restoring')]
+   integer, parameter :: travel = 1, roll = 2, force = 3, torque = 4, rack = 5, wheel = 6
+   character(*), parameter :: names(6) = [character(6) :: 'travel', 'roll', 'force', 'torque', 'rack', 'wheel']
+   character(*), parameter :: units(6) = [character(3) :: 'mm', 'deg', 'N', 'N m', 'mm', 'deg']
 
-   type(definition_t), parameter :: lateral_list(*) = [ &
-      definition_t('lateral force steer', 'toe_deg', to_left//under, 's'), &
-      definition_t('lateral force camber', 'camber_deg', outward//under), &
-      definition_t('lateral deflection', 'track_change_mm', '+ patch moves with the force', 'i')]
-
-   type(definition_t), parameter :: aligning_list(*) = [ &
-      definition_t('aligning torque steer', 'toe_deg', to_left//torque, 's'), &
-      definition_t('aligning torque camber', 'camber_deg', outward//torque)]
-
-   type(definition_t), parameter :: braking_list(*) = [ &
-      definition_t('braking deflection', 'wheelbase_change_mm', '+ patch moves rearward'), &
-      definition_t('braking camber', 'camber_deg', outward), definition_t('braking steer', 'toe_deg', to_left, 's'), &
-      definition_t('braking toe', 'toe_deg', inward), definition_t('braking caster', 'caster_deg', rearward)]
-
-   type(definition_t), parameter :: traction_list(*) = [ &
-      definition_t('traction deflection', 'wheel_centre_x_mm', '+ wheel centre moves forward', 'd'), &
-      definition_t('traction camber', 'camber_deg', outward), definition_t('traction steer', 'toe_deg', to_left, 's'), &
-      definition_t('traction toe', 'toe_deg', inward), definition_t('traction caster', 'caster_deg', rearward)]
-
-   type(definition_t), parameter :: steering_list(*) = [ &
-      definition_t('steer per steering wheel', 'toe_deg', '+ to the left', 's', 'steering_wheel_deg'), &
-      definition_t('steer per steering input', 'toe_deg', '+ to the left', 's'), &
-      definition_t('steer camber', 'camber_deg', outward//inner, 'o'), &
-      definition_t('steer caster', 'caster_deg', '+ top moves rearward'//inner, 'o'), &
-      definition_t('scrub radius change', 'scrub_radius_mm', '+ increases'//inner, 'o'), &
-      definition_t('caster trail change', 'caster_trail_mm', '+ increases'//inner, 'o'), &
-      definition_t('wheel lift in steer', 'wheel_travel_mm', '+ wheel moves up'//inner, 'o')]
-
-   type(definition_t), parameter :: vertical_list(*) = [ &
-      definition_t('vertical deflection', 'wheel_travel_mm', '+ wheel moves up'//force_up), &
-      definition_t('vertical force toe', 'toe_deg', inward//force_up), &
-      definition_t('vertical force camber', 'camber_deg', outward//force_up), &
-      definition_t('vertical force caster', 'caster_deg', '+ top moves rearward'//force_up)]
+   !> Half widths of the windows in these units, each centred on 0; rack: of steering input, wheel: of the steering wheel.
+   type :: windows_t
+      real(wp) :: half(6) = [15.0_wp, 1.0_wp, 1000.0_wp, 100.0_wp, 10.0_wp, 20.0_wp]
+   end type windows_t
 
 contains
 
-   !> The gradients of a kind of test; empty for a kind without list.
+   !> The gradients of a test; empty for a test without any.
    pure function definitions_of(kind) result(list)
       character(*), intent(in) :: kind
       type(definition_t), allocatable :: list(:)
+      type(rig_test_t) :: test
       integer :: k
 
-      select case (kind)
-      case ('parallel_travel', 'opposite_travel', 'single_travel')
-         list = travel_list
-         list%over = 'wheel_travel_mm'
-         if (kind == 'opposite_travel') list%quantity = 'opposite '//list%quantity(:43)
-         if (kind == 'single_travel') list%quantity = 'single '//list%quantity(:45)
-      case ('roll')
-         list = roll_list
-         list%over = 'axle_roll_deg'
-      case ('lateral_force')
-         list = lateral_list
-      case ('aligning_torque')
-         list = aligning_list
-      case ('braking')
-         list = braking_list
-      case ('traction')
-         list = traction_list
-      case ('steering')
-         list = steering_list
-      case ('vertical_force')
-         list = vertical_list
-      case default
-         allocate (list(0))
-      end select
+      test = rig_test(kind)
+      list = pack(definitions, definitions%set == merge(of_travel, test%charts, test%charts == of_tilt))
       do k = 1, size(list)
-         list(k)%quantity = trim(list(k)%quantity)//fitted
+         list(k)%quantity = test%prefix(:len_trim(test%prefix) + merge(1, 0, test%prefix /= ''))//trim(list(k)%quantity)//fitted
+         if (list(k)%over == '') list(k)%over = merge('factor            ', test%abscissa, test%action == steers)
       end do
    end function definitions_of
+
+   !> Sets the half width of one window by its name.
+   pure subroutine set_window(windows, word, half, is_known)
+      type(windows_t), intent(inout) :: windows
+      character(*), intent(in) :: word
+      real(wp), intent(in) :: half         !! mm, deg, N or N m; positive
+      logical, intent(out) :: is_known
+
+      is_known = any(names == word)
+      where (names == word) windows%half = half
+   end subroutine set_window
+
+   !> The window of a gradient; over `factor` it is that of the quantity scaled by the test.
+   pure subroutine window_of(kind, over, windows, half, unit)
+      character(*), intent(in) :: kind, over    !! kind of the test; column, without the wheel's name
+      type(windows_t), intent(in) :: windows
+      real(wp), intent(out) :: half             !! half width, in `unit`
+      character(*), intent(out) :: unit         !! mm, deg, N or N m; 3 letters
+      type(rig_test_t) :: test
+      integer :: which
+
+      test = rig_test(kind)
+      which = force
+      if (test%unit == 'N m') which = torque
+      if (test%action == steers) which = rack
+      if (over == 'wheel_travel_mm') which = travel
+      if (over == 'axle_roll_deg') which = roll
+      if (over == 'steering_wheel_deg') which = wheel
+      half = windows%half(which)
+      unit = units(which)
+   end subroutine window_of
 
 end module ek_gradient_definition

@@ -13,18 +13,15 @@ module ek_kandc_columns
    use ek_quantity, only: wheel_rates, wheel_forces, wheel_stiffness, of_axle, of_steering, wheel_geometry, axle_geometry, &
       of_rack
    use ek_measure, only: measure_value
-   use ek_block, only: rotated
    use ek_element, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t, driver_row
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t
-   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values
-   use ek_wheel_side, only: is_axle, prefix_of, design_track
-   use ek_wheel_force, only: vertical_force
+   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values, static_toe
+   use ek_wheel_side, only: is_axle, prefix_of, design_track, deck_frame, vertical_force
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
    use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, response_t, wheel_characteristics, &
       axle_characteristics, motion_ratio, quotient, in_phase, anti_phase, load_held, height_held
-   use ek_angle_rate, only: axes_of
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, conditions_of
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
@@ -32,14 +29,13 @@ module ek_kandc_columns
    use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc, rig_rows
+   public :: kandc_t, start_kandc, same_columns, tell_kandc
 
    real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
 
    !> The columns of a model and the work space to fill them.
    type, extends(column_list_t) :: kandc_t
       integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
-      real(wp) :: steer_ratio = 0.0_wp         !! rack travel per revolution of the steering wheel [m], never negative
       integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
       real(wp), allocatable :: values(:)       !! of the columns, in their units
       type(compliance_t) :: compliance
@@ -56,7 +52,6 @@ contains
 
       if (suspension%steering%has_steering) self%steer_row = driver_row(suspension, suspension%steering%driver)
       self%compliance = new_compliance(suspension, self%steer_row > 0)
-      call renew_kandc(suspension, self)
       allocate (self%has(0:size(suspension%wheels)))
       call conditions_of(suspension, self%compliance%order, self%steer_row > 0, self%has)
       both = self%has(0)
@@ -96,14 +91,6 @@ contains
       allocate (self%values(self%used), source=0.0_wp)
    end subroutine start_kandc
 
-   !> Takes the numbers of another design with the same columns.
-   subroutine renew_kandc(suspension, self)
-      type(suspension_t), intent(in) :: suspension
-      type(kandc_t), intent(inout) :: self
-
-      if (suspension%steering%has_steering) self%steer_ratio = abs(suspension%steering%ratio)
-   end subroutine renew_kandc
-
    !> Whether another design of the same parts has the columns of `self`.
    logical function same_columns(suspension, self)
       type(suspension_t), intent(in) :: suspension
@@ -124,28 +111,28 @@ contains
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(kandc_t), intent(inout) :: self
       type(attitude_t) :: now(size(suspension%wheels))
-      real(wp) :: lift(size(suspension%wheels)), springs(self%compliance%springs)
+      real(wp) :: lift(size(suspension%wheels)), springs(self%compliance%springs), rack
       type(stand_t) :: stand
       integer :: w, k, n
 
-      if (self%is_matrix_wanted) &
-         call wheel_compliance(suspension, state, demand, rig_rows(suspension), self%steer_row, kkt, self%compliance)
+      if (self%is_matrix_wanted) call wheel_compliance(suspension, state, demand, self%steer_row, kkt, self%compliance)
       n = size(suspension%wheels)
       do k = 1, n
          w = self%compliance%order(k)
          now(k) = wheel_attitude(suspension, state, w)
          lift(k) = vertical_force(suspension, state, demand, w)
       end do
-      if (is_axle(suspension)) stand = stand_of(suspension, state, self)
+      if (is_axle(suspension)) stand = stand_of(suspension, now, self%compliance%order)
       do k = 1, n
-         if (self%is_wanted(k)) call fill(k, wheel_values(suspension, state, k, now(k), lift(k), stand, self))
-         if (self%is_wanted(n + 1 + k)) call fill(n + 1 + k, wheel_geometry_values(suspension, self%compliance, state, k))
+         if (self%is_wanted(k)) call fill(k, wheel_values(suspension, k, now(k), lift(k), stand, self))
+         if (self%is_wanted(n + 1 + k)) call fill(n + 1 + k, wheel_geometry_values(suspension, self%compliance, now(k), k))
       end do
       if (self%is_wanted(n + 1)) call fill(n + 1, [axle_values(suspension, now, lift, stand, self), &
-         steering_values(suspension, state, self)])
+         steering_values(suspension, state, now, self)])
       if (self%is_wanted(2*n + 2)) call fill(2*n + 2, axle_geometry_values(suspension, self%compliance, now))
-      if (self%is_wanted(2*n + 3)) call fill(2*n + 3, [element_values(suspension, self%compliance, state), &
-         rack_force(state, self%steer_row)])
+      rack = 0.0_wp
+      if (self%steer_row > 0) rack = -state%reaction(self%steer_row)
+      if (self%is_wanted(2*n + 3)) call fill(2*n + 3, [element_values(suspension, self%compliance, state), rack])
       if (.not. self%is_wanted(2*n + 4)) return
       springs = 0.0_wp
       if (self%compliance%is_known .and. n > 0) then
@@ -165,59 +152,27 @@ contains
 
    end subroutine tell_kandc
 
-   !> Reaction of the steering driver [N].
-   pure real(wp) function rack_force(state, row)
-      type(state_t), intent(in) :: state
-      integer, intent(in) :: row        !! 0: none
-      rack_force = 0.0_wp
-      if (row > 0) rack_force = -state%reaction(row)
-   end function rack_force
-
-   !> The rows of Φ of the rig that hold a wheel at a height.
-   pure function rig_rows(suspension) result(rows)
+   !> Positions of wheels of the compliance matrix: both of an axle, or a single one.
+   type(stand_t) function stand_of(suspension, now, order) result(stand)
       type(suspension_t), intent(in) :: suspension
-      integer, allocatable :: rows(:)
+      type(attitude_t), intent(in) :: now(:)
+      integer, intent(in) :: order(:)          !! numbers of these wheels
       integer :: k
 
-      rows = pack([(k, k=1, size(suspension%rows))], suspension%joints(suspension%rows%joint)%is_rig)
-   end function rig_rows
-
-   !> Positions of both wheels of an axle, in the order of the compliance matrix.
-   type(stand_t) function stand_of(suspension, state, self) result(stand)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(kandc_t), intent(in) :: self
-      integer :: k
-
-      do k = 1, 2
-         call stand_up(suspension, state, self, k, k, stand)
+      do k = 1, size(now)
+         stand%axes(k) = now(k)%axes
+         stand%centre(:, k) = now(k)%at_centre
+         stand%arm(:, k) = now(k)%at_contact - now(k)%at_centre
+         stand%tyre_rate(k) = suspension%wheels(order(k))%tyre_rate
       end do
+      if (size(now) < 2) return
       stand%track = design_track(suspension)
-      stand%roll = axle_roll(stand%centre(:, 1) + stand%arm(:, 1), stand%centre(:, 2) + stand%arm(:, 2), stand%track)
+      stand%roll = axle_roll(now(1)%at_contact, now(2)%at_contact, stand%track)
    end function stand_of
 
-   !> Position of a wheel of the compliance matrix, at index `at` of a stand.
-   pure subroutine stand_up(suspension, state, self, place, at, stand)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(kandc_t), intent(in) :: self
-      integer, intent(in) :: place, at
-      type(stand_t), intent(inout) :: stand
-
-      associate (w => self%compliance%order(place))
-         associate (wheel => suspension%wheels(w), pose => state%poses(suspension%wheels(w)%body + 1))
-            stand%axes(at) = axes_of(wheel, pose)
-            stand%centre(:, at) = pose%r + rotated(pose%a, wheel%centre)
-            stand%arm(:, at) = rotated(pose%a, wheel%contact - wheel%centre)
-            stand%tyre_rate(at) = wheel%tyre_rate
-         end associate
-      end associate
-   end subroutine stand_up
-
    !> The values of wheel_rates, wheel_forces with loads and with heights held, and wheel_stiffness.
-   function wheel_values(suspension, state, place, now, lift, both, self) result(values)
+   function wheel_values(suspension, place, now, lift, both, self) result(values)
       type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
       integer, intent(in) :: place               !! index of the wheel in the compliance matrix
       type(attitude_t), intent(in) :: now
       real(wp), intent(in) :: lift               !! force of the ground [N]
@@ -230,17 +185,16 @@ contains
       real(wp) :: frame(3)
       integer :: at
 
-      frame = frame_of(suspension)
+      frame = deck_frame(suspension)
       stand = both
       at = place
       if (.not. is_axle(suspension)) then
          at = 1
-         call stand_up(suspension, state, self, place, 1, stand)
+         stand = stand_of(suspension, [now], [self%compliance%order(place)])
       end if
-      associate (side => suspension%wheels(self%compliance%order(place))%side, axle => suspension%axle, &
-                 c => self%compliance%response)
+      associate (side => now%axes%side, axle => suspension%axle, c => self%compliance%response)
          if (self%compliance%is_known) then
-            instant = instant_axis(self%compliance, place, side, stand%centre(:, at), stand%centre(:, at) + stand%arm(:, at))
+            instant = instant_axis(self%compliance, place, side, now%at_centre, now%at_contact)
             if (is_axle(suspension)) then
                is = wheel_characteristics(c(:12, :12), stand, place, axle)
             else
@@ -304,7 +258,7 @@ contains
       if (.not. is_axle(suspension)) return
       associate (c => self%compliance%response, axle => suspension%axle, track => stand%track)
          if (self%compliance%is_known) is = axle_characteristics(c(:12, :12), stand)
-         frame = frame_of(suspension)
+         frame = deck_frame(suspension)
          ground = 0.5_wp*sum(stand%centre(3, :) + stand%arm(3, :))
          turn = 0.0_wp
          if (axle%has_axle .and. self%steer_row > 0) then
@@ -312,8 +266,8 @@ contains
             right = steer_of(now(2)%toe, 1)
             turn(1) = turning_circle(left, right, axle%wheelbase)
             ! the effect of the steering, without the static toe
-            left = left - steer_of(design_toe(suspension, -1), -1)
-            right = right - steer_of(design_toe(suspension, 1), 1)
+            left = left - steer_of(static_toe(suspension%wheels(self%compliance%order(1))), -1)
+            right = right - steer_of(static_toe(suspension%wheels(self%compliance%order(2))), 1)
             turn(2) = ackermann_percent(left, right, axle%wheelbase, track)
             turn(3) = ackermann_error(left, right, axle%wheelbase, track)
          end if
@@ -323,45 +277,23 @@ contains
       end associate
    end function axle_values
 
-   !> The factors from the frame of the program to that of the deck.
-   pure function frame_of(suspension) result(frame)
-      type(suspension_t), intent(in) :: suspension
-      real(wp) :: frame(3)
-      frame = 1.0_wp
-      if (suspension%is_iso) frame = [-1.0_wp, -1.0_wp, 1.0_wp]
-   end function frame_of
-
-   !> Toe of the wheel of a side in the design position [rad].
-   pure real(wp) function design_toe(suspension, side) result(toe)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: side
-      integer :: k
-
-      toe = 0.0_wp
-      do k = 1, size(suspension%wheels)
-         if (suspension%wheels(k)%side == side) &
-            toe = atan2(-suspension%wheels(k)%spin(1), side*suspension%wheels(k)%spin(2))
-      end do
-   end function design_toe
-
    !> The values of of_steering; 0 without a rack and its ratio.
-   function steering_values(suspension, state, self) result(values)
+   function steering_values(suspension, state, now, self) result(values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
+      type(attitude_t), intent(in) :: now(:)       !! in the order of the compliance matrix
       type(kandc_t), intent(in) :: self
       real(wp) :: values(size(of_steering)), rate, twist(6), per_rack
-      integer :: k, w
+      integer :: k
 
       values = 0.0_wp
-      if (self%steer_row == 0 .or. .not. self%steer_ratio > 0.0_wp) return
-      per_rack = 2.0_wp*pi/self%steer_ratio
+      if (self%steer_row == 0 .or. .not. abs(suspension%steering%ratio) > 0.0_wp) return
+      per_rack = 2.0_wp*pi/abs(suspension%steering%ratio)
       rate = 0.0_wp
       if (self%compliance%is_known) then
          do k = 1, self%compliance%wheels
-            w = self%compliance%order(k)
             twist = locked_twist(self%compliance, k, .true.)
-            rate = rate + steer_rate(rotated(state%poses(suspension%wheels(w)%body + 1)%a, suspension%wheels(w)%spin), &
-               twist(4:6))/self%compliance%wheels
+            rate = rate + steer_rate(now(k)%axes%spin, twist(4:6))/self%compliance%wheels
          end do
       end if
       ! the angle of the steering wheel is positive to the left for either direction of the rack

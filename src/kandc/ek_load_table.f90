@@ -25,10 +25,16 @@ module ek_load_table
    private
    public :: take_table, read_table, has_table, note_unread
 
-   character(*), parameter :: load_columns(9) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
-      'centre_fx_n', 'centre_fy_n', 'centre_fz_n']      !! as component of table_column_t
-   character(*), parameter :: travel_column = 'travel_mm'
+   character(*), parameter :: wheel_columns(10) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
+      'centre_fx_n', 'centre_fy_n', 'centre_fz_n', 'travel_mm']
    character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! columns of result files reused as loads
+
+   !> The heads of the wheels of a model, and their meaning.
+   type :: heads_t
+      integer :: used = 0
+      character(name_length) :: names(20) = ''
+      integer :: wheel(20) = 0, component(20) = 0      !! of table_column_t
+   end type heads_t
 
 contains
 
@@ -74,59 +80,73 @@ contains
       type(error_t), allocatable, intent(out) :: error           !! exit_file: the file cannot be read
       type(suspension_t), intent(in), optional :: suspension     !! absent: the errors alone, not those of the heads
       type(sheet_t) :: sheet
-      integer :: wheels(2), k, used
+      type(heads_t) :: known
+      integer :: k, used
 
       call read_sheet(file, sheet, error)
       if (allocated(error)) return
-      wheels = 0
       if (present(suspension)) then
-         call left_and_right(suspension, wheels)
-         call judge_columns(sheet, suspension, wheels)
+         known = heads_of(suspension)
+         call judge_columns(sheet, suspension, known)
       end if
       call mistakes_of(sheet, mistakes)
       if (mistakes%count() > 0 .or. .not. present(suspension)) return
       table%rows = size(sheet%values, 2)
-      allocate (table%columns(count([(is_kept(sheet, k), k=1, size(sheet%heads))])))
+      allocate (table%columns(count([(is_kept(k), k=1, size(sheet%heads))])))
       used = 0
       do k = 1, size(sheet%heads)
-         if (.not. is_kept(sheet, k)) cycle
+         if (.not. is_kept(k)) cycle
          used = used + 1
-         call set_column(trim(sheet%heads(k)), sheet%values(k, :), suspension, wheels, table%columns(used))
+         call set_column(trim(sheet%heads(k)), sheet%values(k, :), suspension, known, table%columns(used))
       end do
+
+   contains
+
+      !> Whether a column is used: it has a head, other than those passed over.
+      pure logical function is_kept(k)
+         integer, intent(in) :: k
+         is_kept = sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over)
+      end function is_kept
+
    end subroutine read_table
 
-   !> Whether a column is used: it has a head, other than those passed over.
-   pure logical function is_kept(sheet, k)
-      type(sheet_t), intent(in) :: sheet
-      integer, intent(in) :: k
+   !> The heads of the loads and heights of a model's wheels, the left one first.
+   type(heads_t) function heads_of(suspension) result(known)
+      type(suspension_t), intent(in) :: suspension
+      integer :: wheels(2), side, c
 
-      is_kept = sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over)
-   end function is_kept
+      call left_and_right(suspension, wheels)
+      do side = 1, 2
+         if (wheels(side) == 0) cycle
+         do c = 1, size(wheel_columns)
+            known%used = known%used + 1
+            known%names(known%used) = prefix_of(suspension, wheels(side))//wheel_columns(c)
+            known%wheel(known%used) = wheels(side)
+            known%component(known%used) = mod(c, size(wheel_columns))
+         end do
+      end do
+   end function heads_of
 
    !> What a column acts on, and its values in SI. Its head has a meaning.
-   pure subroutine set_column(head, values, suspension, wheels, column)
+   pure subroutine set_column(head, values, suspension, known, column)
       character(*), intent(in) :: head
       real(wp), intent(in) :: values(:)
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels(2)      !! left, right; 0: none
+      type(heads_t), intent(in) :: known
       type(table_column_t), intent(out) :: column
-      character(:), allocatable :: prefix
-      integer :: side
+      integer :: k
 
       column%name = head
       column%values = values
-      do side = 1, 2
-         if (wheels(side) == 0) cycle
-         prefix = prefix_of(suspension, wheels(side))
-         if (index(head, prefix) /= 1) cycle
-         column%component = findloc(load_columns, head(len(prefix) + 1:), dim=1)
-         if (column%component == 0 .and. head(len(prefix) + 1:) /= travel_column) cycle
-         column%wheel = wheels(side)
+      k = findloc(known%names, head, dim=1)
+      if (k > 0) then
+         column%wheel = known%wheel(k)
+         column%component = known%component(k)
          if (column%component == 0) column%values = values*millimetre
-         return
-      end do
-      column%name = head(:index(head, '_', back=.true.) - 1)
-      column%values = values*merge(degree, millimetre, is_angle_row(suspension, driver_of(head, suspension)))
+      else
+         column%name = head(:index(head, '_', back=.true.) - 1)
+         column%values = values*merge(degree, millimetre, is_angle_row(suspension, driver_of(head, suspension)))
+      end if
    end subroutine set_column
 
    !> Whether the value of a driver's row is an angle.
@@ -137,10 +157,10 @@ contains
    end function is_angle_row
 
    !> Adds errors to the sheet: heads unknown in a model, and too many columns.
-   subroutine judge_columns(sheet, suspension, wheels)
+   subroutine judge_columns(sheet, suspension, known)
       type(sheet_t), intent(inout) :: sheet
       type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels(2)
+      type(heads_t), intent(in) :: known
       integer, parameter :: most_told = 10      ! a table for another purpose has many
       integer :: k, unknown
 
@@ -148,31 +168,17 @@ contains
          str(most_driven)//' columns, found '//str(count(sheet%heads /= '')))
       unknown = 0
       do k = 1, size(sheet%heads)
-         if (sheet%heads(k) == '' .or. has_meaning(trim(sheet%heads(k)), suspension, wheels)) cycle
-         unknown = unknown + 1
-         if (unknown <= most_told) call sheet%head_mistakes%add(head_place(sheet)//'unknown column '// &
-            quoted(sheet%heads(k))//advice(trim(sheet%heads(k)), suspension, wheels))
+         associate (head => sheet%heads(k))
+            if (head == '' .or. any(head == passed_over) .or. any(head == known%names)) cycle
+            if (driver_of(trim(head), suspension) > 0) cycle
+            unknown = unknown + 1
+            if (unknown <= most_told) call sheet%head_mistakes%add(head_place(sheet)//'unknown column '//quoted(head)// &
+               advice(trim(head), known))
+         end associate
       end do
       if (unknown > most_told) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
          plural(unknown - most_told, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
-
-   !> Whether a column is a drive, a load or a number of a state.
-   pure logical function has_meaning(name, suspension, wheels)
-      character(*), intent(in) :: name
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels(2)
-      character(:), allocatable :: prefix
-      integer :: side
-
-      has_meaning = any(name == passed_over) .or. driver_of(name, suspension) > 0
-      do side = 1, 2
-         if (wheels(side) == 0) cycle
-         prefix = prefix_of(suspension, wheels(side))
-         if (index(name, prefix) /= 1) cycle
-         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == [character(11) :: load_columns, travel_column])
-      end do
-   end function has_meaning
 
    !> The row of the driver joint of a column <driver>_mm or <driver>_deg; 0 if there is none, or it has another unit.
    pure integer function driver_of(name, suspension) result(row)
@@ -188,32 +194,18 @@ contains
    end function driver_of
 
    !> Hint on the known columns.
-   function advice(name, suspension, wheels) result(words)
+   function advice(name, known) result(words)
       character(*), intent(in) :: name
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels(2)
+      type(heads_t), intent(in) :: known
       character(:), allocatable :: words
-      character(name_length) :: known(2*size(load_columns) + 2)
-      integer :: side, c, used
 
-      known = ''
-      used = 0
-      do side = 1, 2
-         if (wheels(side) == 0) cycle
-         do c = 1, size(load_columns)
-            used = used + 1
-            known(used) = prefix_of(suspension, wheels(side))//load_columns(c)
-         end do
-         used = used + 1
-         known(used) = prefix_of(suspension, wheels(side))//travel_column
-      end do
-      words = nearest_name(name, known)
+      words = nearest_name(name, known%names)
       if (words /= '') then
          words = ' (did you mean '//quoted(words)//'?)'
       else if (index(name, ' ') > 0) then
          words = ' (separate the columns by commas)'
-      else if (used > 0) then
-         words = ' (known: '//trim(known(1))//' … '//trim(known(used))//', <driver>_mm, <driver>_deg)'
+      else if (known%used > 0) then
+         words = ' (known: '//trim(known%names(1))//' … '//trim(known%names(known%used))//', <driver>_mm, <driver>_deg)'
       end if
    end function advice
 

@@ -56,15 +56,10 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
       type(message_list_t), intent(inout) :: words
-      logical :: leads_only
       integer :: k
 
       if (size(suspension%wheels) == 0 .or. has_spring(suspension)) return
-      leads_only = .true.
-      do k = 1, size(cases)
-         leads_only = leads_only .and. .not. cases(k)%has_all .and. len(cases(k)%drive) > 0
-      end do
-      if (leads_only) return
+      if (all([(.not. cases(k)%has_all .and. len(cases(k)%drive) > 0, k=1, size(cases))])) return
       call words%add('the deck has no spring: the wheels are carried by bushings, anti-roll bars and stops alone, '// &
          'and the reported rates are those of these elements')
    end subroutine spring_words

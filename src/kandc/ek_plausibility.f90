@@ -1,16 +1,20 @@
 !> Plausibility of a deck as a road vehicle: wrong units, swapped points, wrong bodies, a coil in tension, a motion that only
 !> preload resists. Findings are remarks, never errors; none with `plausible = .false.` in &model.
 module ek_plausibility
+   use ek_kinds, only: wp
    use ek_error, only: message_list_t
-   use ek_suspension, only: suspension_t
+   use ek_text, only: str, quoted
+   use ek_units, only: degree
+   use ek_measure, only: measure_t, axis_axis, rotation, distance
+   use ek_element, only: element_t, axial_spring, damper, element_label
+   use ek_suspension, only: suspension_t, body_name, driver_row
    use ek_case, only: case_t
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
    use ek_diagnosis, only: diagnosis_t, diagnose
-   use ek_plausible_range, only: doubts_t
+   use ek_plausible_range, only: doubts_t, length
    use ek_plausible_parts, only: doubt_elements, doubt_loads, doubt_vehicle, doubt_cases
-   use ek_plausible_shape, only: doubt_wheels, doubt_points
-   use ek_plausible_links, only: doubt_links
+   use ek_plausible_shape, only: doubt_wheels, doubt_points, point_of
    implicit none(type, external)
    private
    public :: doubt
@@ -40,14 +44,187 @@ contains
       call doubt_cases(suspension, cases, doubts)
       kkt = new_kkt(suspension)
       call diagnose(suspension, design_state(suspension), kkt, diagnosis, wants_preload_held=.true.)
+      call doubts%examine('', '')
       do k = 1, diagnosis%preload_held%count()
-         call doubts%add('', diagnosis%preload_held%line(k), diagnosis%preload_held%line(k))
+         call doubts%add(diagnosis%preload_held%line(k), diagnosis%preload_held%line(k))
       end do
       do k = 1, diagnosis%warnings%count()
          if (index(diagnosis%warnings%line(k), 'very soft') == 1) &
-            call doubts%add('', diagnosis%warnings%line(k), diagnosis%warnings%line(k))
+            call doubts%add(diagnosis%warnings%line(k), diagnosis%warnings%line(k))
       end do
       remarks = doubts%remarks
    end subroutine doubt
+
+   !> Links and springs: length, body at each end, direction.
+   subroutine doubt_links(suspension, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(doubts_t), intent(inout) :: doubts
+      real(wp) :: ends(3, 2), apart(3)
+      integer :: k, rack
+
+      rack = rack_body(suspension)
+      if (rack > 0) call doubt_rack(suspension, rack, doubts)
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k), &
+               m => suspension%terms(suspension%rows(suspension%joints(k)%first_row)%first)%measure)
+            call doubts%examine(joint%where, 'joint '//quoted(joint%name))
+            call doubt_own_points(suspension, m, doubts)
+            if (joint%kind == 'cylindrical') call doubt_slider(suspension, m, doubts)
+            if (joint%kind /= 'distance') cycle
+            ends(:, 1) = point_of(suspension, m%body_i, m%arm_i)
+            ends(:, 2) = point_of(suspension, m%body_j, m%arm_j)
+            apart = ends(:, 2) - ends(:, 1)
+            call doubts%judge('link length', norm2(apart))
+            call doubt_ends(suspension, m, ends, doubts)
+            if (rack == 0 .or. (m%body_i /= rack .and. m%body_j /= rack)) cycle
+            if (abs(apart(2)) < 0.85_wp*norm2(apart)) call doubts%add('askew', &
+               'the tie rod is more than 32 deg off the lateral direction; check the signs of the coordinates of its ends')
+         end associate
+      end do
+      do k = suspension%scalars + 1, size(suspension%elements)
+         call doubts%examine(suspension%elements(k)%where, element_label(suspension%elements(k)))
+         call doubt_own_points(suspension, suspension%elements(k)%measure, doubts)
+      end do
+      do k = 1, suspension%scalars
+         if (any(suspension%elements(k)%kind == [axial_spring, damper])) &
+            call doubt_upright(suspension, suspension%elements(k), doubts)
+      end do
+   end subroutine doubt_links
+
+   !> Whether the rack is connected to the wheels.
+   subroutine doubt_rack(suspension, rack, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: rack
+      type(doubts_t), intent(inout) :: doubts
+      integer :: k
+
+      if (any([(leads(suspension%terms(k)%measure), k=1, size(suspension%terms))])) return
+      if (any([(leads(suspension%elements(k)%measure), k=1, size(suspension%elements))])) return
+      call doubts%examine(suspension%steering%where, '&steering')
+      call doubts%add('no tie rod', 'the rack, body '//quoted(body_name(suspension, rack))// &
+         ', is not connected to a wheel: is a tie rod missing?')
+
+   contains
+
+      pure logical function leads(m)
+         type(measure_t), intent(in) :: m
+         leads = any([m%body_i, m%body_j] == rack) .and. min(m%body_i, m%body_j) > 0
+      end function leads
+
+   end subroutine doubt_rack
+
+   !> Checks that a joint of a wheel carrier lies near its wheel, on its side of the car.
+   subroutine doubt_own_points(suspension, m, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(measure_t), intent(in) :: m
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: beyond = 0.05_wp     ! m: over the middle of the car
+      real(wp), parameter :: far = 0.9_wp         ! m: from the centre of a wheel that steers
+      real(wp) :: at(3)
+      integer :: w
+
+      if (m%kind == axis_axis .or. m%kind == rotation) return
+      do w = 1, size(suspension%wheels)
+         associate (wheel => suspension%wheels(w))
+            if (count(suspension%wheels%body == wheel%body) > 1) cycle
+            if (m%body_i == wheel%body) then
+               at = m%arm_i
+            else if (m%body_j == wheel%body) then
+               at = m%arm_j
+            else
+               cycle
+            end if
+            if (wheel%has_steer_axis .and. norm2(at - wheel%centre) > far) call doubts%add('far joint', &
+               'on the carrier, but '//doubts%speak(length, norm2(at - wheel%centre))//' from the wheel centre; check '// &
+               'the order and the unit of its coordinates')
+            at = point_of(suspension, wheel%body, at)
+            if (wheel%side*at(2) < -beyond) call doubts%add('other side', 'on the carrier of wheel '// &
+               quoted(wheel%name)//', but on the other side of the car; check the sign of y')
+         end associate
+      end do
+   end subroutine doubt_own_points
+
+   !> Checks that the end of a link on a carrier lies outboard of its other end.
+   subroutine doubt_ends(suspension, m, ends, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(measure_t), intent(in) :: m
+      real(wp), intent(in) :: ends(3, 2)           !! m, on body i and body j
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: clearly = 0.06_wp     ! m: longitudinal links may slant by this
+      integer :: w, own
+
+      do w = 1, size(suspension%wheels)
+         associate (wheel => suspension%wheels(w))
+            if (count(suspension%wheels%body == wheel%body) > 1) cycle
+            if (any(suspension%wheels%body == m%body_i) .and. any(suspension%wheels%body == m%body_j)) cycle
+            own = 0
+            if (m%body_i == wheel%body) own = 1
+            if (m%body_j == wheel%body) own = 2
+            if (own == 0) cycle
+            if (wheel%side*(ends(2, own) - ends(2, 3 - own)) < -clearly) call doubts%add('swapped', &
+               'its end on body '//quoted(body_name(suspension, wheel%body))//' lies inboard of its end on '// &
+               quoted(body_name(suspension, merge(m%body_j, m%body_i, own == 1)))//': are the two points swapped?')
+         end associate
+      end do
+   end subroutine doubt_ends
+
+   !> Checks that the axis of a strut is upright.
+   subroutine doubt_slider(suspension, m, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(measure_t), intent(in) :: m
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: upright = 0.7_wp      ! cosine: 45°
+
+      if (.not. (any(suspension%wheels%body == m%body_i) .or. any(suspension%wheels%body == m%body_j))) return
+      if (m%kind /= axis_axis) return
+      if (abs(m%v(3)) < upright) call doubts%add('slider', 'the axis of the strut is '// &
+         str(nint(acos(min(1.0_wp, abs(m%v(3))))/degree))//' deg from the vertical; check the signs of its coordinates')
+   end subroutine doubt_slider
+
+   !> Checks that the lower end of an upright spring is on the wheel's body and the upper one on the chassis.
+   subroutine doubt_upright(suspension, spring, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(element_t), intent(in) :: spring
+      type(doubts_t), intent(inout) :: doubts
+      real(wp) :: up(3)
+      integer :: order
+
+      associate (m => spring%measure)
+         order = rank_of(m%body_j) - rank_of(m%body_i)
+         if (order == 0 .or. m%kind /= distance) return
+         up = point_of(suspension, m%body_j, m%arm_j) - point_of(suspension, m%body_i, m%arm_i)
+         if (sign(1, order)*up(3) > -0.7_wp*norm2(up)) return      ! within 45 deg of the vertical
+         call doubts%examine(spring%where, element_label(spring))
+         call doubts%add('upside down', &
+            'its upper end is on '//quoted(body_name(suspension, merge(m%body_i, m%body_j, order > 0)))// &
+            ', its lower end on '//quoted(body_name(suspension, merge(m%body_j, m%body_i, order > 0)))// &
+            ': are the two points swapped?')
+      end associate
+
+   contains
+
+      !> Rank of a body: above is the chassis, below a wheel's body.
+      pure integer function rank_of(body)
+         integer, intent(in) :: body
+         rank_of = 0
+         if (body == 0) rank_of = 1
+         if (any(suspension%wheels%body == body)) rank_of = -1
+      end function rank_of
+
+   end subroutine doubt_upright
+
+   !> The body moved by the driver of &steering; 0 if there is none.
+   pure integer function rack_body(suspension)
+      type(suspension_t), intent(in) :: suspension
+      integer :: row
+
+      rack_body = 0
+      if (.not. suspension%steering%has_steering) return
+      row = driver_row(suspension, suspension%steering%driver)
+      if (row == 0) return
+      associate (joint => suspension%joints(suspension%rows(row)%joint))
+         rack_body = max(joint%body_i, joint%body_j)
+      end associate
+   end function rack_body
 
 end module ek_plausibility

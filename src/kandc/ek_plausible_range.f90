@@ -10,7 +10,7 @@ module ek_plausible_range
    use ek_units, only: units_t, degree
    implicit none(type, external)
    private
-   public :: doubts_t, judge, ranges, range_number, speak, length, rate, turn_rate, force, moment, angle, mass, share, acceleration
+   public :: doubts_t, length, force
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, turn_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
@@ -101,86 +101,85 @@ module ek_plausible_range
    !> The remarks, each once: the two sides of a mirrored deck come from one line of it.
    type :: doubts_t
       type(message_list_t) :: remarks
-      type(units_t) :: units                       !! of the deck
+      type(units_t) :: units = units_t()               !! of the deck
+      character(:), allocatable, private :: where, thing   !! of the item that is examined: file:line, "spring 'coil'"
       type(message_list_t), private :: seen
    contains
+      procedure :: examine
       procedure :: add
-      procedure :: add_at
+      procedure :: judge
+      procedure :: speak
    end type doubts_t
 
 contains
 
-   !> Adds a remark of a rule on a line of the deck, once per rule and line.
-   pure subroutine add(self, where, rule, text)
+   !> The item that the next remarks are on.
+   pure subroutine examine(self, where, thing)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: where        !! file:line
-      character(*), intent(in) :: rule, text
+      character(*), intent(in) :: thing        !! "spring 'coil'", '' for a text without a head
 
-      call self%add_at(where, where, rule, text)
-   end subroutine add
+      self%where = where
+      self%thing = thing
+   end subroutine examine
 
-   !> The same for a line that may have several remarks of one rule.
-   pure subroutine add_at(self, where, thing, rule, text)
+   !> Adds a remark of a rule, once per rule and line of the deck.
+   pure subroutine add(self, rule, text)
       class(doubts_t), intent(inout) :: self
-      character(*), intent(in) :: where, thing, rule, text
+      character(*), intent(in) :: rule, text
       integer :: k
 
       do k = 1, self%seen%count()
-         if (self%seen%line(k) == rule//' '//thing) return
+         if (self%seen%line(k) == rule//' '//self%where) return
       end do
-      call self%seen%add(rule//' '//thing)
-      if (len(where) > 0) then
-         call self%remarks%add(where//': '//text)
-      else
-         call self%remarks%add(text)
-      end if
-   end subroutine add_at
+      call self%seen%add(rule//' '//self%where)
+      call self%remarks%add(head(self%where)//head(self%thing)//text)
 
-   !> The row of a quantity; 0 if it is not in the table.
-   pure integer function range_number(quantity) result(row)
-      character(*), intent(in) :: quantity
-      do row = size(ranges), 1, -1
-         if (ranges(row)%quantity == quantity) return
-      end do
-   end function range_number
+   contains
+
+      pure function head(of)
+         character(*), intent(in) :: of
+         character(:), allocatable :: head
+         head = ''
+         if (len(of) > 0) head = of//': '
+      end function head
+
+   end subroutine add
 
    !> Compares a value with the range of its quantity, and adds a remark if it lies outside.
-   pure subroutine judge(doubts, where, thing, quantity, value)
-      type(doubts_t), intent(inout) :: doubts
-      character(*), intent(in) :: where        !! file:line
-      character(*), intent(in) :: thing        !! "spring 'coil'"
+   pure subroutine judge(self, quantity, value)
+      class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: quantity     !! of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
       type(range_t) :: row
-      real(wp) :: meant, low, high, x
+      real(wp) :: meant, x, unit, usual
       character(:), allocatable :: text
-      integer :: k
+      integer :: k, u
 
-      k = range_number(quantity)
+      k = findloc(ranges%quantity, quantity, dim=1)
       if (k == 0) then      ! a programming error: found by the tests, which expect no remark on a sound deck
-         call doubts%add(where, quantity, thing//': no range for '//quantity)
+         call self%add(quantity, 'no range for '//quantity)
          return
       end if
       row = ranges(k)
+      unit = deck_unit(row%dimension, self%units)
+      usual = deck_unit(row%dimension, units_t())
       x = value
       if (row%low >= 0.0_wp) x = abs(value)        ! the sign does not matter
       if (row%may_be_zero .and. abs(x) <= 0.0_wp) return
       if (is_within(row, x)) return
-      low = row%low*table_unit(row%dimension)
-      high = row%high*table_unit(row%dimension)
-      text = ''
-      do k = 1, size(units_tried)
-         if (units_tried(k)%dimension /= row%dimension) cycle
-         if (units_tried(k)%name == deck_name(row%dimension, doubts%units)) cycle
-         meant = x/deck_unit(row%dimension, doubts%units)*units_tried(k)%size
+      text = trim(row%suspect)
+      do u = 1, size(units_tried)
+         if (units_tried(u)%dimension /= row%dimension) cycle
+         if (units_tried(u)%name == deck_name(row%dimension, self%units)) cycle
+         meant = x/unit*units_tried(u)%size
          if (.not. is_within(row, meant)) cycle
-         text = 'looks like '//trim(units_tried(k)%name)//': '//short(x/deck_unit(row%dimension, doubts%units))//' '// &
-            trim(units_tried(k)%name)//' would be '//speak(doubts, row%dimension, meant)
+         text = 'looks like '//trim(units_tried(u)%name)//': '//short(x/unit)//' '//trim(units_tried(u)%name)//' would be '// &
+            self%speak(row%dimension, meant)
          exit
       end do
-      if (len(text) == 0) text = trim(row%suspect)
-      call doubts%add(where, quantity, thing//': '//trim(quantity)//' '//speak(doubts, row%dimension, x)// &
-         ' (usual: '//short(low/deck_unit(row%dimension, doubts%units))//' to '//speak(doubts, row%dimension, high)//'); '//text)
+      call self%add(quantity, trim(quantity)//' '//self%speak(row%dimension, x)//' (usual: '// &
+         short(row%low*usual/unit)//' to '//self%speak(row%dimension, row%high*usual)//'); '//text)
    end subroutine judge
 
    !> Whether a value (SI) lies in its range.
@@ -190,20 +189,20 @@ contains
       real(wp), parameter :: rim = 1.0e-9_wp
       real(wp) :: x, widening
 
-      x = value/table_unit(row%dimension)
+      x = value/deck_unit(row%dimension, units_t())
       widening = rim*max(abs(row%low), abs(row%high))
       is_within = x >= row%low - widening .and. x <= row%high + widening
    end function is_within
 
    !> A value with the deck's unit: '29.77 N/mm'.
-   pure function speak(doubts, dimension, value) result(text)
-      type(doubts_t), intent(in) :: doubts
+   pure function speak(self, dimension, value) result(text)
+      class(doubts_t), intent(in) :: self
       integer, intent(in) :: dimension
       real(wp), intent(in) :: value            !! SI
       character(:), allocatable :: text
 
-      text = short(value/deck_unit(dimension, doubts%units))
-      if (dimension /= share) text = text//' '//deck_name(dimension, doubts%units)
+      text = short(value/deck_unit(dimension, self%units))
+      if (dimension /= share) text = text//' '//deck_name(dimension, self%units)
    end function speak
 
    !> A number with five digits, or all digits from 1e5 to 1e9.
@@ -213,32 +212,15 @@ contains
       text = str(x, merge(9, 5, abs(x) >= 1.0e5_wp .and. abs(x) < 1.0e9_wp))
    end function short
 
-   !> SI value of the units of the table above.
-   pure real(wp) function table_unit(dimension)
-      integer, intent(in) :: dimension
-      type(units_t) :: usual
-      table_unit = deck_unit(dimension, usual)
-   end function table_unit
-
    !> SI value of a deck's unit.
    pure real(wp) function deck_unit(dimension, units) result(unit)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
+      real(wp) :: sizes(10)
 
-      select case (dimension)
-      case (length, derived)
-         unit = units%length
-      case (rate)
-         unit = units%force/units%length
-      case (turn_rate)
-         unit = units%force*units%length/units%angle
-      case (force)
-         unit = units%force
-      case (angle)
-         unit = units%angle
-      case default
-         unit = 1.0_wp
-      end select
+      sizes = [units%length, units%force/units%length, units%force*units%length/units%angle, units%force, 1.0_wp, units%angle, &
+         1.0_wp, 1.0_wp, 1.0_wp, units%length]
+      unit = sizes(dimension)
    end function deck_unit
 
    !> Name of a deck's unit.
@@ -246,33 +228,14 @@ contains
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
       character(:), allocatable :: name, force_name, length_name, angle_name
+      character(12) :: names(10)
 
-      force_name = 'N'
-      if (units%force > 1.0_wp) force_name = 'kN'
-      length_name = 'mm'
-      if (units%length > 0.5_wp) length_name = 'm'
-      angle_name = 'deg'
-      if (units%angle > 0.5_wp) angle_name = 'rad'
-      select case (dimension)
-      case (length, derived)
-         name = length_name
-      case (rate)
-         name = force_name//'/'//length_name
-      case (turn_rate)
-         name = force_name//' '//length_name//'/'//angle_name
-      case (force)
-         name = force_name
-      case (moment)
-         name = 'N m'
-      case (angle)
-         name = angle_name
-      case (mass)
-         name = 'kg'
-      case (acceleration)
-         name = 'm/s²'
-      case default
-         name = '1'
-      end select
+      force_name = trim(merge('kN', 'N ', units%force > 1.0_wp))
+      length_name = trim(merge('m ', 'mm', units%length > 0.5_wp))
+      angle_name = merge('rad', 'deg', units%angle > 0.5_wp)
+      names = [character(12) :: length_name, force_name//'/'//length_name, force_name//' '//length_name//'/'//angle_name, &
+         force_name, 'N m', angle_name, 'kg', '1', 'm/s²', length_name]
+      name = trim(names(dimension))
    end function deck_name
 
 end module ek_plausible_range

@@ -5,10 +5,10 @@ module ek_plausible_shape
    use ek_units, only: millimetre, degree
    use ek_measure, only: axis_axis, rotation
    use ek_suspension, only: suspension_t, wheel_t, body_name
-   use ek_plausible_range, only: doubts_t, judge, speak, length
+   use ek_plausible_range, only: doubts_t, length
    implicit none(type, external)
    private
-   public :: doubt_wheels, doubt_points, place
+   public :: doubt_wheels, doubt_points, point_of
 
 contains
 
@@ -17,37 +17,39 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(doubts_t), intent(inout) :: doubts
       real(wp), parameter :: much = 0.05_wp           ! m: more than any staggered axle
-      real(wp) :: centre(3, size(suspension%wheels)), height
-      character(:), allocatable :: thing
+      real(wp) :: centre(3, size(suspension%wheels)), height, off
+      character(26) :: hint
       integer :: w, v
 
       do w = 1, size(suspension%wheels)
          associate (wheel => suspension%wheels(w))
-            thing = 'wheel '//quoted(wheel%name)
-            centre(:, w) = place(suspension, wheel%body, wheel%centre)
+            call doubts%examine(wheel%where, 'wheel '//quoted(wheel%name))
+            centre(:, w) = point_of(suspension, wheel%body, wheel%centre)
             height = wheel%centre(3) - wheel%contact(3)
-            call judge(doubts, wheel%where, thing, 'half track', centre(2, w))
-            call judge(doubts, wheel%where, thing, 'wheel radius', wheel%radius)
-            call judge(doubts, wheel%where, thing, 'height of centre', height)
-            if (abs(wheel%radius - height) > 0.15_wp*height) call doubts%add(wheel%where, 'radius', thing//': radius '// &
-               speak(doubts, length, wheel%radius)//', but its centre is '//speak(doubts, length, height)// &
-               ' above its contact point'//diameter(wheel%radius/height))
-            call judge(doubts, wheel%where, thing, 'contact offset', norm2(wheel%contact(1:2) - wheel%centre(1:2)))
-            call judge(doubts, wheel%where, thing, 'static toe', wheel%toe)
-            call judge(doubts, wheel%where, thing, 'static camber', wheel%camber)
-            if (wheel%tyre_rate > 0.0_wp) call judge(doubts, wheel%where, thing, 'tyre rate', wheel%tyre_rate)
-            if (wheel%has_steer_axis) call doubt_steer_axis(suspension, wheel, thing, doubts)
+            call doubts%judge('half track', centre(2, w))
+            call doubts%judge('wheel radius', wheel%radius)
+            call doubts%judge('height of centre', height)
+            hint = ''
+            if (wheel%radius > 1.7_wp*height .and. wheel%radius < 2.3_wp*height) hint = '; looks like the diameter'
+            if (wheel%radius > 0.43_wp*height .and. wheel%radius < 0.58_wp*height) hint = '; looks like half of it'
+            if (abs(wheel%radius - height) > 0.15_wp*height) call doubts%add('radius', 'radius '// &
+               doubts%speak(length, wheel%radius)//', but its centre is '//doubts%speak(length, height)// &
+               ' above its contact point'//trim(hint))
+            call doubts%judge('contact offset', norm2(wheel%contact(1:2) - wheel%centre(1:2)))
+            call doubts%judge('static toe', wheel%toe)
+            call doubts%judge('static camber', wheel%camber)
+            if (wheel%tyre_rate > 0.0_wp) call doubts%judge('tyre rate', wheel%tyre_rate)
+            if (wheel%has_steer_axis) call doubt_steer_axis(suspension, wheel, doubts)
             call doubt_carrier(suspension, w, doubts)
             do v = 1, w - 1
                associate (other => suspension%wheels(v))
+                  off = max(abs(centre(2, w) + centre(2, v)), maxval(abs(centre([1, 3], w) - centre([1, 3], v))))
                   if (other%body == wheel%body .and. other%side == wheel%side) then
-                     call doubts%add(wheel%where, 'same side', thing//': body '//quoted(body_name(suspension, wheel%body))// &
+                     call doubts%add('same side', 'body '//quoted(body_name(suspension, wheel%body))// &
                         ' has a second wheel on the same side, '//quoted(other%name)//'; dual tyres count as one wheel')
-                  else if (other%side /= wheel%side .and. max(abs(centre(2, w) + centre(2, v)), &
-                        maxval(abs(centre([1, 3], w) - centre([1, 3], v)))) > much) then
-                     call doubts%add(wheel%where, 'asymmetric', thing//': its centre is not opposite to that of wheel '// &
-                        quoted(other%name)//' (off by '//speak(doubts, length, max(abs(centre(2, w) + centre(2, v)), &
-                        maxval(abs(centre([1, 3], w) - centre([1, 3], v)))))//')')
+                  else if (other%side /= wheel%side .and. off > much) then
+                     call doubts%add('asymmetric', 'its centre is not opposite to that of wheel '//quoted(other%name)// &
+                        ' (off by '//doubts%speak(length, off)//')')
                   end if
                end associate
             end do
@@ -55,47 +57,35 @@ contains
       end do
    end subroutine doubt_wheels
 
-   !> Likely cause of a wrong radius.
-   pure function diameter(ratio) result(text)
-      real(wp), intent(in) :: ratio
-      character(:), allocatable :: text
-      text = ''
-      if (ratio > 1.7_wp .and. ratio < 2.3_wp) text = '; looks like the diameter'
-      if (ratio > 0.43_wp .and. ratio < 0.58_wp) text = '; looks like half of it'
-   end function diameter
-
    !> The geometric steer axis: caster, kingpin inclination, scrub radius, trail.
-   subroutine doubt_steer_axis(suspension, wheel, thing, doubts)
+   subroutine doubt_steer_axis(suspension, wheel, doubts)
       type(suspension_t), intent(in) :: suspension
       type(wheel_t), intent(in) :: wheel
-      character(*), intent(in) :: thing
       type(doubts_t), intent(inout) :: doubts
-      real(wp) :: up(3), ground(3), low(3)
+      real(wp) :: up(3), ground(3), low(3), off
       real(wp), parameter :: level = 0.7_wp        ! cosine: more than 45° from the vertical
       real(wp), parameter :: far = 0.9_wp          ! m: the top mount of a large strut is 0.7 m from the wheel centre
       integer :: lower
+      logical :: is_front
 
       lower = merge(1, 2, wheel%steer_axis(3, 1) <= wheel%steer_axis(3, 2))
       low = wheel%steer_axis(:, lower)
       up = wheel%steer_axis(:, 3 - lower) - low
-      if (maxval([norm2(low - wheel%centre), norm2(low + up - wheel%centre)]) > far) call doubts%add(wheel%where, &
-         'axis point', thing//': a point of its steer_axis is '//speak(doubts, length, max(norm2(low - wheel%centre), &
-         norm2(low + up - wheel%centre)))//' from the wheel centre; check the order and the unit of its coordinates')
+      off = max(norm2(low - wheel%centre), norm2(low + up - wheel%centre))
+      if (off > far) call doubts%add('axis point', 'a point of its steer_axis is '//doubts%speak(length, off)// &
+         ' from the wheel centre; check the order and the unit of its coordinates')
       if (up(3) < level*norm2(up)) then
-         call doubts%add(wheel%where, 'level axis', thing//': its steer_axis is nearly horizontal, '//str(nint(acos(min(1.0_wp, &
+         call doubts%add('level axis', 'its steer_axis is nearly horizontal, '//str(nint(acos(min(1.0_wp, &
             up(3)/norm2(up)))/degree))//' deg from the vertical; it runs from the lower ball joint to the upper one or '// &
             'the top mount')
          return
       end if
-      if (suspension%steering%has_steering .or. (suspension%axle%has_axle .and. suspension%axle%is_front)) then
-         call judge(doubts, wheel%where, thing, 'caster of a front axle', atan2(up(1), up(3)))
-      else
-         call judge(doubts, wheel%where, thing, 'caster', atan2(up(1), up(3)))
-      end if
-      call judge(doubts, wheel%where, thing, 'kingpin inclination', atan2(-wheel%side*up(2), up(3)))
+      is_front = suspension%steering%has_steering .or. (suspension%axle%has_axle .and. suspension%axle%is_front)
+      call doubts%judge(trim(merge('caster of a front axle', 'caster                ', is_front)), atan2(up(1), up(3)))
+      call doubts%judge('kingpin inclination', atan2(-wheel%side*up(2), up(3)))
       ground = low + up*((wheel%contact(3) - low(3))/up(3))
-      call judge(doubts, wheel%where, thing, 'scrub radius', wheel%side*(wheel%contact(2) - ground(2)))
-      call judge(doubts, wheel%where, thing, 'caster trail', wheel%contact(1) - ground(1))
+      call doubts%judge('scrub radius', wheel%side*(wheel%contact(2) - ground(2)))
+      call doubts%judge('caster trail', wheel%contact(1) - ground(1))
    end subroutine doubt_steer_axis
 
    !> Checks that a wheel is on its carrier: no other body has its joints much nearer to the wheel's centre.
@@ -112,12 +102,12 @@ contains
          if (count(suspension%wheels%body == wheel%body) > 1) return      ! a beam from wheel to wheel
          call middle_of_joints(suspension, mean, joints)
          do b = 1, size(off)
-            off(b) = norm2(mean(:, b) - place(suspension, wheel%body, wheel%centre))
+            off(b) = norm2(mean(:, b) - point_of(suspension, wheel%body, wheel%centre))
          end do
          do b = 1, size(off)
             if (b == wheel%body .or. joints(b) < most .or. any(suspension%wheels%body == b)) cycle
-            if (2.0_wp*off(b) < off(wheel%body) .and. off(b) < beside) call doubts%add(wheel%where, 'carrier', 'wheel '// &
-               quoted(wheel%name)//': it is on body '//quoted(body_name(suspension, wheel%body))//', but the joints of body '// &
+            if (2.0_wp*off(b) < off(wheel%body) .and. off(b) < beside) call doubts%add('carrier', &
+               'it is on body '//quoted(body_name(suspension, wheel%body))//', but the joints of body '// &
                quoted(body_name(suspension, b))//' surround its centre: which of the two is the carrier?')
          end do
       end associate
@@ -155,7 +145,7 @@ contains
       subroutine include(body, arm)
          integer, intent(in) :: body
          real(wp), intent(in) :: arm(3)
-         mean(:, body) = mean(:, body) + place(suspension, body, arm)
+         mean(:, body) = mean(:, body) + point_of(suspension, body, arm)
          joints(body) = joints(body) + 1
       end subroutine include
 
@@ -168,51 +158,47 @@ contains
       real(wp), parameter :: tiny_place = 2.0_wp*millimetre   ! but not the origin: metres in a deck of millimetres
       real(wp), parameter :: far = 3.0_wp, tall = 1.7_wp      ! m: from the wheel, above the road
       real(wp), parameter :: beside = 0.02_wp, under = 0.03_wp, outboard = 0.25_wp
-      real(wp) :: centre(3), road, half
-      character(:), allocatable :: thing
+      real(wp) :: centres(3, size(suspension%wheels)), heights(size(suspension%wheels)), road, half, off
       integer :: k, w
 
       if (size(suspension%wheels) == 0) return
-      half = 0.0_wp
-      centre = 0.0_wp
-      road = huge(road)
       do w = 1, size(suspension%wheels)
-         centre = place(suspension, suspension%wheels(w)%body, suspension%wheels(w)%contact)
-         road = min(road, centre(3))
-         centre = place(suspension, suspension%wheels(w)%body, suspension%wheels(w)%centre)
-         half = max(half, abs(centre(2)))
+         centres(:, w) = point_of(suspension, suspension%wheels(w)%body, suspension%wheels(w)%centre)
+         heights(w) = centres(3, w) + suspension%wheels(w)%contact(3) - suspension%wheels(w)%centre(3)
       end do
+      half = maxval(abs(centres(2, :)))
+      road = minval(heights)
       do k = 1, size(suspension%points)
          associate (p => suspension%points(k))
             if (.not. p%is_used) cycle
-            thing = 'point '//quoted(p%name)//': '
+            off = norm2(p%at - [centres(1, size(heights)), sign(half, p%at(2)), centres(3, size(heights))])
+            call doubts%examine(p%where, 'point '//quoted(p%name))
             if (half > 100.0_wp*tiny_place .and. maxval(abs(p%at)) > 0.0_wp .and. maxval(abs(p%at)) < tiny_place) then
-               call doubts%add(p%where, 'tiny', thing//'all its coordinates are below '//speak(doubts, length, tiny_place)// &
+               call doubts%add('tiny', 'all its coordinates are below '//doubts%speak(length, tiny_place)// &
                   '; looks like m')
             else if (p%at(3) < road - under) then
-               call doubts%add(p%where, 'under', thing//speak(doubts, length, road - p%at(3))// &
+               call doubts%add('under', doubts%speak(length, road - p%at(3))// &
                   ' below the road; check the sign and the origin of z, and the order of the coordinates')
             else if (abs(p%at(2)) > half + outboard) then
-               call doubts%add(p%where, 'outboard', thing//speak(doubts, length, abs(p%at(2)) - half)// &
+               call doubts%add('outboard', doubts%speak(length, abs(p%at(2)) - half)// &
                   ' outboard of the wheel centre; check the order and the unit of the coordinates')
-            else if (norm2(p%at - [centre(1), sign(half, p%at(2)), centre(3)]) > far .or. p%at(3) > road + tall) then
-               call doubts%add(p%where, 'far', thing//speak(doubts, length, norm2(p%at - [centre(1), sign(half, p%at(2)), &
-                  centre(3)]))//' from the wheel; check its unit')
+            else if (off > far .or. p%at(3) > road + tall) then
+               call doubts%add('far', doubts%speak(length, off)//' from the wheel; check its unit')
             else if (size(suspension%wheels) == 1 .and. suspension%wheels(1)%side*p%at(2) < -beside) then
-               call doubts%add(p%where, 'side', thing//'on the other side of the car than the wheel; check the sign of y')
+               call doubts%add('side', 'on the other side of the car than the wheel; check the sign of y')
             end if
          end associate
       end do
    end subroutine doubt_points
 
    !> A point of a body at design [m].
-   pure function place(suspension, body, arm) result(at)
+   pure function point_of(suspension, body, arm) result(at)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
       real(wp), intent(in) :: arm(3)
       real(wp) :: at(3)
       at = arm
       if (body > 0) at = at + suspension%bodies(body)%origin
-   end function place
+   end function point_of
 
 end module ek_plausible_shape

@@ -1,11 +1,11 @@
 !> Remarks on the solution of a case as data: notes, warnings and errors, in the order in which they were found.
 module ek_remark
    use ek_kinds, only: wp
-   use ek_text, only: quoted
+   use ek_text, only: str, quoted
    use ek_case, only: case_t
    implicit none(type, external)
    private
-   public :: remark_t, remark_list_t
+   public :: remark_t, remark_list_t, swept_words
    public :: note, warning, failure
    public :: on_case, on_end, on_settling, on_drift, on_travel, on_stability, on_rack, on_curve, on_closure
 
@@ -34,18 +34,26 @@ module ek_remark
    !> The remarks on a case.
    type :: remark_list_t
       type(remark_t), allocatable, private :: remarks(:)
-      integer, private :: used = 0
    contains
       procedure :: add => list_add
       procedure :: count => list_count
       procedure :: item => list_item
-      procedure :: line => list_line         !! text of remark number k, without its head
-      procedure :: text => list_text         !! all texts, one after the other
       procedure :: failures => list_failures
       procedure :: has_failed => list_has_failed
    end type remark_list_t
 
 contains
+
+   !> A swept value of a case on the rig: 'wheel travel = 12.5 mm'.
+   pure function swept_words(case, value, digits) result(text)
+      type(case_t), intent(in) :: case
+      real(wp), intent(in) :: value      !! SI
+      integer, intent(in) :: digits
+      character(:), allocatable :: text
+
+      text = case%place_name//' = '//str(value/case%unit, digits)
+      if (case%unit_name /= '-') text = text//' '//case%unit_name
+   end function swept_words
 
    !> 'case 'x': text'
    pure function whole(self) result(text)
@@ -64,32 +72,26 @@ contains
       character(*), intent(in) :: text
       real(wp), intent(in), optional :: place           !! swept value, SI
       logical, intent(in), optional :: is_of_method     !! the head names the method
-      type(remark_t), allocatable :: grown(:)
+      type(remark_t) :: new
 
       if (len(text) == 0) return
-      if (.not. allocated(self%remarks)) allocate (self%remarks(8))
-      if (self%used == size(self%remarks)) then
-         allocate (grown(2*self%used))
-         grown(:self%used) = self%remarks
-         call move_alloc(grown, self%remarks)
-      end if
-      self%used = self%used + 1
-      associate (new => self%remarks(self%used))
-         new%severity = severity
-         new%topic = topic
-         new%case = case%name
-         new%text = text
-         new%head = ''
-         if (topic /= on_case) new%head = 'case '//quoted(case%name)
-         if (present(is_of_method)) new%head = new%head//', method '//case%method
-         new%has_place = present(place)
-         if (present(place)) new%place = place
-      end associate
+      new%severity = severity
+      new%topic = topic
+      new%case = case%name
+      new%text = text
+      new%head = ''
+      if (topic /= on_case) new%head = 'case '//quoted(case%name)
+      if (present(is_of_method)) new%head = new%head//', method '//case%method
+      new%has_place = present(place)
+      if (present(place)) new%place = place
+      if (.not. allocated(self%remarks)) allocate (self%remarks(0))
+      self%remarks = [self%remarks, new]
    end subroutine list_add
 
    pure integer function list_count(self)
       class(remark_list_t), intent(in) :: self
-      list_count = self%used
+      list_count = 0
+      if (allocated(self%remarks)) list_count = size(self%remarks)
    end function list_count
 
    pure type(remark_t) function list_item(self, k)
@@ -98,30 +100,11 @@ contains
       list_item = self%remarks(k)
    end function list_item
 
-   pure function list_line(self, k) result(text)
-      class(remark_list_t), intent(in) :: self
-      integer, intent(in) :: k
-      character(:), allocatable :: text
-      text = self%remarks(k)%text
-   end function list_line
-
-   pure function list_text(self) result(text)
-      class(remark_list_t), intent(in) :: self
-      character(:), allocatable :: text
-      integer :: k
-
-      text = ''
-      do k = 1, self%used
-         if (k > 1) text = text//new_line('a')
-         text = text//self%remarks(k)%text
-      end do
-   end function list_text
-
    pure logical function list_has_failed(self)
       class(remark_list_t), intent(in) :: self
 
-      list_has_failed = self%used > 0
-      if (list_has_failed) list_has_failed = any(self%remarks(:self%used)%severity == failure)
+      list_has_failed = .false.
+      if (allocated(self%remarks)) list_has_failed = any(self%remarks%severity == failure)
    end function list_has_failed
 
    !> All failures, one after the other; '' if there are none.
@@ -131,7 +114,7 @@ contains
       integer :: k
 
       text = ''
-      do k = 1, self%used
+      do k = 1, self%count()
          if (self%remarks(k)%severity /= failure) cycle
          if (len(text) > 0) text = text//new_line('a')
          text = text//self%remarks(k)%whole()

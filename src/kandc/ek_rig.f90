@@ -1,22 +1,12 @@
-!> The test rig: the loads and drivers that a case of the deck applies to the wheels.
+!> The test rig: the rows, loads and actuations that a case of the deck adds to a suspension.
 !>
-!> `mount` puts a suspension on the rig for one case: it returns a copy of the suspension with the loads and the drivers of the
-!> test, and a copy of the case with an actuation for each that defines how it follows the swept value.
+!> `rig_of` makes the rig of a case as a value of its own; it cannot fail, reads no file and changes nothing. The tests are in
+!> ek_rig_test.
 !>
-!> | test            | swept value     | left, right wheel                      | wheels held by   |
-!> |-----------------|-----------------|----------------------------------------|------------------|
-!> | parallel_travel | travel          | both up                                | height, driven   |
-!> | opposite_travel | travel          | left up, right down                    | height, driven   |
-!> | single_travel   | travel          | one up, the other at rest              | height, driven   |
-!> | roll            | axle roll       | height(left) − height(right) = t tan φ | difference only: |
-!> |                 |                 |                                        | constant load    |
-!> | steering        | rack travel     | constant heights                       | height           |
-!> | lateral_force   | force           | +y at the patch, moment force × trail  | vertical force   |
-!> | braking         | force           | rearward at the patch                  | vertical force   |
-!> | traction        | force           | forward at the wheel centre            | vertical force   |
-!> | aligning_torque | moment          | about z, counterclockwise from above   | vertical force   |
-!> | vertical_force  | force           | upward at the patch                    | vertical force   |
-!> | table           | row of the file | its columns                            | vertical force   |
+!> `put_on` makes one flat model of a suspension and a rig, its rows and loads after those of the suspension: an increment needs
+!> one list of rows, one of loads and one reaction vector λ. The split is by number: `own_rows` of the suspension come first in Φ
+!> and in λ, and "released" means without the rows behind them. In the same way the case on the rig is the case with the
+!> actuations of its rig: a rig carried beside both would be one more argument of every procedure and split nothing else.
 !>
 !> A wheel held by height has a driver on its centre, or on its patch (vertical = 'patch'); on the road (vertical =
 !> 'road') that driver is the road's height, on which the patch rests through the rate of its tyre; held by vertical
@@ -26,236 +16,279 @@
 module ek_rig
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_units, only: degree, millimetre
-   use ek_wheel_side, only: side_name, height_name, left_and_right, design_track
-   use ek_measure, only: rotation, axis_axis
+   use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table
+   use ek_wheel_side, only: side_name, left_and_right, design_track
+   use ek_measure, only: measure_t, global_gap, rotation, axis_axis
+   use ek_joint, only: joint_t, row_t, term_t
    use ek_suspension, only: suspension_t, load_t, driver_row
-   use ek_builder, only: add_travel_driver, add_height_driver, add_load
-   use ek_case, only: case_t, append_course, is_mountable, follows_place, follows_tangent, follows_table
+   use ek_case, only: case_t, actuation_t, append_actuation, is_mountable, follows_place, follows_tangent, follows_table
    implicit none(type, external)
    private
-   public :: mount
+   public :: rig_t, new_rig, rig_of, add_height, put_on, mount
 
-   integer, parameter :: moves_heights = 1, rolls = 2, steers = 3, loads_wheels = 4, takes_table = 5
+   !> What a case adds to a suspension. Its joints, rows, terms and loads count on from those of the suspension.
+   type :: rig_t
+      type(joint_t), allocatable :: joints(:)            !! drivers of heights, one row each
+      type(row_t), allocatable :: rows(:)
+      type(term_t), allocatable :: terms(:)
+      type(load_t), allocatable :: loads(:)
+      type(actuation_t), allocatable :: actuations(:)    !! of its own loads and rows, and of those that the case names
+      real(wp) :: from = 0.0_wp, to = 0.0_wp             !! swept values, SI
+      integer :: increments = 0
+      character(:), allocatable :: unit, place_name      !! of the swept value: 'mm', 'wheel travel'
+   end type rig_t
 
-   !> A test: what it does with the wheels.
-   type :: test_t
-      character(15) :: name
-      integer :: kind                        !! one of those above
-      character(6) :: control                !! how the wheels are held, unless the case says otherwise
-      character(3) :: unit_name              !! of the swept value
-      character(45) :: place_name            !! of the swept value, for moves_heights and loads_wheels
-      real(wp) :: shares(2) = 1.0_wp         !! moves_heights: height per swept value, left and right
-      real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value on the left wheel, at the patch
-      real(wp) :: moment(3) = 0.0_wp
-   end type test_t
-
-   character(*), parameter :: wheel_travel = 'wheel travel'
-   real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp], right(3) = [0.0_wp, 1.0_wp, 0.0_wp], rear(3) = [1.0_wp, 0.0_wp, 0.0_wp]
-
-   type(test_t), parameter :: tests(11) = [ &
-      test_t('parallel_travel', moves_heights, 'centre', 'mm', wheel_travel), &
-      test_t('opposite_travel', moves_heights, 'centre', 'mm', 'travel of the left wheel, right wheel opposed', &
-         shares=[1.0_wp, -1.0_wp]), &
-      test_t('single_travel', moves_heights, 'centre', 'mm', ''), &
-      test_t('roll', rolls, 'patch', 'deg', 'axle roll, left wheel up'), &
-      test_t('steering', steers, 'centre', '', ''), &
-      test_t('lateral_force', loads_wheels, 'force', 'N', 'lateral force at each patch', force=right), &
-      test_t('braking', loads_wheels, 'force', 'N', 'braking force at each patch', force=rear), &
-      test_t('traction', loads_wheels, 'force', 'N', 'traction force at each wheel centre', force=-rear), &
-      test_t('aligning_torque', loads_wheels, 'force', 'N m', 'aligning torque on each wheel', moment=up), &
-      test_t('vertical_force', loads_wheels, 'force', 'N', 'change of vertical force at each patch', force=up), &
-      test_t('table', takes_table, 'force', '-', '')]
+   character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! no name of a deck begins so
+   real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp], nothing(3) = 0.0_wp
 
 contains
 
-   !> Puts a completed suspension on the rig for a case. A case without a test uses the drive or load that it names.
+   !> Puts a completed suspension on the rig of a case.
    pure subroutine mount(base, given, suspension, this)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: given               !! is_mountable
       type(suspension_t), intent(out) :: suspension   !! on the rig
-      type(case_t), intent(out) :: this               !! with its actuations, unit and name of the swept value
-      integer :: k
+      type(case_t), intent(out) :: this               !! with its actuations, range, unit and name of the swept value
+      type(rig_t) :: rig
 
       if (are_checked) call require(is_mountable(given), 'mount: the table of the case was not read')
-      suspension = base
+      rig = rig_of(base, given)
+      call put_on(rig, base, suspension)
       this = given
       if (.not. allocated(this%test)) this%test = ''
-      if (len(this%test) == 0) then
-         if (this%drive == 'wheel_travel') call add_travel_driver(suspension, this%wheel)
-         call name_place(suspension, this)
-         return
-      end if
-      if (allocated(this%courses)) deallocate (this%courses)
-      allocate (this%courses(0))
-      do k = 1, size(tests)
-         if (tests(k)%name == this%test) call apply(tests(k), suspension, this)
-      end do
+      this%actuations = rig%actuations
+      this%from = rig%from
+      this%to = rig%to
+      this%increments = rig%increments
+      this%unit = swept_unit(rig%unit)
+      this%unit_name = rig%unit
+      this%place_name = rig%place_name
    end subroutine mount
 
-   !> The loads, drivers and actuations of a test.
-   pure subroutine apply(test, suspension, this)
-      type(test_t), intent(in) :: test
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(inout) :: this
-      character(:), allocatable :: control
-      integer :: wheels(2)
+   !> A suspension and a rig as one flat model.
+   pure subroutine put_on(rig, base, suspension)
+      type(rig_t), intent(in) :: rig                  !! made for this suspension
+      type(suspension_t), intent(in) :: base
+      type(suspension_t), intent(out) :: suspension
 
-      call left_and_right(suspension, wheels)
-      control = trim(test%control)
-      if (allocated(this%vertical)) then
-         if (len(this%vertical) > 0) control = this%vertical
+      suspension = base
+      suspension%joints = [base%joints, rig%joints]
+      suspension%rows = [base%rows, rig%rows]
+      suspension%terms = [base%terms, rig%terms]
+      suspension%loads = [base%loads, rig%loads]
+      suspension%rig_rows = base%rig_rows + size(rig%rows)
+      suspension%rig_loads = base%rig_loads + size(rig%loads)
+   end subroutine put_on
+
+   !> A rig without rows and loads.
+   pure type(rig_t) function new_rig() result(rig)
+      allocate (rig%joints(0), rig%rows(0), rig%terms(0), rig%loads(0), rig%actuations(0))
+      rig%unit = '-'
+      rig%place_name = ''
+   end function new_rig
+
+   !> The rig of a case. A case without a test uses the drive or load that it names.
+   pure type(rig_t) function rig_of(suspension, case) result(rig)
+      type(suspension_t), intent(in) :: suspension    !! completed, on no rig
+      type(case_t), intent(in) :: case                !! a table that was not read has no rows: the rig then moves nothing
+      type(rig_test_t) :: test
+      character(6) :: control
+      integer :: wheels(2), side
+
+      rig = new_rig()
+      rig%from = case%from
+      rig%to = case%to
+      rig%increments = case%increments
+      if (allocated(case%test)) test = rig_test(case%test)
+      if (test%action == 0) then
+         call follow_deck(suspension, case, rig)
+         return
       end if
-      this%unit = unit_of(test%unit_name)
-      this%unit_name = trim(test%unit_name)
-      this%place_name = trim(test%place_name)
-      if (test%kind /= rolls) call hold_heights(suspension, this, wheels, control)
-      select case (test%kind)
+      call left_and_right(suspension, wheels)
+      control = test%control
+      if (allocated(case%vertical)) then
+         if (len(case%vertical) > 0) control = case%vertical
+      end if
+      rig%unit = trim(test%unit)
+      rig%place_name = trim(test%place_name)
+      if (test%action /= rolls .and. control /= 'force') then
+         do side = 1, 2
+            if (wheels(side) > 0) call add_height(rig, suspension, trim(heights(side)), case%where, wheels(side:side), [1.0_wp], &
+               control)
+         end do
+      end if
+      select case (test%action)
       case (moves_heights)
-         call move_heights(test, suspension, this, wheels, control)
+         call move_heights(test, suspension, case, wheels, control, rig)
       case (rolls)
-         call add_height(suspension, this, 'rig_roll', wheels, [1.0_wp, -1.0_wp], control)
-         call append_course(this%courses, '', 'rig_roll', design_track(suspension), follows_tangent)
-         if (control == 'road') this%place_name = 'roll of the road, left up'
+         call add_height(rig, suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control)
+         call append_actuation(rig%actuations, '', 'rig_roll', design_track(suspension), follows_tangent)
+         if (control == 'road') rig%place_name = 'roll of the road, left up'
       case (steers)
-         call append_course(this%courses, '', this%drive, 1.0_wp, follows_place)
-         this%place_name = 'travel of '//this%drive
-         call take_unit_of(suspension, driver_row(suspension, this%drive), this)
+         call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_place)
+         rig%place_name = 'travel of '//case%drive
+         call take_unit_of(suspension, case%drive, rig)
       case (loads_wheels)
-         call load_wheels(test, suspension, this, wheels)
+         call load_wheels(test, suspension, case, wheels, rig)
       case (takes_table)
-         call take_rows(suspension, this)
+         call take_rows(suspension, case, control, rig)
       end select
-   end subroutine apply
+   end function rig_of
+
+   !> The drive or the loads that a case without a test names.
+   pure subroutine follow_deck(suspension, case, rig)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(rig_t), intent(inout) :: rig
+
+      if (allocated(case%actuations)) then
+         rig%actuations = case%actuations
+         rig%place_name = 'factor of the loads'
+         return
+      end if
+      call append_actuation(rig%actuations, case%load, case%drive, 1.0_wp, follows_place)
+      rig%place_name = 'factor of load '//case%load
+      if (len(case%load) > 0) return
+      rig%place_name = 'change of '//case%drive
+      if (case%drive == 'wheel_travel') call add_height(rig, suspension, case%drive, suspension%wheels(case%wheel)%where, &
+         [case%wheel], [1.0_wp], 'centre')
+      call take_unit_of(suspension, case%drive, rig)
+   end subroutine follow_deck
 
    !> Heights that follow the swept value; with vertical = 'force', vertical forces instead.
-   pure subroutine move_heights(test, suspension, this, wheels, control)
-      type(test_t), intent(in) :: test
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(inout) :: this
+   pure subroutine move_heights(test, suspension, case, wheels, control, rig)
+      type(rig_test_t), intent(in) :: test
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
       integer, intent(in) :: wheels(2)
       character(*), intent(in) :: control
+      type(rig_t), intent(inout) :: rig
       real(wp) :: shares(2)
       integer :: side
 
       shares = test%shares
-      if (test%name == 'single_travel') then
-         shares = merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], this%wheel == wheels(1))
-         this%place_name = 'travel of the '//trim(side_name(merge(1, 2, this%wheel == wheels(1))))//' wheel'
+      if (of_one_wheel(test)) then
+         shares = merge([1.0_wp, 0.0_wp], [0.0_wp, 1.0_wp], case%wheel == wheels(1))
+         rig%place_name = 'travel of the '//trim(side_name(merge(1, 2, case%wheel == wheels(1))))//' wheel'
       end if
       if (control == 'force') then
-         this%unit = 1.0_wp
-         this%unit_name = 'N'
-         this%place_name = 'change of vertical force, in place of '//this%place_name
+         rig%unit = 'N'
+         rig%place_name = 'change of vertical force, in place of '//rig%place_name
       else if (control == 'road') then
-         this%place_name = 'height of the road, in place of '//this%place_name
+         rig%place_name = 'height of the road, in place of '//rig%place_name
       end if
       do side = 1, 2
          if (wheels(side) == 0) cycle
          if (control == 'force') then
-            call add_wheel_load(suspension, this, wheels(side), trim(side_name(side)), up, [0.0_wp, 0.0_wp, 0.0_wp], .true., &
-               shares(side), follows_place)
+            call add_load(rig, suspension, case, wheels(side), trim(side_name(side)), up, nothing, .true., shares(side), &
+               follows_place)
          else
-            call append_course(this%courses, '', height_name(side), shares(side), follows_place)
+            call append_actuation(rig%actuations, '', trim(heights(side)), shares(side), follows_place)
          end if
       end do
    end subroutine move_heights
 
-   !> A driver of the height of each wheel's centre or patch, or of the road under it, unless the vertical force is held.
-   pure subroutine hold_heights(suspension, this, wheels, control)
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(in) :: this
-      integer, intent(in) :: wheels(2)
-      character(*), intent(in) :: control
-      integer :: side
-
-      if (control == 'force') return
-      do side = 1, 2
-         if (wheels(side) > 0) call add_height(suspension, this, height_name(side), wheels(side:side), [1.0_wp], control)
-      end do
-   end subroutine hold_heights
-
-   !> A driver of Σ sign × height of wheel centres, patches, or of the road under the tyres.
-   pure subroutine add_height(suspension, this, name, wheels, signs, control)
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(in) :: this
-      character(*), intent(in) :: name
-      integer, intent(in) :: wheels(:)
-      real(wp), intent(in) :: signs(:)         !! one per wheel
-      character(*), intent(in) :: control      !! 'centre', 'patch' or 'road'
-      real(wp) :: tyre_rate(size(wheels))
-
-      if (control == 'road') then
-         tyre_rate = suspension%wheels(wheels)%tyre_rate
-         call add_height_driver(suspension, name, this%where, wheels, signs, .true., tyre_rate)
-      else
-         call add_height_driver(suspension, name, this%where, wheels, signs, control == 'patch')
-      end if
-   end subroutine add_height
-
    !> A unit load on each wheel, scaled by the case.
-   pure subroutine load_wheels(test, suspension, this, wheels)
-      type(test_t), intent(in) :: test
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(inout) :: this
+   pure subroutine load_wheels(test, suspension, case, wheels, rig)
+      type(rig_test_t), intent(in) :: test
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
       integer, intent(in) :: wheels(2)
-      real(wp) :: moment(3)
+      type(rig_t), intent(inout) :: rig
       logical :: is_at_patch
       integer :: side
 
-      moment = test%moment
-      if (test%name == 'lateral_force') moment(3) = this%offset
-      is_at_patch = test%name /= 'traction' .or. suspension%axle%drives_at_patch
-      if (test%name == 'traction' .and. is_at_patch) this%place_name = 'traction force at each patch'
+      is_at_patch = .not. test%is_at_centre .or. suspension%axle%drives_at_patch
+      if (test%is_at_centre .and. is_at_patch) rig%place_name = 'traction force at each patch'
       do side = 1, 2
-         if (wheels(side) == 0) cycle
-         call add_wheel_load(suspension, this, wheels(side), trim(side_name(side)), test%force, moment, is_at_patch, &
-            merge(-1.0_wp, 1.0_wp, this%is_anti .and. side == 2), follows_place)
+         if (wheels(side) > 0) call add_load(rig, suspension, case, wheels(side), trim(side_name(side)), test%force, &
+            test%moment + merge(case%offset, 0.0_wp, test%has_trail)*up, is_at_patch, &
+            merge(-1.0_wp, 1.0_wp, case%is_anti .and. side == 2), follows_place)
       end do
    end subroutine load_wheels
 
    !> The loads and drivers of the columns of a table; its rows become the path of the case.
-   pure subroutine take_rows(suspension, this)
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(inout) :: this
-      real(wp) :: unit(6), direction
-      character(:), allocatable :: height
-      integer :: k
+   pure subroutine take_rows(suspension, case, control, rig)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      character(*), intent(in) :: control
+      type(rig_t), intent(inout) :: rig
+      real(wp) :: unit(6)
+      integer :: k, side
 
-      this%place_name = 'row of '//this%file
-      if (.not. is_mountable(this)) return
-      do k = 1, size(this%table%columns)
-         associate (column => this%table%columns(k))
+      rig%place_name = 'row of '//case%file
+      if (.not. is_mountable(case)) return
+      do k = 1, size(case%table%columns)
+         associate (column => case%table%columns(k))
             if (column%wheel == 0) then
-               call append_course(this%courses, '', column%name, 1.0_wp, follows_table, column%values)
+               call append_actuation(rig%actuations, '', column%name, 1.0_wp, follows_table, column%values)
             else if (column%component == 0) then
-               height = height_name(merge(1, 2, suspension%wheels(column%wheel)%side < 0))
-               if (driver_row(suspension, height) == 0) &
-                  call add_height(suspension, this, height, [column%wheel], [1.0_wp], 'centre')
-               call append_course(this%courses, '', height, 1.0_wp, follows_table, column%values)
+               side = merge(1, 2, suspension%wheels(column%wheel)%side < 0)
+               if (control == 'force') &
+                  call add_height(rig, suspension, trim(heights(side)), case%where, [column%wheel], [1.0_wp], 'centre')
+               call append_actuation(rig%actuations, '', trim(heights(side)), 1.0_wp, follows_table, column%values)
             else
-               direction = 1.0_wp
-               if (suspension%is_iso .and. mod(column%component, 3) > 0) direction = -1.0_wp      ! x and y of the deck
                unit = 0.0_wp
-               unit(mod(column%component - 1, 6) + 1) = direction
-               call add_wheel_load(suspension, this, column%wheel, column%name, unit(1:3), unit(4:6), column%component <= 6, &
+               unit(mod(column%component - 1, 6) + 1) = merge(-1.0_wp, 1.0_wp, &
+                  suspension%is_iso .and. mod(column%component, 3) > 0)      ! x and y of the deck
+               call add_load(rig, suspension, case, column%wheel, column%name, unit(1:3), unit(4:6), column%component <= 6, &
                   1.0_wp, follows_table, column%values)
             end if
          end associate
       end do
-      this%from = 1.0_wp
-      this%to = this%table%rows
-      this%increments = this%table%rows - 1
-      if (this%table%rows == 1) then      ! from the design state, which is also reported
-         this%from = 0.0_wp
-         this%increments = 1
-      end if
+      rig%from = merge(0.0_wp, 1.0_wp, case%table%rows == 1)      ! from the design state, which is also reported
+      rig%to = case%table%rows
+      rig%increments = max(case%table%rows - 1, 1)
    end subroutine take_rows
 
-   !> A load 'rig_<name>' on a wheel, and the actuation that scales it.
-   pure subroutine add_wheel_load(suspension, this, wheel, name, force, moment, is_at_patch, share, law, values)
-      type(suspension_t), intent(inout) :: suspension
-      type(case_t), intent(inout) :: this
+   !> Adds a driver of Σ sign × height relative to the vehicle body, of wheel centres, patches, or of the road under the tyres.
+   !> Its value is the change from design [m]. The tyres on the road deflect under the loads at the patches, so that
+   !> Σ sign × height = value + λ Σ sign²/rate.
+   pure subroutine add_height(rig, suspension, name, where, wheels, signs, control)
+      type(rig_t), intent(inout) :: rig
+      type(suspension_t), intent(in) :: suspension
+      character(*), intent(in) :: name, where
+      integer, intent(in) :: wheels(:)
+      real(wp), intent(in) :: signs(:)         !! one per wheel
+      character(*), intent(in) :: control      !! 'centre', 'patch' or 'road'
+      type(joint_t) :: joint
+      type(row_t) :: row
+      type(term_t) :: term
+      real(wp) :: arm(3)
+      integer :: k
+
+      row%first = size(suspension%terms) + size(rig%terms) + 1
+      row%terms = size(wheels)
+      row%joint = size(suspension%joints) + size(rig%joints) + 1
+      row%is_driver = .true.
+      if (control == 'road') row%compliance = sum(signs**2/suspension%wheels(wheels)%tyre_rate)
+      do k = 1, size(wheels)
+         associate (w => suspension%wheels(wheels(k)))
+            arm = w%contact
+            if (control == 'centre') arm = w%centre
+            term%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=up, arm_i=suspension%bodies(w%body)%origin + arm, &
+               arm_j=arm)
+         end associate
+         term%coefficient = signs(k)
+         if (k == 1) joint%arm_j = arm
+         rig%terms = [rig%terms, term]
+      end do
+      joint%name = name
+      joint%where = where
+      joint%kind = 'driver'
+      joint%body_j = suspension%wheels(wheels(1))%body
+      joint%first_row = size(suspension%rows) + size(rig%rows) + 1
+      joint%rows = 1
+      joint%is_of_measures = .true.
+      rig%rows = [rig%rows, row]
+      rig%joints = [rig%joints, joint]
+   end subroutine add_height
+
+   !> Adds a load 'rig_<name>' on a wheel, and the actuation that scales it.
+   pure subroutine add_load(rig, suspension, case, wheel, name, force, moment, is_at_patch, share, law, values)
+      type(rig_t), intent(inout) :: rig
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
       integer, intent(in) :: wheel
       character(*), intent(in) :: name
       real(wp), intent(in) :: force(3), moment(3)
@@ -266,64 +299,33 @@ contains
       type(load_t) :: load
 
       load%name = 'rig_'//name
-      load%where = this%where
+      load%where = case%where
       load%body = suspension%wheels(wheel)%body
       load%arm = suspension%wheels(wheel)%centre
       if (is_at_patch) load%arm = suspension%wheels(wheel)%contact
       load%force = force
       load%moment = moment
       load%is_case = .true.
-      call add_load(suspension, load)
-      call append_course(this%courses, load%name, '', share, law, values)
-   end subroutine add_wheel_load
+      rig%loads = [rig%loads, load]
+      call append_actuation(rig%actuations, load%name, '', share, law, values)
+   end subroutine add_load
 
-   !> Unit and name of the swept value of a case without a test.
-   pure subroutine name_place(suspension, this)
+   !> The unit of the value of a driver; mm for the rig's own.
+   pure subroutine take_unit_of(suspension, drive, rig)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(inout) :: this
+      character(*), intent(in) :: drive
+      type(rig_t), intent(inout) :: rig
+      integer :: row
 
-      this%unit = 1.0_wp
-      this%unit_name = '-'
-      if (allocated(this%courses)) then
-         this%place_name = 'factor of the loads'
-      else if (len(this%load) > 0) then
-         this%place_name = 'factor of load '//this%load
-      else
-         this%place_name = 'change of '//this%drive
-         call take_unit_of(suspension, driver_row(suspension, this%drive), this)
-      end if
-   end subroutine name_place
-
-   !> The unit of the measure of a row.
-   pure subroutine take_unit_of(suspension, row, this)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: row
-      type(case_t), intent(inout) :: this
-
-      this%unit_name = 'mm'
-      if (row > 0) then
-         select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
-         case (rotation)
-            this%unit_name = 'deg'
-         case (axis_axis)
-            this%unit_name = '-'
-         end select
-      end if
-      this%unit = unit_of(this%unit_name)
-   end subroutine take_unit_of
-
-   !> The SI value of a unit of the swept value.
-   pure real(wp) function unit_of(name) result(unit)
-      character(*), intent(in) :: name
-
-      select case (name)
-      case ('mm')
-         unit = millimetre
-      case ('deg')
-         unit = degree
-      case default
-         unit = 1.0_wp
+      rig%unit = 'mm'
+      row = driver_row(suspension, drive)
+      if (row == 0) return
+      select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
+      case (rotation)
+         rig%unit = 'deg'
+      case (axis_axis)
+         rig%unit = '-'
       end select
-   end function unit_of
+   end subroutine take_unit_of
 
 end module ek_rig

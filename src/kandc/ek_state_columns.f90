@@ -10,7 +10,6 @@ module ek_state_columns
    use ek_measure, only: measure_value, axis_axis, rotation
    use ek_block, only: rotated
    use ek_rotation, only: cross
-   use ek_joint, only: joint_t
    use ek_law, only: deflection
    use ek_element, only: element_kinds, is_of_angle
    use ek_spring, only: spring_tension
@@ -18,12 +17,16 @@ module ek_state_columns
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
-   use ek_wheel_side, only: prefix_of
+   use ek_wheel_side, only: prefix_of, deck_frame
    use ek_attitude, only: attitude_t, wheel_attitude, axis_values
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
    implicit none(type, external)
    private
-   public :: state_columns, state_values, measure_unit
+   public :: state_columns, state_values
+
+   ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
+   character(*), parameter :: endings(3) = [character(10) :: '_angle_deg', '_cosine', '_length_mm']
+   real(wp), parameter :: units(3) = [degree, 1.0_wp, millimetre]
 
 contains
 
@@ -31,6 +34,7 @@ contains
    subroutine state_columns(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
+      character(len(endings)) :: ending
       integer :: k
 
       call begin_list(list, 128)
@@ -44,20 +48,14 @@ contains
             if (element_kinds(element%kind)%has_gap) then
                call add_column(list, element%name//'_gap_mm')
             else
-               call add_column(list, element%name//value_ending(element%measure%kind))
+               call add_column(list, element%name//trim(endings(which(element%measure%kind))))
             end if
             call add_column(list, element%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(element%measure%kind))))
          end associate
       end do
       do k = 1, size(suspension%readouts)
-         select case (suspension%readouts(k)%measure%kind)
-         case (rotation)
-            call add_column(list, suspension%readouts(k)%name//'_deg')
-         case (axis_axis)
-            call add_column(list, suspension%readouts(k)%name//'_cosine')
-         case default
-            call add_column(list, suspension%readouts(k)%name//'_mm')
-         end select
+         ending = endings(which(suspension%readouts(k)%measure%kind))
+         call add_column(list, suspension%readouts(k)%name//trim(ending(index(ending, '_', back=.true.):)))
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
          call add_three(suspension%elements(k)%name//'_d', 'mm')
@@ -68,10 +66,10 @@ contains
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
             if (joint%is_of_measures) then
-               call add_column(list, joint%name//'_reaction_'//reaction_unit(suspension, joint%first_row))
+               call add_column(list, joint%name//'_reaction_'//trim(merge('nm', 'n ', has_moment(suspension, joint%first_row, 1))))
             else
                call add_three(joint%name//'_f', 'n')
-               if (has_moment(suspension, joint)) call add_three(joint%name//'_m', 'nm')
+               if (has_moment(suspension, joint%first_row, joint%rows)) call add_three(joint%name//'_m', 'nm')
             end if
          end associate
       end do
@@ -97,10 +95,9 @@ contains
       type(attitude_t) :: now
       type(bushing_view_t) :: view
       real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
-      integer :: k, at, r
+      integer :: k, at, r, t
 
-      frame = 1.0_wp
-      if (suspension%is_iso) frame = [-1.0_wp, -1.0_wp, 1.0_wp]
+      frame = deck_frame(suspension)
       do k = 1, size(suspension%wheels)
          now = wheel_attitude(suspension, state, k)
          call fill_block(list, k, [now%centre(3), now%toe, now%camber, now%track_change, now%wheelbase_change, &
@@ -112,7 +109,7 @@ contains
          associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
             length = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
             call spring_tension(element, length, tension, slope)
-            row(at + 1) = length/measure_unit(m%kind)
+            row(at + 1) = length/units(which(m%kind))
             if (element_kinds(element%kind)%has_gap) row(at + 1) = -deflection(element%law, length)/millimetre
             row(at + 2) = -tension
             at = at + 2
@@ -121,14 +118,14 @@ contains
       do k = 1, size(suspension%readouts)
          associate (m => suspension%readouts(k)%measure)
             at = at + 1
-            row(at) = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))/measure_unit(m%kind)
+            row(at) = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))/units(which(m%kind))
          end associate
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
          associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
             call look_bushing(bushing, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            row(at + 1:at + 3) = to_marker(bushing%axes, view%gap)/millimetre
-            row(at + 4:at + 6) = to_marker(bushing%axes, view%turn%theta)/degree
+            row(at + 1:at + 3) = matmul(view%gap, bushing%axes)/millimetre
+            row(at + 4:at + 6) = matmul(view%turn%theta, bushing%axes)/degree
             call bushing_load(bushing, view, force, moment)
             row(at + 7:at + 9) = force
             row(at + 10:at + 12) = moment
@@ -145,11 +142,14 @@ contains
             force = 0.0_wp
             moment = 0.0_wp
             do r = joint%first_row, joint%first_row + joint%rows - 1
-               call add_reaction(suspension, kkt, state%reaction(r), r, force, moment)
+               do t = suspension%rows(r)%first, suspension%rows(r)%first + suspension%rows(r)%terms - 1
+                  force = force - state%reaction(r)*kkt%gradients(7:9, t)         ! on the second body: −λ × gradient
+                  moment = moment - state%reaction(r)*kkt%gradients(10:12, t)     ! about its reference point
+               end do
             end do
             row(at + 1:at + 3) = frame*force
             at = at + 3
-            if (.not. has_moment(suspension, joint)) cycle
+            if (.not. has_moment(suspension, joint%first_row, joint%rows)) cycle
             arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
             moment = moment - cross(arm, force)      ! about the joint's point; a separate statement avoids a temporary of the row
             row(at + 1:at + 3) = frame*moment
@@ -158,82 +158,24 @@ contains
       end do
    end subroutine state_values
 
-   !> Ending of the column of the value of the measure of an element.
-   pure function value_ending(kind) result(ending)
-      integer, intent(in) :: kind         !! kind of the measure
-      character(:), allocatable :: ending
-
-      select case (kind)
-      case (rotation)
-         ending = '_angle_deg'
-      case (axis_axis)
-         ending = '_cosine'
-      case default
-         ending = '_length_mm'
-      end select
-   end function value_ending
-
-   !> Divisor of a measure's value for mm or deg.
-   pure real(wp) function measure_unit(kind) result(unit)
+   !> Row of the table above of a kind of measure.
+   pure integer function which(kind)
       integer, intent(in) :: kind
-      select case (kind)
-      case (rotation)
-         unit = degree
-      case (axis_axis)
-         unit = 1.0_wp
-      case default
-         unit = millimetre
-      end select
-   end function measure_unit
+      which = 3
+      if (kind == rotation) which = 1
+      if (kind == axis_axis) which = 2
+   end function which
 
-   !> Whether a joint's reaction has a moment about its point: only rows between directions produce one.
-   pure logical function has_moment(suspension, joint)
+   !> Whether rows have a moment: those between directions.
+   pure logical function has_moment(suspension, first, rows)
       type(suspension_t), intent(in) :: suspension
-      type(joint_t), intent(in) :: joint
+      integer, intent(in) :: first, rows
       integer :: r
 
       has_moment = .false.
-      do r = joint%first_row, joint%first_row + joint%rows - 1
-         select case (suspension%terms(suspension%rows(r)%first)%measure%kind)
-         case (axis_axis, rotation)
-            has_moment = .true.
-         end select
+      do r = first, first + rows - 1
+         has_moment = has_moment .or. which(suspension%terms(suspension%rows(r)%first)%measure%kind) < 3
       end do
    end function has_moment
-
-   !> Unit of λ of a row: N, or N m if the measure is an angle.
-   pure function reaction_unit(suspension, row) result(unit)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: row
-      character(:), allocatable :: unit
-
-      unit = 'n'
-      select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
-      case (axis_axis, rotation)
-         unit = 'nm'
-      end select
-   end function reaction_unit
-
-   !> Adds the force and moment of a row on its second body: −λ × gradient; moment about the reference point.
-   pure subroutine add_reaction(suspension, kkt, reaction, r, force, moment)
-      type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt
-      real(wp), intent(in) :: reaction
-      integer, intent(in) :: r
-      real(wp), intent(inout) :: force(3), moment(3)
-      integer :: t
-
-      do t = suspension%rows(r)%first, suspension%rows(r)%first + suspension%rows(r)%terms - 1
-         force = force - reaction*kkt%gradients(7:9, t)
-         moment = moment - reaction*kkt%gradients(10:12, t)
-      end do
-   end subroutine add_reaction
-
-   !> Eᵀ v
-   pure function to_marker(axes, v) result(w)
-      real(wp), intent(in) :: axes(3, 3), v(3)
-      real(wp) :: w(3)
-      w = [dot_product(axes(:, 1), v), dot_product(axes(:, 2), v), dot_product(axes(:, 3), v)]
-   end function to_marker
 
 end module ek_state_columns

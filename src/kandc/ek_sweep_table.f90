@@ -5,19 +5,19 @@
 module ek_sweep_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8
-   use ek_suspension, only: suspension_t, driver_row
+   use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state, coordinates
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
-   use ek_state_columns, only: state_columns, state_values, measure_unit
+   use ek_state_columns, only: state_columns, state_values
    use ek_column_list, only: column_list_t, choose
-   use ek_kandc_columns, only: kandc_t, start_kandc, renew_kandc, same_columns, tell_kandc
+   use ek_kandc_columns, only: kandc_t, start_kandc, same_columns, tell_kandc
    use ek_table, only: table_t, new_table, name_length
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, factor_unit
+   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
@@ -47,10 +47,7 @@ contains
       character(name_length), allocatable :: columns(:)
       integer :: k
 
-      if (is_for(self, suspension, case, wanted)) then
-         if (case%has_all) call renew_kandc(suspension, self%kandc)
-         return
-      end if
+      if (is_for(self, suspension, case, wanted)) return
       call list_columns(suspension, case, columns, self%list, self%kandc)
       self%has_all = case%has_all
       self%has_stability = knows_stability(case)
@@ -114,7 +111,7 @@ contains
       allocate (values(observer%ended))
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
-      unit = factor_unit(suspension, case)
+      unit = case%unit
       associate (shown => observer%shown, told => observer%told, ended => observer%ended)
          do k = first, last
             row = k - first + 1
@@ -218,40 +215,19 @@ contains
    pure subroutine reached_rows(path, first, last)
       type(path_t), intent(in) :: path
       integer, intent(out) :: first, last
-      integer :: k
 
+      first = findloc(path%is_reached, .true., dim=1)
+      last = findloc(path%is_reached, .true., dim=1, back=.true.)
       if (path%is_table) then
          first = 1
          last = path%states
-         return
-      end if
-      first = path%states + 1
-      last = 0
-      do k = 1, path%states
-         if (.not. path%is_reached(k)) cycle
-         first = min(first, k)
-         last = max(last, k)
-      end do
-      if (last == 0) then     ! no state: the design state has failed
+      else if (last == 0) then     ! no state: the design state has failed
          first = max(path%start, 1)
          last = first
-         return
+      else
+         first = max(first - 1, 1)
+         last = min(last + 1, path%states)
       end if
-      first = max(first - 1, 1)
-      last = min(last + 1, path%states)
    end subroutine reached_rows
-
-   !> Unit of the column `factor` in SI: 1 for a load, mm or deg for a driven measure.
-   pure real(wp) function factor_unit(suspension, case) result(unit)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      integer :: row
-
-      unit = case%unit
-      if (allocated(case%courses)) return
-      row = driver_row(suspension, case%drive)
-      if (row == 0) return
-      unit = measure_unit(suspension%terms(suspension%rows(row)%first)%measure%kind)
-   end function factor_unit
 
 end module ek_sweep_table

@@ -15,6 +15,7 @@ module ek_target
    use ek_branch, only: branch_t, new_branch, leave
    use ek_quantity, only: unit_of
    use ek_table, only: table_t, column, column_range, row_count
+   use ek_remark, only: swept_words
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
@@ -202,7 +203,7 @@ contains
             f = value(1) - found%wanted
          else
             call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
-               ' has no value at '//case%place_name//' = '//str(place/case%unit, 9)//' '//case%unit_name)
+               ' has no value at '//swept_words(case, place, 9))
          end if
       end subroutine look_at
 
@@ -231,53 +232,41 @@ contains
       character(*), intent(in) :: name
       integer, intent(out) :: place
       type(error_t), allocatable, intent(out) :: error       !! exit_deck: no such column, or more than one
-      character(:), allocatable :: hint, several
-      integer :: k, alike
+      integer, parameter :: most = 4
+      logical :: is_alike(size(columns)), is_near(size(columns))
+      character(:), allocatable :: hint
+      integer :: k
 
       place = findloc(columns, name, dim=1)
       if (place > 0) return
-      alike = 0
-      several = ''
-      do k = 1, size(columns)
-         if (index(columns(k), name//'_') /= 1) cycle
-         if (unit_of(trim(columns(k))) /= columns(k)(len(name) + 2:)) cycle
-         place = k
-         alike = alike + 1
-         if (alike > 1) several = several//' and '
-         several = several//quoted(columns(k))
-      end do
-      if (alike == 1) return
-      if (alike > 1) then
-         call fail(error, exit_deck, quoted(name)//' may be '//several//'; give the full name')
+      is_alike = [(columns(k) == name//'_'//unit_of(trim(columns(k))), k=1, size(columns))]
+      place = findloc(is_alike, .true., dim=1)
+      if (count(is_alike) == 1) return
+      if (place > 0) then
+         call fail(error, exit_deck, quoted(name)//" may be '"//listed(pack(columns, is_alike), "' and '")//"'; give the full name")
          return
       end if
+      is_near = index(columns, name) > 0            ! as left_coil_length_mm contains coil_length
       hint = nearest_name(name, columns)
       if (hint /= '') then
          hint = ' (did you mean '//quoted(hint)//'?)'
-      else
-         hint = holders(columns, name)
+      else if (any(is_near)) then
+         hint = ' (columns with this in their name: '//listed(pack(columns, is_near .and. [(count(is_near(:k)) <= most, &
+            k=1, size(columns))]), ', ')//repeat(', …', merge(1, 0, count(is_near) > most))//')'
       end if
       call fail(error, exit_deck, 'the results have no column '//quoted(name)//hint)
    end subroutine find_column
 
-   !> The first few columns whose name contains a text, as left_coil_length_mm contains coil_length.
-   pure function holders(columns, name) result(words)
-      character(*), intent(in) :: columns(:), name
-      character(:), allocatable :: words
-      integer, parameter :: most = 4
-      integer :: k, found
+   !> Names, one after the other.
+   pure function listed(names, between) result(text)
+      character(*), intent(in) :: names(:), between
+      character(:), allocatable :: text
+      integer :: k
 
-      words = ''
-      found = 0
-      do k = 1, size(columns)
-         if (index(columns(k), name) == 0) cycle
-         found = found + 1
-         if (found > most) exit
-         if (found > 1) words = words//', '
-         words = words//trim(columns(k))
+      text = trim(names(1))
+      do k = 2, size(names)
+         text = text//between//trim(names(k))
       end do
-      if (found > most) words = words//', …'
-      if (found > 0) words = ' (columns with this in their name: '//words//')'
-   end function holders
+   end function listed
 
 end module ek_target

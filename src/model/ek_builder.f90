@@ -2,7 +2,7 @@
 !> then `complete` of ek_completion. Points are design positions in global axes, SI; `complete` converts them to arms.
 module ek_builder
    use ek_kinds, only: wp
-   use ek_measure, only: measure_t, global_gap
+   use ek_measure, only: measure_t
    use ek_joint, only: joint_t, row_t, term_t, joint_geometry_t, joint_terms, max_terms
    use ek_element, only: element_t, new_spring, new_bushing
    use ek_elastic, only: bushing_t
@@ -10,7 +10,7 @@ module ek_builder
    implicit none(type, external)
    private
    public :: add_body, add_point, add_joint, add_driver, add_coupler, add_spring, add_element, add_bushing
-   public :: add_travel_driver, add_height_driver, add_load, add_gravity, add_wheel, add_readout
+   public :: add_load, add_gravity, add_wheel, add_readout
 
 contains
 
@@ -94,48 +94,6 @@ contains
       self%joints(size(self%joints))%arm_j = terms(1)%measure%arm_j
       self%joints(size(self%joints))%is_of_measures = .true.
    end subroutine add_coupler
-
-   !> Add a driver of the height of a wheel centre relative to the vehicle body, joint name 'wheel_travel', to a completed
-   !> model. Its value is the wheel travel [m].
-   pure subroutine add_travel_driver(self, wheel)
-      type(suspension_t), intent(inout) :: self
-      integer, intent(in) :: wheel
-
-      call add_height_driver(self, 'wheel_travel', self%wheels(wheel)%where, [wheel], [1.0_wp], .false.)
-   end subroutine add_travel_driver
-
-   !> Add a driver of Σ sign × height relative to the vehicle body, of wheel centres or contact patches, to a completed model.
-   !> Its value is the change from design [m]. It belongs to the rig, not to the suspension.
-   !> With tyre rates given, the road is driven: the tyres deflect under the loads at the patches, so that
-   !> Σ sign × height = value + λ Σ sign²/rate.
-   pure subroutine add_height_driver(self, name, where, wheels, signs, is_at_patch, tyre_rate)
-      type(suspension_t), intent(inout) :: self
-      character(*), intent(in) :: name, where
-      integer, intent(in) :: wheels(:)
-      real(wp), intent(in) :: signs(:)         !! one per wheel
-      logical, intent(in) :: is_at_patch
-      real(wp), intent(in), optional :: tyre_rate(:)   !! of each wheel, above 0 [N/m]
-      type(term_t) :: terms(size(wheels))
-      real(wp) :: arm(3)
-      integer :: k
-
-      do k = 1, size(wheels)
-         associate (w => self%wheels(wheels(k)))
-            arm = w%centre
-            if (is_at_patch) arm = w%contact
-            terms(k)%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=[0.0_wp, 0.0_wp, 1.0_wp], &
-               arm_i=self%bodies(w%body)%origin + arm, arm_j=arm)
-            terms(k)%coefficient = signs(k)
-         end associate
-      end do
-      call append_joint(self, name, where, 'driver', terms, [size(terms)], .true.)
-      if (present(tyre_rate)) self%rows(size(self%rows))%compliance = sum(signs**2/tyre_rate)
-      associate (joint => self%joints(size(self%joints)))
-         joint%arm_j = terms(1)%measure%arm_j
-         joint%is_of_measures = .true.
-         joint%is_rig = .true.
-      end associate
-   end subroutine add_height_driver
 
    !> Append a joint with its terms; terms_of_row gives the number of terms in each row.
    pure subroutine append_joint(self, name, where, kind, terms, terms_of_row, is_driver)

@@ -3,7 +3,7 @@ module ek_case
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: case_t, course_t, table_column_t, load_table_t, append_course, is_mountable, method_names
+   public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, method_names
    public :: default_tolerance, most_increments
    public :: follow_names, follows_place, follows_tangent, follows_table
 
@@ -17,13 +17,13 @@ module ek_case
    integer, parameter :: follows_table = 3     !! the value in a row of a table, the row number being the swept value
 
    !> How one load or one driver follows the swept value. One of `load` and `drive` is empty.
-   type :: course_t
+   type :: actuation_t
       character(:), allocatable :: load       !! name of the load that is scaled
       character(:), allocatable :: drive      !! name of the driver joint
       integer :: law = follows_place
       real(wp) :: share = 1.0_wp
       real(wp), allocatable :: values(:)      !! of follows_table, SI
-   end type course_t
+   end type actuation_t
 
    !> A column of a load table: a load or a height of a wheel, or the value of a driver joint, in every row.
    type :: table_column_t
@@ -61,8 +61,8 @@ module ek_case
       character(:), allocatable :: target   !! 'column=value', '' for none
       logical :: is_good = .true.           !! .false.: the case has a mistake and cannot be mounted on the rig
       logical :: has_all = .false.          !! write the compliance matrix and the quantities derived from it at every state
-      ! the actuations of a case mounted on the rig; not allocated: `load` or `drive` alone
-      type(course_t), allocatable :: courses(:)
+      ! of a case on the rig, see ek_rig; not allocated in the deck, except for a case that names several loads
+      type(actuation_t), allocatable :: actuations(:)
       real(wp) :: unit = 1.0_wp             !! SI value of the unit of the swept value
       character(:), allocatable :: unit_name, place_name   !! 'mm', 'wheel travel'
    end type case_t
@@ -77,26 +77,33 @@ contains
       if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
    end function is_mountable
 
+   !> Whether a case on the rig scales loads.
+   pure logical function scales_loads(case)
+      type(case_t), intent(in) :: case
+      integer :: k
+
+      scales_loads = .false.
+      do k = 1, size(case%actuations)
+         scales_loads = scales_loads .or. len(case%actuations(k)%load) > 0
+      end do
+   end function scales_loads
+
    !> Add an actuation to a case: a load or a driver joint; the other name is empty.
-   pure subroutine append_course(courses, load, drive, share, law, values)
-      type(course_t), allocatable, intent(inout) :: courses(:)
+   pure subroutine append_actuation(actuations, load, drive, share, law, values)
+      type(actuation_t), allocatable, intent(inout) :: actuations(:)
       character(*), intent(in) :: load, drive
       real(wp), intent(in) :: share
       integer, intent(in) :: law
       real(wp), intent(in), optional :: values(:)      !! of follows_table, SI
-      type(course_t), allocatable :: more(:)
-      integer :: n
+      type(actuation_t) :: new
 
-      n = 0
-      if (allocated(courses)) n = size(courses)
-      allocate (more(n + 1))
-      if (n > 0) more(:n) = courses
-      more(n + 1)%load = load
-      more(n + 1)%drive = drive
-      more(n + 1)%share = share
-      more(n + 1)%law = law
-      if (present(values)) more(n + 1)%values = values
-      call move_alloc(more, courses)
-   end subroutine append_course
+      new%load = load
+      new%drive = drive
+      new%share = share
+      new%law = law
+      if (present(values)) new%values = values
+      if (.not. allocated(actuations)) allocate (actuations(0))
+      actuations = [actuations, new]
+   end subroutine append_actuation
 
 end module ek_case

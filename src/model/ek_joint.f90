@@ -47,7 +47,6 @@ module ek_joint
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
       logical :: says_balance = .false.      !! driver with a stiffness: the deck gives `balance`
       logical :: is_balanced = .true.        !! the value of `balance`
-      logical :: is_rig = .false.            !! part of the test rig: its reaction is a force of the ground on a wheel
    end type joint_t
 
    !> coefficient × measure

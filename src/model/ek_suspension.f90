@@ -109,6 +109,7 @@ module ek_suspension
       integer :: scalars = 0   !! elements(:scalars) act along one measure: springs, dampers, stops, torsion springs, in this order
                                !! if built from a deck; the others have six components: bushings
       type(load_t), allocatable :: loads(:)
+      integer :: rig_rows = 0, rig_loads = 0   !! the last rows and loads that belong to the rig on which it stands, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
       type(axle_t) :: axle = axle_t()
@@ -117,6 +118,7 @@ module ek_suspension
    contains
       procedure :: unknowns                    !! 6 × bodies
       procedure :: constraints                 !! number of rows
+      procedure :: own_rows                    !! number of rows without those of the rig
    end type suspension_t
 
 contains
@@ -134,6 +136,13 @@ contains
       constraints = 0
       if (allocated(self%rows)) constraints = size(self%rows)
    end function constraints
+
+   !> The number of rows of Φ without those of the rig, which come last: λ(:own_rows) is the suspension's own, λ(own_rows+1:) that
+   !> of the rig, the force of the ground that holds heights.
+   pure integer function own_rows(self)
+      class(suspension_t), intent(in) :: self
+      own_rows = self%constraints() - self%rig_rows
+   end function own_rows
 
    !> The design poses of bodies 0 … n, the chassis first.
    pure function design_poses(self) result(poses)

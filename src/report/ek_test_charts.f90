@@ -5,6 +5,8 @@
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
+   use ek_rig_test, only: rig_test_t, rig_test, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, of_aligning, &
+      of_vertical, of_table
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
@@ -57,31 +59,33 @@ contains
 
    end subroutine test_charts
 
-   !> The columns drawn for a kind of test, the most important ones first.
+   !> The columns drawn for a set of charts, the most important ones first.
    pure function quantities_of(kind) result(columns)
       character(*), intent(in) :: kind
       character(48), allocatable :: columns(:)
+      type(rig_test_t) :: test
 
-      select case (kind)
-      case ('roll')
+      test = rig_test(kind)
+      select case (test%charts)
+      case (of_roll)
          columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'inclination_deg', 'caster_deg', &
             'track_change_mm', 'wheelbase_change_mm', 'vertical_force_n', 'roll_moment_nm', 'suspension_roll_rate_nm_per_deg', &
             'total_roll_rate_nm_per_deg', 'roll_centre_height_mm', 'roll_centre_y_mm', 'roll_steer_deg_per_deg', 'wheel_travel_mm']
-      case ('steering')
+      case (of_steer)
          columns = [character(48) :: 'steer_deg', 'toe_deg', 'ackermann_percent', 'ackermann_error_deg', 'camber_deg', &
             'caster_deg', 'kingpin_inclination_deg', 'scrub_radius_mm', 'caster_trail_mm', 'instant_scrub_radius_mm', &
             'instant_caster_trail_mm', 'steering_ratio', 'turning_circle_m', 'wheel_travel_mm', 'vertical_force_n', &
             'track_change_mm', 'wheelbase_change_mm', 'steer_camber_deg_per_deg', 'outer_steer_error_deg', 'curb_to_curb_m', &
             'wall_to_wall_m', 'steering_rack_force_n']
-      case ('lateral_force')
+      case (of_lateral)
          columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
             'caster_deg', 'wheel_travel_mm', 'vertical_force_n']
-      case ('aligning_torque')
+      case (of_aligning)
          columns = [character(48) :: 'steer_deg', 'toe_deg', 'camber_deg', 'caster_deg', 'track_change_mm', 'wheelbase_change_mm']
-      case ('braking', 'traction')
+      case (of_braking, of_traction)
          columns = [character(48) :: 'wheelbase_change_mm', 'wheel_centre_x_mm', 'steer_deg', 'toe_deg', 'caster_deg', &
             'camber_deg', 'track_change_mm', 'wheel_travel_mm', 'vertical_force_n']
-      case ('vertical_force')
+      case (of_vertical)
          columns = [character(48) :: 'wheel_travel_mm', 'toe_deg', 'camber_deg', 'track_change_mm', 'wheelbase_change_mm', &
             'caster_deg', 'wheel_rate_n_per_mm', 'roll_centre_height_mm', 'scrub_radius_mm', 'caster_trail_mm']
       case default
@@ -93,10 +97,10 @@ contains
             'instant_scrub_radius_mm', 'instant_caster_trail_mm', 'lateral_in_load_held_deflection_mm_per_kn', &
             'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_load_held_camber_deg_per_kn', 'side_view_angle_deg', &
             'recession_gradient_mm_per_m', 'ride_frequency_hz', 'total_track_mm']
-         if (kind == 'opposite_travel' .or. kind == 'single_travel') columns = [character(48) :: columns(:13), &
+         if (test%charts == of_tilt) columns = [character(48) :: columns(:13), &
             'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
          if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
-         if (kind == 'table') columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
+         if (test%charts == of_table) columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
       end select
    end function quantities_of
 

@@ -5,6 +5,7 @@ module ek_test_result
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
+   use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, steers, loads_wheels
    use ek_table, only: table_t, name_length, column_index, column_range
    implicit none(type, external)
    private
@@ -33,28 +34,6 @@ module ek_test_result
       type(table_t) :: table
       type(message_list_t) :: remarks        !! messages on failed or doubtful states
    end type test_result_t
-
-   !> The abscissa of a kind of test.
-   type :: axis_t
-      character(15) :: kind
-      character(20) :: column
-      character(50) :: label
-      character(58) :: anti = ''             !! label if the load on the right wheel is opposite
-   end type axis_t
-
-   !> The first is that of every other kind.
-   type(axis_t), parameter :: axes(*) = [axis_t('other', travel_column, 'wheel travel [mm]    (+ bump)'), &
-      axis_t('single_travel', 'left_'//travel_column, 'travel of the left wheel [mm]    (+ bump)'), &
-      axis_t('roll', 'axle_roll_deg', 'axle roll [deg]    (+ left wheel up)'), &
-      axis_t('steering', 'steering_wheel_deg', 'steering wheel [deg]    (+ left)'), &
-      axis_t('lateral_force', 'factor', 'lateral force [N]    (+ to the right)', &
-      'lateral force on the left wheel [N]    (+ to the right)'), &
-      axis_t('braking', 'factor', 'braking force per wheel [N]    (+ rearward)'), &
-      axis_t('traction', 'factor', 'traction force per wheel [N]    (+ forward)'), &
-      axis_t('aligning_torque', 'factor', 'aligning torque [N m]    (+ to the left)', &
-      'aligning torque on the left wheel [N m]    (+ to the left)'), &
-      axis_t('vertical_force', 'factor', 'vertical force [N]    (+ up)'), &
-      axis_t('table', 'factor', 'row of the table')]
 
 contains
 
@@ -110,29 +89,28 @@ contains
    !> Sets the abscissa of the charts for a kind of test, if the table has its column. An abscissa already set is kept.
    subroutine choose_abscissa(test)
       type(test_result_t), intent(inout) :: test
-
-      integer :: k
-      logical :: is_missing
+      type(rig_test_t) :: kind
+      character(:), allocatable :: side
+      integer :: at
 
       if (allocated(test%abscissa)) return
-      k = findloc(axes%kind == test%kind, .true., dim=1)
-      if (k == 0) k = 1
-      test%abscissa = trim(axes(k)%column)
-      test%label = trim(axes(k)%label)
-      if (test%is_anti .and. axes(k)%anti /= '') test%label = trim(axes(k)%anti)
-      if (test%kind == 'single_travel' .and. stroke('right_'//travel_column) > stroke('left_'//travel_column)) then
-         test%abscissa = 'right_'//travel_column
-         test%label = 'travel of the right wheel [mm]    (+ bump)'
-      end if
-      is_missing = .not. has_column(test, test%abscissa)
-      if (test%kind == 'other') is_missing = is_missing .or. stroke(travel_column) < least_stroke
-      if (is_missing .and. test%abscissa /= 'factor') then
-         test%label = 'load factor'
-         if (test%kind == 'steering') test%label = 'steering input [mm]    (+ left)'
-         test%abscissa = 'factor'
-      end if
+      kind = rig_test(test%kind)
+      test%abscissa = trim(kind%abscissa)
+      test%label = trim(kind%label)
       test%abscissa_size = 1.0_wp
-      if (test%abscissa == 'factor' .and. test%kind /= 'table') test%abscissa_size = test%factor_size
+      if (of_one_wheel(kind)) then
+         side = trim(merge('left ', 'right', stroke('right_'//travel_column) <= stroke('left_'//travel_column)))
+         test%abscissa = side//'_'//travel_column
+         test%label = 'travel of the '//side//' wheel [mm]    (+ bump)'
+      else if (kind%action == steers .and. column_index(test%table, test%abscissa) == 0) then
+         call set_factor('steering input [mm]    (+ left)')
+      else if (kind%action == loads_wheels) then
+         at = index(test%label, ' [')
+         if (test%is_anti) test%label = test%label(:at - 1)//' on the left wheel'//test%label(at:)
+         call set_factor(test%label)
+      end if
+      if (test%abscissa /= 'factor' .and. .not. has_column(test, test%abscissa)) call set_factor('load factor')
+      if (test%kind == 'other' .and. stroke(travel_column) < least_stroke) call set_factor('load factor')
 
    contains
 
@@ -150,6 +128,13 @@ contains
             if (ieee_is_finite(range(1))) stroke = max(stroke, range(2) - range(1))
          end do
       end function stroke
+
+      subroutine set_factor(label)
+         character(*), intent(in) :: label
+         test%abscissa = 'factor'
+         test%label = label
+         test%abscissa_size = test%factor_size
+      end subroutine set_factor
 
    end subroutine choose_abscissa
 

@@ -8,16 +8,38 @@ module ek_example
    use ek_joint, only: joint_geometry_t
    use ek_rotation, only: identity3
    use ek_suspension, only: suspension_t, load_t, wheel_t
+   use ek_rig, only: rig_t, new_rig, add_height, put_on
    use ek_builder, only: add_body, add_joint, add_bushing, add_spring, add_load, add_wheel
    implicit none(type, external)
    private
-   public :: mcpherson_model, double_wishbone_model, load_case, drive_case, new_bushing, geometry
+   public :: mcpherson_model, double_wishbone_model, load_case, drive_case, new_bushing, geometry, hold_height, add_travel_driver
 
    ! what a test may want to put a reference point on
    real(wp), parameter, public :: mcpherson_contact(3) = [0.0_wp, -0.75_wp, -0.31_wp]
    real(wp), parameter, public :: mcpherson_ball_joint(3) = [0.0_wp, -0.72_wp, -0.1_wp]
 
 contains
+
+   !> Adds the rig's driver of the height of one wheel, 'centre', 'patch' or 'road', to a completed model.
+   subroutine hold_height(suspension, name, wheel, control)
+      type(suspension_t), intent(inout) :: suspension
+      character(*), intent(in) :: name, control
+      integer, intent(in) :: wheel
+      type(suspension_t) :: base
+      type(rig_t) :: rig
+
+      base = suspension
+      rig = new_rig()
+      call add_height(rig, base, name, base%wheels(wheel)%where, [wheel], [1.0_wp], control)
+      call put_on(rig, base, suspension)
+   end subroutine hold_height
+
+   !> The same of a wheel centre, named as by a case with drive = 'wheel_travel'.
+   subroutine add_travel_driver(suspension, wheel)
+      type(suspension_t), intent(inout) :: suspension
+      integer, intent(in) :: wheel
+      call hold_height(suspension, 'wheel_travel', wheel, 'centre')
+   end subroutine add_travel_driver
 
    !> McPherson strut: bodies lca, carrier, strut; scaled loads 'vertical', 'longitudinal' at the contact point.
    subroutine mcpherson_model(suspension, is_preloaded, order, ball_stiffness)

@@ -5,7 +5,8 @@ module ek_probe
    use ek_kinds, only: wp
    use ek_rotation, only: quaternion_of_matrix
    use ek_suspension, only: suspension_t, load_t
-   use ek_builder, only: add_load, add_height_driver
+   use ek_builder, only: add_load
+   use ek_example, only: hold_height
    use ek_kkt, only: kkt_t, new_kkt
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_state, only: state_t, demand_t
@@ -57,7 +58,7 @@ contains
 
       held = rest
       do k = 1, size(wheels)
-         call add_height_driver(held%suspension, 'hold'//achar(48 + k), '', [rest%order(wheels(k))], [1.0_wp], is_at_patch)
+         call hold_height(held%suspension, 'hold'//achar(48 + k), rest%order(wheels(k)), merge('patch ', 'centre', is_at_patch))
          rows = size(held%suspension%rows)
          now = wheel_attitude(rest%suspension, rest%state, rest%order(wheels(k)))
          held%holder(wheels(k)) = rows

@@ -24,7 +24,7 @@ module ek_trial
    use ek_reading, only: state_of
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t, new_table, column, column_index, row_count
-   use ek_wheel_force, only: vertical_force
+   use ek_wheel_side, only: vertical_force
    implicit none(type, external)
    private
    public :: trial_t, try, go_through, put_on_rig, values, elastic_energy, chassis_lift, wheel_force
@@ -176,8 +176,7 @@ contains
                call include(b%body_i, b%body_j)
             end associate
          end do
-         do k = 1, size(trial%suspension%rows)
-            if (trial%suspension%joints(trial%suspension%rows(k)%joint)%is_rig) cycle
+         do k = 1, trial%suspension%own_rows()
             do t = trial%suspension%rows(k)%first, trial%suspension%rows(k)%first + trial%suspension%rows(k)%terms - 1
                associate (term => trial%suspension%terms(t), m => trial%suspension%terms(t)%measure)
                   gradient = state%reaction(k)*term%coefficient* &

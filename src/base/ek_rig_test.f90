@@ -1,0 +1,123 @@
+!> The tests of the rig, one row each: the loads and heights of the wheels, and how the results are shown.
+!>
+!> | test            | swept value     | left, right wheel                      | wheels held by   |
+!> |-----------------|-----------------|----------------------------------------|------------------|
+!> | parallel_travel | travel          | both up                                | height, driven   |
+!> | opposite_travel | travel          | left up, right down                    | height, driven   |
+!> | single_travel   | travel          | one up, the other at rest              | height, driven   |
+!> | roll            | axle roll       | height(left) − height(right) = t tan φ | difference only: |
+!> |                 |                 |                                        | constant load    |
+!> | steering        | rack travel     | constant heights                       | height           |
+!> | lateral_force   | force           | +y at the patch, moment force × trail  | vertical force   |
+!> | braking         | force           | rearward at the patch                  | vertical force   |
+!> | traction        | force           | forward at the wheel centre            | vertical force   |
+!> | aligning_torque | moment          | about z, counterclockwise from above   | vertical force   |
+!> | vertical_force  | force           | upward at the patch                    | vertical force   |
+!> | table           | row of the file | its columns                            | vertical force   |
+!>
+!> A further test is a row here; if it has charts or gradients of its own, also a list in ek_test_charts and rows in ek_gradient.
+!> The deck reader, the rig, the standard tests, the usual ranges, the abscissa and the windows follow from the row.
+module ek_rig_test
+   use ek_kinds, only: wp
+   use ek_units, only: degree, millimetre
+   implicit none(type, external)
+   private
+   public :: rig_test_t, rig_tests, rig_test, needs_both, of_one_wheel, lifts, swept_unit
+   public :: moves_heights, rolls, steers, loads_wheels, takes_table
+   public :: of_none, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, of_aligning, of_vertical, of_table
+
+   ! what a test does
+   integer, parameter :: moves_heights = 1, rolls = 2, steers = 3, loads_wheels = 4, takes_table = 5
+
+   ! its charts and its gradients
+   integer, parameter :: of_none = 0, of_travel = 1, of_tilt = 2, of_roll = 3, of_steer = 4, of_lateral = 5, of_braking = 6, &
+      of_traction = 7, of_aligning = 8, of_vertical = 9, of_table = 10
+
+   type :: rig_test_t
+      character(15) :: name = ''
+      integer :: action = 0                  !! one of those above; 0: no test of the rig
+      integer :: charts = of_none            !! set of charts and gradients
+      character(6) :: control = ''           !! how the wheels are held, unless the case says otherwise
+      character(3) :: unit = '-'             !! of the swept value: mm, deg, N, N m or '' for that of the steered joint
+      character(45) :: place_name = ''       !! of the swept value
+      character(18) :: abscissa = 'wheel_travel_mm'    !! column over which the charts are drawn and the gradients fitted
+      character(56) :: label = 'wheel travel [mm]    (+ bump)'   !! of the abscissa
+      real(wp) :: shares(2) = 0.0_wp         !! moves_heights: height per swept value, left and right
+      real(wp) :: force(3) = 0.0_wp          !! loads_wheels: force and moment per swept value on the left wheel, at the patch
+      real(wp) :: moment(3) = 0.0_wp
+      logical :: is_at_centre = .false.      !! the force acts at the wheel centre, except in a solid axle that takes the torque
+      logical :: has_phase = .false.         !! the load on the right wheel may be reversed
+      logical :: has_trail = .false.         !! the force may act behind the patch, at `offset`
+      integer :: place = 0                   !! among the standard tests; 0: none of them
+      integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed
+      real(wp) :: reach = 0.0_wp             !! of the standard test: from −reach to reach, in `unit`
+      integer :: increments = 40             !! likewise
+      character(9) :: prefix = ''            !! of the names of its gradients
+   end type rig_test_t
+
+   real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp], right(3) = [0.0_wp, 1.0_wp, 0.0_wp], rear(3) = [1.0_wp, 0.0_wp, 0.0_wp]
+
+   type(rig_test_t), parameter :: rig_tests(*) = [ &
+      rig_test_t('parallel_travel', moves_heights, of_travel, 'centre', 'mm', 'wheel travel', shares=[1.0_wp, 1.0_wp], &
+         place=1, reach=80.0_wp, increments=80), &
+      rig_test_t('opposite_travel', moves_heights, of_tilt, 'centre', 'mm', 'travel of the left wheel, right wheel opposed', &
+         shares=[1.0_wp, -1.0_wp], place=2, reach=60.0_wp, increments=60, prefix='opposite '), &
+      rig_test_t('single_travel', moves_heights, of_tilt, 'centre', 'mm', shares=[1.0_wp, 0.0_wp], prefix='single '), &
+      rig_test_t('roll', rolls, of_roll, 'patch', 'deg', 'axle roll, left wheel up', 'axle_roll_deg', &
+         'axle roll [deg]    (+ left wheel up)', place=3, reach=3.0_wp, increments=60), &
+      rig_test_t('steering', steers, of_steer, 'centre', '', '', 'steering_wheel_deg', 'steering wheel [deg]    (+ left)', &
+         place=4, increments=60), &
+      rig_test_t('lateral_force', loads_wheels, of_lateral, 'force', 'N', 'lateral force at each patch', 'factor', &
+         'lateral force [N]    (+ to the right)', force=right, has_phase=.true., has_trail=.true., place=5, phases=2, &
+         reach=2000.0_wp), &
+      rig_test_t('braking', loads_wheels, of_braking, 'force', 'N', 'braking force at each patch', 'factor', &
+         'braking force per wheel [N]    (+ rearward)', force=rear, has_phase=.true., place=7, reach=2000.0_wp), &
+      rig_test_t('traction', loads_wheels, of_traction, 'force', 'N', 'traction force at each wheel centre', 'factor', &
+         'traction force per wheel [N]    (+ forward)', force=-rear, is_at_centre=.true., has_phase=.true., place=8, &
+         reach=2000.0_wp), &
+      rig_test_t('aligning_torque', loads_wheels, of_aligning, 'force', 'N m', 'aligning torque on each wheel', 'factor', &
+         'aligning torque [N m]    (+ to the left)', moment=up, has_phase=.true., place=6, phases=2, reach=100.0_wp), &
+      rig_test_t('vertical_force', loads_wheels, of_vertical, 'force', 'N', 'change of vertical force at each patch', 'factor', &
+         'vertical force [N]    (+ up)', force=up), &
+      rig_test_t('table', takes_table, of_table, 'force', '-', '', 'factor', 'row of the table')]
+
+contains
+
+   !> The row of a test; for any other name a row without an action, with the abscissa of a wheel travel.
+   pure type(rig_test_t) function rig_test(name) result(test)
+      character(*), intent(in) :: name
+      integer :: k
+
+      do k = 1, size(rig_tests)
+         if (rig_tests(k)%name == name) test = rig_tests(k)
+      end do
+   end function rig_test
+
+   !> Whether a test needs a left and a right wheel.
+   pure logical function needs_both(test)
+      type(rig_test_t), intent(in) :: test
+      needs_both = test%action == rolls .or. minval(test%shares) < 0.0_wp
+   end function needs_both
+
+   !> Whether a test moves one wheel, which the case names.
+   pure logical function of_one_wheel(test)
+      type(rig_test_t), intent(in) :: test
+      of_one_wheel = test%action == moves_heights .and. any(.not. abs(test%shares) > 0.0_wp)
+   end function of_one_wheel
+
+   !> Whether a test mainly moves or loads the wheels upward.
+   pure logical function lifts(test)
+      type(rig_test_t), intent(in) :: test
+      lifts = sum(test%shares) > 0.0_wp .or. test%force(3) > 0.0_wp
+   end function lifts
+
+   !> The SI value of a unit of the swept value.
+   pure real(wp) function swept_unit(unit)
+      character(*), intent(in) :: unit
+
+      swept_unit = 1.0_wp
+      if (unit == 'mm') swept_unit = millimetre
+      if (unit == 'deg') swept_unit = degree
+   end function swept_unit
+
+end module ek_rig_test
