@@ -16,7 +16,7 @@ module ek_load_deck
 
 contains
 
-   !> Reads a deck, applies --set, builds the model, and reads the tables and targets of its cases; reports all errors together.
+   !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
    subroutine load_deck(arguments, suspension, cases, checksum, error)
       type(arguments_t), intent(in) :: arguments
       type(suspension_t), intent(out) :: suspension

@@ -28,6 +28,7 @@ module ek_reader
    use ek_reader_wheels, only: read_wheel
    use ek_reader_axle, only: read_axle, read_steering
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
+   use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_point, add_gravity
    use ek_completion, only: allocate_lists
@@ -48,7 +49,7 @@ module ek_reader
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters           !! with their values in the deck, x
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
-      type(case_t), allocatable :: cases(:)      !! may be of size 0; includes cases with a mistake
+      type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with a mistake
    end type design_t
 
 contains
@@ -94,6 +95,7 @@ contains
       allocate (design%cases(0))
       call read_records(draft, design%cases, is_complete, error)
       if (is_complete) call complete_prototype(draft)
+      call read_tables(design%cases, draft%plan%prototype, is_complete)
       design%plan = draft%plan
       design%parameters = draft%parameters
       call move_alloc(draft%records, design%records)

@@ -12,7 +12,7 @@ module ek_sheet
    use ek_letters, only: is_wide, with_line_ends, line_count, save_as_utf8
    use ek_file, only: read_whole
    use ek_decimal, only: get_decimal
-   use ek_table, only: name_length
+   use ek_quantity, only: name_length
    implicit none(type, external)
    private
    public :: sheet_t, read_sheet, mistakes_of, head_place

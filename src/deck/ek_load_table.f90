@@ -11,80 +11,73 @@
 !> Loads and heights act in addition to the constant loads of the deck; quantities without a column stay constant.
 module ek_load_table
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_deck
+   use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, plural
    use ek_units, only: degree, millimetre
-   use ek_case, only: case_t, load_table_t, table_column_t
+   use ek_case, only: case_t, load_table_t, table_column_t, most_driven
    use ek_measure, only: rotation
-   use ek_state, only: most_driven
    use ek_suspension, only: suspension_t, driver_row
-   use ek_table, only: name_length
+   use ek_quantity, only: name_length
    use ek_sheet, only: sheet_t, read_sheet, mistakes_of, head_place
    use ek_wheel_side, only: prefix_of, left_and_right
    implicit none(type, external)
    private
-   public :: take_table, read_table, has_table, note_unread
+   public :: read_tables
 
-   character(*), parameter :: load_columns(9) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
-      'centre_fx_n', 'centre_fy_n', 'centre_fz_n']      !! as component of table_column_t
-   character(*), parameter :: travel_column = 'travel_mm'
+   !> Columns of a wheel: loads, by component of table_column_t, and its height.
+   character(*), parameter :: wheel_columns(10) = [character(11) :: 'fx_n', 'fy_n', 'fz_n', 'mx_nm', 'my_nm', 'mz_nm', &
+      'centre_fx_n', 'centre_fy_n', 'centre_fz_n', 'travel_mm']
+   integer, parameter :: height = 10
    character(*), parameter :: passed_over(2) = [character(6) :: 'state', 'factor']      !! columns of result files reused as loads
 
 contains
 
-   !> Reads the table of a case, before the case is put on the rig; for any other case does nothing.
-   subroutine take_table(suspension, case, error)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(inout) :: case
-      type(error_t), allocatable, intent(out) :: error   !! exit_file: not readable; exit_deck: all errors in the table
-      type(message_list_t) :: mistakes
+   !> Reads the tables that cases name. The mistakes in a table, as 'table.csv:7: mistake', stay in its case: only a command that
+   !> uses the case reports them.
+   subroutine read_tables(cases, suspension, is_whole)
+      type(case_t), intent(inout) :: cases(:)
+      type(suspension_t), intent(in) :: suspension     !! wheels and drivers, which make the heads
+      logical, intent(in) :: is_whole                  !! the suspension is complete; else heads are not compared with it
+      integer :: j, k
 
-      if (.not. has_table(case)) return
-      call read_table(case%file, case%table, mistakes, error, suspension)
-      if (allocated(error)) then
-         call note_unread(case, error%message)
-         error%message = case%table%fault
-      else if (mistakes%count() > 0) then
-         call fail(error, exit_deck, mistakes%text())
-      end if
-   end subroutine take_table
+      do k = 1, size(cases)
+         if (cases(k)%test /= 'table' .or. cases(k)%file == '') cycle
+         if (index(cases(k)%file, '/', back=.true.) == len(cases(k)%file)) cycle
+         do j = 1, k - 1
+            if (cases(j)%file == cases(k)%file) exit
+         end do
+         if (j < k) then
+            cases(k)%table = cases(j)%table
+         else
+            call read_table(cases(k)%file, suspension, is_whole, cases(k)%table)
+         end if
+         if (allocated(cases(k)%table%fault)) cases(k)%table%fault = cases(k)%table%mistakes%line(1)//'; in case '// &
+            quoted(cases(k)%name)//' ('//cases(k)%where//')'
+      end do
+   end subroutine read_tables
 
-   !> Whether a case names a table.
-   pure logical function has_table(case)
-      type(case_t), intent(in) :: case
-
-      has_table = .false.
-      if (.not. allocated(case%test) .or. .not. allocated(case%file)) return
-      has_table = case%test == 'table' .and. case%file /= '' .and. index(case%file, '/', back=.true.) /= len(case%file)
-   end function has_table
-
-   !> Keeps the reason why the table of a case cannot be read, for the message when the case is run.
-   pure subroutine note_unread(case, message)
-      type(case_t), intent(inout) :: case
-      character(*), intent(in) :: message
-
-      case%table%fault = message//'; in case '//quoted(case%name)//' ('//case%where//')'
-   end subroutine note_unread
-
-   !> Reads a table for a model; all errors in it, as 'table.csv:7: error', in `mistakes`.
-   subroutine read_table(file, table, mistakes, error, suspension)
+   !> Reads one table.
+   subroutine read_table(file, suspension, is_whole, table)
       character(*), intent(in) :: file
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: is_whole
       type(load_table_t), intent(out) :: table
-      type(message_list_t), intent(inout) :: mistakes
-      type(error_t), allocatable, intent(out) :: error           !! exit_file: the file cannot be read
-      type(suspension_t), intent(in), optional :: suspension     !! absent: the errors alone, not those of the heads
+      type(error_t), allocatable :: error
       type(sheet_t) :: sheet
       integer :: wheels(2), k, used
 
       call read_sheet(file, sheet, error)
-      if (allocated(error)) return
-      wheels = 0
-      if (present(suspension)) then
+      if (allocated(error)) then
+         table%fault = error%message
+         call table%mistakes%add(error%message)
+         return
+      end if
+      if (is_whole) then
          call left_and_right(suspension, wheels)
          call judge_columns(sheet, suspension, wheels)
       end if
-      call mistakes_of(sheet, mistakes)
-      if (mistakes%count() > 0 .or. .not. present(suspension)) return
+      call mistakes_of(sheet, table%mistakes)
+      if (table%mistakes%count() > 0 .or. .not. is_whole) return
       table%rows = size(sheet%values, 2)
       allocate (table%columns(count([(is_kept(sheet, k), k=1, size(sheet%heads))])))
       used = 0
@@ -119,10 +112,12 @@ contains
          if (wheels(side) == 0) cycle
          prefix = prefix_of(suspension, wheels(side))
          if (index(head, prefix) /= 1) cycle
-         column%component = findloc(load_columns, head(len(prefix) + 1:), dim=1)
-         if (column%component == 0 .and. head(len(prefix) + 1:) /= travel_column) cycle
+         column%component = findloc(wheel_columns, head(len(prefix) + 1:), dim=1)
+         if (column%component == 0) cycle
          column%wheel = wheels(side)
-         if (column%component == 0) column%values = values*millimetre
+         if (column%component < height) return
+         column%component = 0
+         column%values = values*millimetre
          return
       end do
       column%name = head(:index(head, '_', back=.true.) - 1)
@@ -141,7 +136,7 @@ contains
       type(sheet_t), intent(inout) :: sheet
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels(2)
-      integer, parameter :: most_told = 10      ! a table for another purpose has many
+      integer, parameter :: most_reported = 10      ! a table for another purpose has many
       integer :: k, unknown
 
       if (count(sheet%heads /= '') > most_driven) call sheet%head_mistakes%add(head_place(sheet)//'expected at most '// &
@@ -150,11 +145,11 @@ contains
       do k = 1, size(sheet%heads)
          if (sheet%heads(k) == '' .or. has_meaning(trim(sheet%heads(k)), suspension, wheels)) cycle
          unknown = unknown + 1
-         if (unknown <= most_told) call sheet%head_mistakes%add(head_place(sheet)//'unknown column '// &
+         if (unknown <= most_reported) call sheet%head_mistakes%add(head_place(sheet)//'unknown column '// &
             quoted(sheet%heads(k))//advice(trim(sheet%heads(k)), suspension, wheels))
       end do
-      if (unknown > most_told) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
-         plural(unknown - most_told, 'more unknown column', 'more unknown columns'))
+      if (unknown > most_reported) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
+         plural(unknown - most_reported, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
 
    !> Whether a column is a drive, a load or a number of a state.
@@ -170,7 +165,7 @@ contains
          if (wheels(side) == 0) cycle
          prefix = prefix_of(suspension, wheels(side))
          if (index(name, prefix) /= 1) cycle
-         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == [character(11) :: load_columns, travel_column])
+         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == wheel_columns)
       end do
    end function has_meaning
 
@@ -193,19 +188,15 @@ contains
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels(2)
       character(:), allocatable :: words
-      character(name_length) :: known(2*size(load_columns) + 2)
-      integer :: side, c, used
+      character(name_length) :: known(20)
+      integer :: side, used
 
       known = ''
       used = 0
       do side = 1, 2
          if (wheels(side) == 0) cycle
-         do c = 1, size(load_columns)
-            used = used + 1
-            known(used) = prefix_of(suspension, wheels(side))//load_columns(c)
-         end do
-         used = used + 1
-         known(used) = prefix_of(suspension, wheels(side))//travel_column
+         known(used + 1:used + 10) = prefix_of(suspension, wheels(side))//wheel_columns
+         used = used + 10
       end do
       words = nearest_name(name, known)
       if (words /= '') then
