@@ -52,11 +52,13 @@ contains
 
       if (path == '-') then
          call read_standard_input(text, error)
-         if (allocated(error)) return
-         call parse_deck(text, 'standard input', deck, error, is_study)
       else
          call read_whole(path, text, error, may_stream=.true.)
-         if (allocated(error)) return
+      end if
+      if (allocated(error)) return
+      if (path == '-') then
+         call parse_deck(text, 'standard input', deck, error, is_study)
+      else
          call parse_deck(text, path, deck, error, is_study)
       end if
    end subroutine read_deck
@@ -67,15 +69,16 @@ contains
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_study     !! default .false.
-      logical :: includes
+      logical :: is_alone
 
       deck%file = trim(name)
-      includes = .true.
-      if (present(is_study)) includes = .not. is_study
-      if (includes) then
-         call read_text(text, deck%file, deck%records, deck%used, deck%complaints)
-      else
+      allocate (deck%late(0))
+      is_alone = .false.
+      if (present(is_study)) is_alone = is_study
+      if (is_alone) then
          call scan_text(text, deck%file, deck%records, deck%used, deck%complaints)
+      else
+         call read_text(text, deck%file, deck%records, deck%used, deck%complaints)
       end if
       call name_tests(deck)
       if (deck%used == 0 .and. deck%complaints%count() == 0) &
@@ -95,9 +98,9 @@ contains
          if (text == '') cycle
          if (lower(element(deck%records(k), 'phase', 1)) == 'anti') text = text//'_anti'
          name%key = 'name'
-         name%first = 1
          name%line = deck%records(k)%line
-         call add_value(name, text, .true., .false.)
+         name%used = 0
+         call add_value(name, text, .true.)
          call add_entry(deck%records(k), name)
       end do
    end subroutine name_tests
@@ -115,6 +118,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: message, late_message
       type(deck_t) :: whole
+      type(setting_t) :: late
       logical :: is_found
 
       call apply_setting(deck%records, deck%used, path, text, message, is_found)
@@ -123,7 +127,9 @@ contains
          call finish_deck(deck, whole)
          call apply_setting(whole%records, whole%used, path, text, late_message, is_found)
          if (late_message == '') then
-            call add_late(deck%late, path, text)
+            late%path = path
+            late%text = text
+            deck%late = [deck%late, late]
             return
          end if
          ! the intended name may be that of either kind of record
@@ -132,25 +138,6 @@ contains
       if (deck%complaints%count() > 0) message = deck%complaints%text()//new_line('a')//message
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
-
-   !> Appends a setting to those made after &mirror.
-   subroutine add_late(late, path, text)
-      type(setting_t), allocatable, intent(inout) :: late(:)
-      character(*), intent(in) :: path, text
-      type(setting_t), allocatable :: grown(:)
-      integer :: k, used
-
-      used = 0
-      if (allocated(late)) used = size(late)
-      allocate (grown(used + 1))
-      do k = 1, used
-         call move_alloc(late(k)%path, grown(k)%path)
-         call move_alloc(late(k)%text, grown(k)%text)
-      end do
-      grown(used + 1)%path = path
-      grown(used + 1)%text = text
-      call move_alloc(grown, late)
-   end subroutine add_late
 
    !> Whether the records are final: the model can be built from them.
    pure logical function is_finished(self)
@@ -167,11 +154,15 @@ contains
       logical :: is_found
       integer :: k
 
+      if (deck%is_finished()) then
+         whole = deck
+         return
+      end if
       whole%file = deck%file
       whole%complaints = deck%complaints
       whole%is_mirrored = .true.
+      allocate (whole%late(0))
       call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%complaints)
-      if (.not. allocated(deck%late)) return
       do k = 1, size(deck%late)
          call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)
          if (message == '') cycle      ! a later setting has removed the record to which this one refers
@@ -187,29 +178,17 @@ contains
       type(deck_t), intent(in) :: deck
       character(16) :: digits
       type(deck_t) :: whole
-
-      if (deck%is_finished()) then
-         digits = checksum_of(deck)
-      else
-         call finish_deck(deck, whole)
-         digits = checksum_of(whole)
-      end if
-   end function deck_checksum
-
-   !> FNV-1a, 64 bits, of all records in hexadecimal digits; titles and notes are ignored.
-   function checksum_of(deck) result(digits)
-      type(deck_t), intent(in) :: deck
-      character(16) :: digits
       integer(i8) :: high, low
       integer :: k, e, v
 
+      call finish_deck(deck, whole)
       high = int(z'cbf29ce4', i8)
       low = int(z'84222325', i8)
-      do k = 1, deck%used
-         if (deck%records(k)%group == 'include') cycle
-         call include('&'//deck%records(k)%group)
-         do e = 1, deck%records(k)%used
-            associate (entry => deck%records(k)%entries(e))
+      do k = 1, whole%used
+         if (whole%records(k)%group == 'include') cycle
+         call include('&'//whole%records(k)%group)
+         do e = 1, whole%records(k)%used
+            associate (entry => whole%records(k)%entries(e))
                if (entry%key == 'note' .or. entry%key == 'title') cycle
                call include(';'//entry%key//'('//str(entry%first)//')')
                do v = 1, entry%used
@@ -237,7 +216,7 @@ contains
          end do
       end subroutine include
 
-   end function checksum_of
+   end function deck_checksum
 
    !> Reads all of standard input line by line: it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)

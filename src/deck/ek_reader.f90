@@ -7,20 +7,19 @@ module ek_reader
    use ek_text, only: lower
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
-   use ek_twin, only: single
-   use ek_complaint, only: place_t
+   use ek_complaint, only: place_t, single
    use ek_record, only: record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
       curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
-      word_length, record_head, did_you_mean, is_legal_name, illegal_name, has_results
+      word_length, record_head, did_you_mean, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
       number_of, slot
    use ek_reference, only: vector_at
    use ek_parameter, only: parameters_t
-   use ek_reserved_name, only: reserved_because
+   use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
    use ek_reader_bodies, only: read_point, read_body, read_mass
    use ek_reader_joints, only: read_measure, read_joint
    use ek_reader_springs, only: read_curve, read_spring, read_damper, read_stop, read_torsion
@@ -83,14 +82,9 @@ contains
       type(draft_t) :: draft
       logical :: is_complete
 
-      if (deck%is_finished()) then
-         draft%complaints = deck%complaints
-         draft%records = deck%records(:deck%used)
-      else
-         call finish_deck(deck, finished)
-         draft%complaints = finished%complaints
-         draft%records = finished%records(:finished%used)
-      end if
+      call finish_deck(deck, finished)
+      draft%complaints = finished%complaints
+      draft%records = finished%records(:finished%used)
       draft%file = deck%file
       allocate (design%cases(0))
       call read_records(draft, design%cases, is_complete, error)

@@ -2,7 +2,7 @@
 module ek_reader_bodies
    use ek_kinds, only: wp
    use ek_text, only: quoted
-   use ek_twin, only: single, left_twin, right_twin
+   use ek_complaint, only: single, left_twin, right_twin
    use ek_builder, only: add_body
    use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, hardpoint, off_left, off_right, in_plane
    use ek_design_vector, only: add_mass, plane

@@ -4,7 +4,7 @@ module ek_reader_cases
    use ek_text, only: str, lower, quoted
    use ek_units, only: millimetre
    use ek_case, only: case_t, method_names, follow_names, most_increments
-   use ek_twin, only: right_twin
+   use ek_complaint, only: right_twin
    use ek_record, only: value_t, own_name
    use ek_namelist, only: value_fault
    use ek_blueprint, only: case_plan_t

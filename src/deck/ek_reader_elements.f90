@@ -3,7 +3,7 @@ module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
-   use ek_twin, only: right_twin
+   use ek_complaint, only: right_twin
    use ek_elastic, only: bushing_t
    use ek_suspension, only: load_t
    use ek_builder, only: add_bushing, add_load

@@ -7,7 +7,7 @@ module ek_reader_tests
    use ek_group, only: wheel_group, joint_group, word_length
    use ek_realise, only: steepest_roll
    use ek_draft, only: draft_t, complain, line_of, has_key, choice, text_of, number_of
-   use ek_twin, only: right_twin
+   use ek_complaint, only: right_twin
    use ek_reference, only: find_driver, find_wheel
    implicit none(type, external)
    private

@@ -10,7 +10,8 @@ module ek_study
    use ek_complaint, only: place_t
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, most_values, &
-      did_you_mean, is_deck_group, names_of_groups, is_legal_name
+      did_you_mean, is_deck_group, names_of_groups
+   use ek_reserved_name, only: is_legal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, read_deck
    use ek_draft, only: draft_t, complain, complain_of_all, choice, choose, has_key, where_of, line_of, text_of, &
