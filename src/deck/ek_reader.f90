@@ -20,12 +20,10 @@ module ek_reader
    use ek_reference, only: vector_at
    use ek_parameter, only: parameters_t
    use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
-   use ek_reader_bodies, only: read_point, read_body, read_mass
+   use ek_reader_bodies, only: read_point, read_body, read_mass, read_load
    use ek_reader_joints, only: read_measure, read_joint
-   use ek_reader_springs, only: read_curve, read_spring, read_damper, read_stop, read_torsion
-   use ek_reader_elements, only: read_bushing, read_load
-   use ek_reader_wheels, only: read_wheel
-   use ek_reader_axle, only: read_axle, read_steering
+   use ek_reader_elements, only: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   use ek_reader_axle, only: read_wheel, read_axle, read_steering
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t

@@ -11,8 +11,8 @@ module ek_reader_joints
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
    use ek_group, only: measure_group, word_length, most_measures
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, numbers_of, value_count, &
-      slot, slots
-   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, new_vector, vector_at
+      slot
+   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector, vector_at
    implicit none(type, external)
    private
    public :: read_measure, read_joint
@@ -45,19 +45,17 @@ contains
          if (.not. has_key(draft, 'at')) call complain(draft, '', "'at' is missing")
          draft%cards(draft%k)%factor = draft%units%length
       case default
-         call refuse(draft, 'at', 'a measure of type '//quoted(type)//' takes no points')
+         call refuse(draft, ['at'], 'a measure of type '//quoted(type)//' takes no points')
          draft%cards(draft%k)%factor = merge(draft%units%angle, 1.0_wp, kind == rotation)
       end select
       if (kind == distance) then
-         call check_apart(draft, plan%ends, has_points, 'a distance')
-         call refuse(draft, 'axis', 'a distance takes no axis')
-         call refuse(draft, 'axis_vector', 'a distance takes no axis')
+         call need_two_points(draft, plan%ends, has_points, 'a distance')
+         call refuse(draft, ['axis       ', 'axis_vector'], 'a distance takes no axis')
       else if (.not. has_u) then
          call complain(draft, '', "give 'axis' or 'axis_vector'")
       end if
       if (kind /= axis_axis) then
-         call refuse(draft, 'axis_2', 'only a measure of type '//quoted('axes')//' takes a second axis')
-         call refuse(draft, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' takes a second axis')
+         call refuse(draft, ['axis_2       ', 'axis_2_vector'], 'only a measure of type '//quoted('axes')//' takes a second axis')
       else if (.not. has_v) then
          call complain(draft, '', "give 'axis_2' or 'axis_2_vector'")
       end if
@@ -110,7 +108,7 @@ contains
       call find_ends(draft, .true., plan%ends, has_points)
       select case (kind)
       case ('distance')
-         call check_apart(draft, plan%ends, has_points, 'a distance joint')
+         call need_two_points(draft, plan%ends, has_points, 'a distance joint')
       case ('in_plane', 'in_line')
          continue
       case default
@@ -213,7 +211,7 @@ contains
       plan%readouts = draft%cards(found(:given))%index
       if (any(plan%readouts == 0)) return      ! a measure that was rejected
       plan%units = draft%cards(found(:given))%factor
-      call slots(draft, 'ratios', given, 1.0_wp, first)
+      call slot(draft, 'ratios', 1.0_wp, first, count=given)
       plan%ratios = [(first + j - 1, j=1, given)]
       call add_coupler(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), plan%readouts, &
          numbers_of(draft, 'ratios', given))
@@ -226,7 +224,7 @@ contains
       character(*), intent(in) :: kind
       character(*), parameter :: joint_keys(11) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
          'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance']
-      logical :: is_geometric
+      logical :: is_geometric, has_axis, has_second
       logical :: may(11), must(11)
       integer :: j
 
@@ -234,51 +232,54 @@ contains
       may(1:2) = is_geometric
       may(3:4) = needs_axis(kind)
       may(5:6) = needs_second_axis(kind) .or. kind == 'parallel'
-      may(7) = kind == 'driver'
+      may([7, 10, 11]) = kind == 'driver'
       may(8:9) = kind == 'coupler'
-      may(10:11) = kind == 'driver'
       must = may
       must(2) = is_geometric .and. kind /= 'parallel' .and. kind /= 'perpendicular'
-      must(3:6) = .false.
-      must(10:11) = .false.
+      must([3, 4, 5, 6, 10, 11]) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(draft, trim(joint_keys(j)), 'a '//kind//' joint does not take this key')
+         if (.not. may(j)) call refuse(draft, joint_keys(j:j), 'a '//kind//' joint does not take this key')
          if (must(j) .and. .not. has_key(draft, trim(joint_keys(j)))) &
             call complain(draft, '', quoted(joint_keys(j))//' is missing')
       end do
+      has_axis = has_key(draft, 'axis') .or. has_key(draft, 'axis_vector')
+      has_second = has_key(draft, 'axis_2') .or. has_key(draft, 'axis_2_vector')
       if (kind == 'universal') then
-         if (.not. any([has_key(draft, 'axis'), has_key(draft, 'axis_vector'), has_key(draft, 'axis_2'), &
-            has_key(draft, 'axis_2_vector')])) call complain(draft, '', &
+         if (.not. (has_axis .or. has_second)) call complain(draft, '', &
             "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
          return
       end if
-      if (needs_axis(kind) .and. .not. (has_key(draft, 'axis') .or. has_key(draft, 'axis_vector'))) &
-         call complain(draft, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
-      if (needs_second_axis(kind) .and. .not. (has_key(draft, 'axis_2') .or. has_key(draft, 'axis_2_vector'))) &
+      if (needs_axis(kind) .and. .not. has_axis) call complain(draft, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
+      if (needs_second_axis(kind) .and. .not. has_second) &
          call complain(draft, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
    end subroutine check_keys
 
-   !> Rejects a key that has no meaning here.
-   subroutine refuse(draft, key, why)
+   !> Rejects keys that have no meaning here.
+   subroutine refuse(draft, keys, why)
       type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: key, why
-      if (has_key(draft, key)) call complain(draft, key, key//': '//why)
+      character(*), intent(in) :: keys(:), why
+      integer :: k
+
+      do k = 1, size(keys)
+         if (has_key(draft, trim(keys(k)))) call complain(draft, trim(keys(k)), trim(keys(k))//': '//why)
+      end do
    end subroutine refuse
 
    !> Checks that two distinct points are given.
-   subroutine check_apart(draft, ends, is_found, what)
+   subroutine need_two_points(draft, ends, is_found, what)
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: ends(2)       !! vectors
       logical, intent(in) :: is_found
       character(*), intent(in) :: what
       character(word_length) :: at(2)
+      logical :: are_apart
 
       at = texts_of(draft, 'at', 2)
       if (at(1) /= '' .and. at(2) == '') then
          call complain(draft, 'at', 'at: '//what//' needs two points, found one')
-      else if (is_found .and. .not. norm2(vector_at(draft, ends(2)) - vector_at(draft, ends(1))) > 0.0_wp) then
-         call complain(draft, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+      else if (is_found) then
+         call check_apart(draft, 'at', ends, '', are_apart)
       end if
-   end subroutine check_apart
+   end subroutine need_two_points
 
 end module ek_reader_joints
