@@ -17,7 +17,7 @@ module ek_deck
    use ek_record, only: record_t, entry_t, element, is_given, add_value, add_entry
    use ek_scanner, only: scan_text
    use ek_include, only: read_text
-   use ek_mirror, only: has_mirror, mirror_records
+   use ek_mirror, only: mirror_records
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
@@ -36,8 +36,6 @@ module ek_deck
       type(complaints_t) :: complaints           !! syntax mistakes
       type(setting_t), allocatable :: late(:)    !! settings to be made after &mirror
       logical :: is_mirrored = .false.
-   contains
-      procedure :: is_finished                   !! finish_deck has nothing left to do
    end type deck_t
 
 contains
@@ -123,7 +121,7 @@ contains
 
       call apply_setting(deck%records, deck%used, path, text, message, is_found)
       if (message == '') return
-      if (.not. is_found .and. .not. deck%is_finished()) then
+      if (.not. is_found) then
          call finish_deck(deck, whole)
          call apply_setting(whole%records, whole%used, path, text, late_message, is_found)
          if (late_message == '') then
@@ -139,13 +137,8 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> Whether the records are final: the model can be built from them.
-   pure logical function is_finished(self)
-      class(deck_t), intent(in) :: self
-      is_finished = self%is_mirrored .or. .not. has_mirror(self%records, self%used)
-   end function is_finished
-
-   !> The deck with both sides written out and the settings of single sides applied. Mistakes are added to its list.
+   !> The deck with both sides written out and the settings of single sides applied; without &mirror, a copy. Mistakes are added
+   !> to its list.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
@@ -154,14 +147,9 @@ contains
       logical :: is_found
       integer :: k
 
-      if (deck%is_finished()) then
-         whole = deck
-         return
-      end if
-      whole%file = deck%file
-      whole%complaints = deck%complaints
+      whole = deck
+      if (deck%is_mirrored .or. .not. any([(deck%records(k)%group == 'mirror', k=1, deck%used)])) return
       whole%is_mirrored = .true.
-      allocate (whole%late(0))
       call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%complaints)
       do k = 1, size(deck%late)
          call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)

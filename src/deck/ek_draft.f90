@@ -14,9 +14,9 @@ module ek_draft
    use ek_parameter, only: parameters_t, add_parameter
    implicit none(type, external)
    private
-   public :: draft_t, card_t, complain, complain_at, complain_of_all, where_of, line_of, has_key
+   public :: draft_t, card_t, complain, complain_of_all, where_of, line_of, has_key
    public :: text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, choice, choose
-   public :: slot
+   public :: refuse, slot
 
    !> The information about one record.
    type :: card_t
@@ -42,27 +42,33 @@ module ek_draft
 
 contains
 
-   !> Reports a mistake in the record being read, at the line of `key` ('': the line of the record).
-   subroutine complain(draft, key, what)
+   !> Reports a mistake in record `at`, by default the one being read, at the line of `key` ('': the line of the record).
+   subroutine complain(draft, key, what, at)
       type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: key, what
-      call complain_at(draft, draft%k, key, what)
-   end subroutine complain
-
-   !> Reports a mistake in record k.
-   subroutine complain_at(draft, k, key, what)
-      type(draft_t), intent(inout) :: draft
-      integer, intent(in) :: k
-      character(*), intent(in) :: key, what
+      integer, intent(in), optional :: at
       type(place_t) :: place
-      integer :: entry
+      integer :: entry, k
 
+      k = draft%k
+      if (present(at)) k = at
       entry = 0
       if (key /= '') entry = entry_index(draft%records(k), key, 0)
       call place_of(draft%records(k), entry, place)
       call draft%complaints%add(place, record_head(draft%cards(k)%group, draft%cards(k)%name)//what)
       draft%cards(k)%is_good = .false.
-   end subroutine complain_at
+   end subroutine complain
+
+   !> Rejects keys that have no meaning here.
+   subroutine refuse(draft, keys, why)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: keys(:), why
+      integer :: k
+
+      do k = 1, size(keys)
+         if (has_key(draft, trim(keys(k)))) call complain(draft, trim(keys(k)), trim(keys(k))//': '//why)
+      end do
+   end subroutine refuse
 
    !> Reports a mistake of the deck as a whole.
    subroutine complain_of_all(draft, what)

@@ -6,16 +6,10 @@ module ek_group
    use ek_text, only: quoted, nearest_name
    implicit none(type, external)
    private
-   public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single
-   public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
-   public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
-   public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
-   public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group, mass_group
-   public :: word_length, note_length, most_measures, most_values, most_loads
-   public :: word, prose, number, whole, switch, is_inside, range_words
-   public :: is_element, can_be_doubled, is_name, polar, axial, curves, side
+   public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
+   public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key, is_inside, range_words, is_name
 
-   integer, parameter :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
+   integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
@@ -30,27 +24,27 @@ module ek_group
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
 
    ! types of value
-   integer, parameter :: word = 1      !! quoted, at most word_length characters: names and choices
-   integer, parameter :: prose = 2     !! quoted, at most note_length characters
-   integer, parameter :: number = 3
-   integer, parameter :: whole = 4     !! whole number
-   integer, parameter :: switch = 5    !! .true. or .false.
+   integer, parameter, public :: word = 1      !! quoted, at most word_length characters: names and choices
+   integer, parameter, public :: prose = 2     !! quoted, at most note_length characters
+   integer, parameter, public :: number = 3
+   integer, parameter, public :: whole = 4     !! whole number
+   integer, parameter, public :: switch = 5    !! .true. or .false.
 
-   integer, parameter :: word_length = 63      !! longest name
-   integer, parameter :: note_length = 2000    !! longest title or note
-   integer, parameter :: most_measures = 8     !! per coupler
-   integer, parameter :: most_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
-   integer, parameter :: most_loads = 12       !! scaled together by one case
+   integer, parameter, public :: word_length = 63      !! longest name
+   integer, parameter, public :: note_length = 2000    !! longest title or note
+   integer, parameter, public :: most_measures = 8     !! per coupler
+   integer, parameter, public :: most_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
+   integer, parameter, public :: most_loads = 12       !! scaled together by one case
 
    ! legal ranges of a number
    integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3, share = 4
 
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
    ! group), a vector, and the rest
-   integer, parameter :: polar = 101    !! (x, y, z) → (x, −y, z)
-   integer, parameter :: axial = 102    !! (x, y, z) → (−x, y, −z)
-   integer, parameter :: curves = 103   !! 'fy=name' → 'fy=-name' for the components that change sign
-   integer, parameter :: side = 104     !! 'left' → 'right'
+   integer, parameter, public :: polar = 101    !! (x, y, z) → (x, −y, z)
+   integer, parameter, public :: axial = 102    !! (x, y, z) → (−x, y, −z)
+   integer, parameter, public :: curves = 103   !! 'fy=name' → 'fy=-name' for the components that change sign
+   integer, parameter, public :: side = 104     !! 'left' → 'right'
 
    type :: key_t
       integer :: group

@@ -64,7 +64,10 @@ contains
       type(load_table_t), intent(out) :: table
       type(error_t), allocatable :: error
       type(sheet_t) :: sheet
-      integer :: wheels(2), k, used
+      type(table_column_t), allocatable :: columns(:)
+      real(wp), allocatable :: unit(:)
+      logical, allocatable :: is_kept(:)
+      integer :: wheels(2), k
 
       call read_sheet(file, sheet, error)
       if (allocated(error)) then
@@ -72,42 +75,36 @@ contains
          call table%mistakes%add(error%message)
          return
       end if
+      allocate (columns(size(sheet%heads)), unit(size(sheet%heads)))
+      is_kept = [(sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over), k=1, size(sheet%heads))]
       if (is_whole) then
          call left_and_right(suspension, wheels)
-         call judge_columns(sheet, suspension, wheels)
+         do k = 1, size(sheet%heads)
+            call find_meaning(trim(sheet%heads(k)), suspension, wheels, columns(k), unit(k))
+         end do
+         call judge_columns(sheet, suspension, wheels, is_kept .and. .not. unit > 0.0_wp)
       end if
       call mistakes_of(sheet, table%mistakes)
       if (table%mistakes%count() > 0 .or. .not. is_whole) return
       table%rows = size(sheet%values, 2)
-      allocate (table%columns(count([(is_kept(sheet, k), k=1, size(sheet%heads))])))
-      used = 0
-      do k = 1, size(sheet%heads)
-         if (.not. is_kept(sheet, k)) cycle
-         used = used + 1
-         call set_column(trim(sheet%heads(k)), sheet%values(k, :), suspension, wheels, table%columns(used))
+      do k = 1, size(columns)
+         columns(k)%values = sheet%values(k, :)*unit(k)
       end do
+      table%columns = columns(pack([(k, k=1, size(columns))], is_kept))
    end subroutine read_table
 
-   !> Whether a column is used: it has a head, other than those passed over.
-   pure logical function is_kept(sheet, k)
-      type(sheet_t), intent(in) :: sheet
-      integer, intent(in) :: k
-
-      is_kept = sheet%heads(k) /= '' .and. .not. any(sheet%heads(k) == passed_over)
-   end function is_kept
-
-   !> What a column acts on, and its values in SI. Its head has a meaning.
-   pure subroutine set_column(head, values, suspension, wheels, column)
+   !> What the column of a head acts on, and the SI value of its unit; 0: the head has no meaning.
+   pure subroutine find_meaning(head, suspension, wheels, column, unit)
       character(*), intent(in) :: head
-      real(wp), intent(in) :: values(:)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels(2)      !! left, right; 0: none
       type(table_column_t), intent(out) :: column
+      real(wp), intent(out) :: unit
       character(:), allocatable :: prefix
-      integer :: side
+      integer :: side, mark, row
+      logical :: is_angle
 
       column%name = head
-      column%values = values
       do side = 1, 2
          if (wheels(side) == 0) cycle
          prefix = prefix_of(suspension, wheels(side))
@@ -115,72 +112,39 @@ contains
          column%component = findloc(wheel_columns, head(len(prefix) + 1:), dim=1)
          if (column%component == 0) cycle
          column%wheel = wheels(side)
-         if (column%component < height) return
-         column%component = 0
-         column%values = values*millimetre
+         unit = merge(millimetre, 1.0_wp, column%component == height)
+         if (column%component == height) column%component = 0
          return
       end do
-      column%name = head(:index(head, '_', back=.true.) - 1)
-      column%values = values*merge(degree, millimetre, is_angle_row(suspension, driver_of(head, suspension)))
-   end subroutine set_column
-
-   !> Whether the value of a driver's row is an angle.
-   pure logical function is_angle_row(suspension, row)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: row
-      is_angle_row = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
-   end function is_angle_row
+      unit = 0.0_wp
+      mark = index(head, '_', back=.true.)
+      if (mark < 2) return
+      row = driver_row(suspension, head(:mark - 1))
+      if (row == 0) return
+      column%name = head(:mark - 1)
+      is_angle = suspension%terms(suspension%rows(row)%first)%measure%kind == rotation
+      if (is_angle .and. head(mark:) == '_deg') unit = degree
+      if (.not. is_angle .and. head(mark:) == '_mm') unit = millimetre
+   end subroutine find_meaning
 
    !> Adds errors to the sheet: heads unknown in a model, and too many columns.
-   subroutine judge_columns(sheet, suspension, wheels)
+   subroutine judge_columns(sheet, suspension, wheels, is_unknown)
       type(sheet_t), intent(inout) :: sheet
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels(2)
+      logical, intent(in) :: is_unknown(:)
       integer, parameter :: most_reported = 10      ! a table for another purpose has many
-      integer :: k, unknown
+      integer :: k
 
       if (count(sheet%heads /= '') > most_driven) call sheet%head_mistakes%add(head_place(sheet)//'expected at most '// &
          str(most_driven)//' columns, found '//str(count(sheet%heads /= '')))
-      unknown = 0
       do k = 1, size(sheet%heads)
-         if (sheet%heads(k) == '' .or. has_meaning(trim(sheet%heads(k)), suspension, wheels)) cycle
-         unknown = unknown + 1
-         if (unknown <= most_reported) call sheet%head_mistakes%add(head_place(sheet)//'unknown column '// &
-            quoted(sheet%heads(k))//advice(trim(sheet%heads(k)), suspension, wheels))
+         if (is_unknown(k) .and. count(is_unknown(:k)) <= most_reported) call sheet%head_mistakes%add(head_place(sheet)// &
+            'unknown column '//quoted(sheet%heads(k))//advice(trim(sheet%heads(k)), suspension, wheels))
       end do
-      if (unknown > most_reported) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
-         plural(unknown - most_reported, 'more unknown column', 'more unknown columns'))
+      if (count(is_unknown) > most_reported) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
+         plural(count(is_unknown) - most_reported, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
-
-   !> Whether a column is a drive, a load or a number of a state.
-   pure logical function has_meaning(name, suspension, wheels)
-      character(*), intent(in) :: name
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: wheels(2)
-      character(:), allocatable :: prefix
-      integer :: side
-
-      has_meaning = any(name == passed_over) .or. driver_of(name, suspension) > 0
-      do side = 1, 2
-         if (wheels(side) == 0) cycle
-         prefix = prefix_of(suspension, wheels(side))
-         if (index(name, prefix) /= 1) cycle
-         has_meaning = has_meaning .or. any(name(len(prefix) + 1:) == wheel_columns)
-      end do
-   end function has_meaning
-
-   !> The row of the driver joint of a column <driver>_mm or <driver>_deg; 0 if there is none, or it has another unit.
-   pure integer function driver_of(name, suspension) result(row)
-      character(*), intent(in) :: name
-      type(suspension_t), intent(in) :: suspension
-      integer :: mark
-
-      row = 0
-      mark = index(name, '_', back=.true.)
-      if (mark > 1) row = driver_row(suspension, name(:mark - 1))
-      if (row == 0) return
-      if (name(mark:) /= trim(merge('_deg', '_mm ', is_angle_row(suspension, row)))) row = 0
-   end function driver_of
 
    !> Hint on the known columns.
    function advice(name, suspension, wheels) result(words)

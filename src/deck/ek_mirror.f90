@@ -18,7 +18,7 @@ module ek_mirror
    use ek_namelist, only: value_fault
    implicit none(type, external)
    private
-   public :: has_mirror, mirror_records
+   public :: mirror_records
 
    real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point closer to y = 0 exists once
 
@@ -34,15 +34,7 @@ module ek_mirror
 
 contains
 
-   !> Whether the records contain a &mirror.
-   pure logical function has_mirror(records, used)
-      type(record_t), intent(in) :: records(:)
-      integer, intent(in) :: used
-      integer :: k
-      has_mirror = any([(records(k)%group == 'mirror', k=1, used)])
-   end function has_mirror
-
-   !> The records of both sides, each left one followed by its right one. Without &mirror: a copy.
+   !> The records of both sides, each left one followed by its right one.
    subroutine mirror_records(records, used, whole, whole_used, complaints)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used

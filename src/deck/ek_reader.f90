@@ -15,7 +15,7 @@ module ek_reader
       word_length, record_head, did_you_mean, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
-   use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
+   use ek_draft, only: draft_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
       number_of, slot
    use ek_reference, only: vector_at
    use ek_parameter, only: parameters_t
@@ -205,17 +205,10 @@ contains
    !> Whether a file contains groups of a study and none of a deck.
    pure logical function is_study(records)
       type(record_t), intent(in) :: records(:)
-      integer :: k, group
+      integer :: groups(size(records)), k
 
-      is_study = .false.
-      do k = 1, size(records)
-         group = group_number(records(k)%group)
-         if (is_deck_group(group)) then
-            is_study = .false.
-            return
-         end if
-         is_study = is_study .or. group > 0
-      end do
+      groups = [(group_number(records(k)%group), k=1, size(records))]
+      is_study = any(groups > 0) .and. .not. any([(is_deck_group(groups(k)), k=1, size(records))])
    end function is_study
 
    !> Checks group, keys, counts and types of the record, and that its name is legal and unique.
@@ -340,7 +333,7 @@ contains
       if (any(draft%cards%group == 0)) return
       do k = 1, size(draft%records)
          if (draft%cards(k)%group /= body_group .or. draft%cards(k)%is_used .or. draft%cards(k)%name == '') cycle
-         call complain_at(draft, k, '', 'no joint, bushing or spring is attached to it')
+         call complain(draft, '', 'no joint, bushing or spring is attached to it', at=k)
       end do
    end subroutine check_bodies
 

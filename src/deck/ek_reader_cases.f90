@@ -10,7 +10,8 @@ module ek_reader_cases
    use ek_realise, only: steepest_roll
    use ek_blueprint, only: case_plan_t
    use ek_group, only: wheel_group, case_group, load_group, steering_group, number, most_loads, word_length
-   use ek_draft, only: draft_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, whole_of, slot
+   use ek_draft, only: draft_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, whole_of, refuse, &
+      slot
    use ek_reference, only: look_up, find_driver, find_wheel, is_driver
    implicit none(type, external)
    private
@@ -49,8 +50,8 @@ contains
          call read_drive(draft, this, unit)
       end if
       if (this%test /= 'table' .and. lower(text_of(draft, 'test')) /= 'table') then
-         call require('from')
-         call require('to')
+         if (.not. has_key(draft, 'from')) call complain(draft, '', "'from' is missing")
+         if (.not. has_key(draft, 'to')) call complain(draft, '', "'to' is missing")
          if (draft%cards(draft%k)%is_good .and. .not. abs(to - from) > 0.0_wp) &
             call complain(draft, 'to', 'from and to must differ, found '//str(from)//' twice')
       end if
@@ -81,11 +82,6 @@ contains
       draft%cards(draft%k)%index = size(draft%plan%cases)
 
    contains
-
-      subroutine require(key)
-         character(*), intent(in) :: key
-         if (.not. has_key(draft, key)) call complain(draft, '', quoted(key)//' is missing')
-      end subroutine require
 
       !> target = 'column=value', the value in the unit of the column.
       subroutine read_target()
@@ -153,7 +149,6 @@ contains
       type(draft_t), intent(inout) :: draft
       type(case_t), intent(inout) :: this
       real(wp), intent(inout) :: unit      !! of from and to → SI
-      character(8), parameter :: test_keys(4) = [character(8) :: 'vertical', 'phase', 'offset', 'file']
       character(word_length) :: load(most_loads)
       integer :: j, loads, refused
 
@@ -162,10 +157,7 @@ contains
       else if (.not. (has_key(draft, 'load') .or. has_key(draft, 'drive'))) then
          call complain(draft, '', "give 'load', 'drive' or 'test'")
       end if
-      do j = 1, size(test_keys)
-         if (has_key(draft, trim(test_keys(j)))) call complain(draft, trim(test_keys(j)), &
-            trim(test_keys(j))//": only a case with a 'test' takes this key")
-      end do
+      call refuse(draft, [character(8) :: 'vertical', 'phase', 'offset', 'file'], "only a case with a 'test' takes this key")
       load = texts_of(draft, 'load', most_loads)
       loads = count(load /= '')
       refused = 0
@@ -226,22 +218,22 @@ contains
       this%load = ''
       if (c == 0) return
       this%test = trim(test_names(c))
-      call refuse('load', .true., 'a test applies its own loads')
-      call refuse('drive', this%test /= 'steering', 'only test ''steering'' drives a joint')
-      call refuse('phase', .not. any(load_tests == this%test), 'only tests with forces or torques have a phase')
-      call refuse('offset', this%test /= 'lateral_force', 'only test ''lateral_force'' has an offset')
-      call refuse('file', this%test /= 'table', 'only test ''table'' reads a file')
-      call refuse('from', this%test == 'table', 'the table sets the range')
-      call refuse('to', this%test == 'table', 'the table sets the range')
-      call refuse('increments', this%test == 'table', 'each row of the table is one state')
-      call refuse('target', this%test == 'table', 'the rows of a table form no path to search')
+      call refuse_in_test('load', .true., 'a test applies its own loads')
+      call refuse_in_test('drive', this%test /= 'steering', 'only test ''steering'' drives a joint')
+      call refuse_in_test('phase', .not. any(load_tests == this%test), 'only tests with forces or torques have a phase')
+      call refuse_in_test('offset', this%test /= 'lateral_force', 'only test ''lateral_force'' has an offset')
+      call refuse_in_test('file', this%test /= 'table', 'only test ''table'' reads a file')
+      call refuse_in_test('from', this%test == 'table', 'the table sets the range')
+      call refuse_in_test('to', this%test == 'table', 'the table sets the range')
+      call refuse_in_test('increments', this%test == 'table', 'each row of the table is one state')
+      call refuse_in_test('target', this%test == 'table', 'the rows of a table form no path to search')
 
       call count_wheels()
       call choice(draft, 'vertical', verticals, c)
       if (c > 0) this%vertical = trim(verticals(c))
-      if (this%test == 'roll') call refuse('vertical', c == 3, &
+      if (this%test == 'roll') call refuse_in_test('vertical', c == 3, &
          'the test prescribes heights: ''centre'', ''patch'' or ''road''')
-      if (this%test == 'vertical_force') call refuse('vertical', c > 0 .and. c /= 3, 'the test prescribes the force')
+      if (this%test == 'vertical_force') call refuse_in_test('vertical', c > 0 .and. c /= 3, 'the test prescribes the force')
       if (c == 4) call check_tyres()
       call choice(draft, 'phase', [character(4) :: 'in', 'anti'], c)
       this%is_anti = c == 2
@@ -277,12 +269,12 @@ contains
 
    contains
 
-      subroutine refuse(key, is_wrong, why)
+      subroutine refuse_in_test(key, is_wrong, why)
          character(*), intent(in) :: key, why
          logical, intent(in) :: is_wrong
          if (is_wrong .and. has_key(draft, key)) call complain(draft, key, key//' is not allowed in test '// &
             quoted(this%test)//': '//why)
-      end subroutine refuse
+      end subroutine refuse_in_test
 
       !> At most one wheel per side, and at least one wheel.
       subroutine count_wheels()

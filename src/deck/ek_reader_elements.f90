@@ -15,7 +15,7 @@ module ek_reader_elements
    use ek_design_vector, only: marker_axes
    use ek_group, only: measure_group, word_length
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, numbers_of, &
-      value_count, slot
+      value_count, refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector, vector_at
    implicit none(type, external)
    private
@@ -96,13 +96,9 @@ contains
 
       !> The measure of the spring, and the units of its value and force.
       subroutine find_measure()
-         character(*), parameter :: own(2) = [character(6) :: 'bodies', 'at']
-         integer :: j, found
+         integer :: found
 
-         do j = 1, size(own)
-            if (has_key(draft, trim(own(j)))) call complain(draft, trim(own(j)), &
-               trim(own(j))//': not used with measure; give either measure, or bodies and at')
-         end do
+         call refuse(draft, ['bodies', 'at    '], 'not used with measure; give either measure, or bodies and at')
          call look_up(draft, 'measure', measure_group, text_of(draft, 'measure'), found)
          if (found == 0) return
          plan%readout = draft%cards(found)%index
@@ -113,8 +109,8 @@ contains
          plan%value_unit = draft%cards(found)%factor
          measure = draft%plan%prototype%readouts(plan%readout)%measure
          if (is_of_angle(measure%kind)) plan%force_unit = plan%force_unit*draft%units%length
-         if (has_key(draft, 'free_length') .and. measure%kind /= distance) call complain(draft, &
-            'free_length', 'free_length: only a spring on a distance takes this key; give preload instead')
+         if (measure%kind /= distance) call refuse(draft, ['free_length'], &
+            'only a spring on a distance takes this key; give preload instead')
       end subroutine find_measure
 
    end subroutine read_spring

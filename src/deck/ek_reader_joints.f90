@@ -11,7 +11,7 @@ module ek_reader_joints
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
    use ek_group, only: measure_group, word_length, most_measures
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, numbers_of, value_count, &
-      slot
+      refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector, vector_at
    implicit none(type, external)
    private
@@ -175,8 +175,7 @@ contains
       plan%readouts = [readout]
       plan%units = [place_unit]
       if (.not. has_key(draft, 'stiffness')) then
-         if (has_key(draft, 'balance')) call complain(draft, 'balance', &
-            'balance: only a driver with a stiffness takes this key')
+         call refuse(draft, ['balance'], 'only a driver with a stiffness takes this key')
          call add_driver(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), readout)
       else
          reaction_unit = draft%units%force
@@ -253,17 +252,6 @@ contains
       if (needs_second_axis(kind) .and. .not. has_second) &
          call complain(draft, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
    end subroutine check_keys
-
-   !> Rejects keys that have no meaning here.
-   subroutine refuse(draft, keys, why)
-      type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: keys(:), why
-      integer :: k
-
-      do k = 1, size(keys)
-         if (has_key(draft, trim(keys(k)))) call complain(draft, trim(keys(k)), trim(keys(k))//': '//why)
-      end do
-   end subroutine refuse
 
    !> Checks that two distinct points are given.
    subroutine need_two_points(draft, ends, is_found, what)

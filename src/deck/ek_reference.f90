@@ -10,7 +10,7 @@ module ek_reference
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
    use ek_design_vector, only: find_vectors
-   use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, slot
+   use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, refuse, slot
    implicit none(type, external)
    private
    public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_points, check_apart, find_curve
@@ -319,7 +319,7 @@ contains
       if (text_of(draft, 'wheel') == '') return
       call look_up(draft, 'wheel', wheel_group, text_of(draft, 'wheel'), found)
       if (found > 0) wheel = draft%cards(found)%index
-      if (.not. may_have_one) call complain(draft, 'wheel', 'wheel: only a case '//which//' takes this key')
+      if (.not. may_have_one) call refuse(draft, ['wheel'], 'only a case '//which//' takes this key')
    end subroutine find_wheel
 
 end module ek_reference

@@ -112,17 +112,10 @@ contains
    !> Whether a file contains groups of a deck and none of a study.
    pure logical function is_deck(file)
       type(deck_t), intent(in) :: file
-      integer :: k, group
+      integer :: groups(file%used), k
 
-      is_deck = .false.
-      do k = 1, file%used
-         group = group_number(file%records(k)%group)
-         if (group > 0 .and. .not. is_deck_group(group)) then
-            is_deck = .false.
-            return
-         end if
-         is_deck = is_deck .or. group > 0
-      end do
+      groups = [(group_number(file%records(k)%group), k=1, file%used)]
+      is_deck = any(groups > 0) .and. all([(groups(k) == 0 .or. is_deck_group(groups(k)), k=1, file%used)])
    end function is_deck
 
    !> Checks a name, which appears in paths and must be unique among the column names.
