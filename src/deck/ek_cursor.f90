@@ -9,8 +9,9 @@ module ek_cursor
    implicit none(type, external)
    private
    public :: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, take_anything, take_line
-   public :: drop_unit, unit_message, is_word_begin, is_quote, tab, newline, return
+   public :: drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
 
+   character(*), parameter :: quotes = '''"'
    character, parameter :: tab = achar(9), newline = achar(10), return = achar(13)
    character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_', digits = '0123456789'
    character(*), parameter :: units(19) = [character(7) :: 'n', 'kn', 'mm', 'cm', 'm', 'nm', 'knm', 'nmm', 'deg', 'degree', &
@@ -165,12 +166,6 @@ contains
       character, intent(in) :: c
       is_word_begin = index(letters, c) > 0
    end function is_word_begin
-
-   !> Whether this character is a quote.
-   pure logical function is_quote(c)
-      character, intent(in) :: c
-      is_quote = c == "'" .or. c == '"'
-   end function is_quote
 
    !> Takes the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
    pure subroutine drop_unit(text, cursor, entry, unit)

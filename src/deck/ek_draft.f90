@@ -9,14 +9,14 @@ module ek_draft
    use ek_units, only: units_t
    use ek_complaint, only: complaints_t, place_t, place_in
    use ek_record, only: record_t, entry_index, is_given, place_of, line_words
-   use ek_group, only: record_head, word_length
+   use ek_group, only: group_names, record_head, word_length
    use ek_blueprint, only: blueprint_t
    use ek_parameter, only: parameters_t, add_parameter
    implicit none(type, external)
    private
    public :: draft_t, card_t, complain, complain_of_all, where_of, line_of, has_key
    public :: text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, choice, choose
-   public :: refuse, slot
+   public :: refuse, is_second, slot
 
    !> The information about one record.
    type :: card_t
@@ -79,6 +79,17 @@ contains
       call place_in(draft%file, 0, 0, place)
       call draft%complaints%add(place, what)
    end subroutine complain_of_all
+
+   !> Whether a group that may occur once has occurred before; reports it as a mistake.
+   logical function is_second(draft)
+      type(draft_t), intent(inout) :: draft
+      integer :: first
+
+      first = findloc(draft%cards%group, draft%cards(draft%k)%group, dim=1)
+      is_second = first < draft%k
+      if (is_second) call complain(draft, '', 'a second &'//trim(group_names(draft%cards(draft%k)%group))// &
+         '; the first is in '//line_of(draft, first))
+   end function is_second
 
    !> 'file:line' of the record being read.
    pure function where_of(draft) result(place)

@@ -7,7 +7,7 @@ module ek_group
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
-   public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key, is_inside, range_words, is_name
+   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_words, is_name
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
@@ -310,15 +310,6 @@ contains
       if (key%range == not_zero) words = 'must not be zero'
    end function range_words
 
-   !> All keys of a group, for suggestions and the manual.
-   pure function key_names(group) result(names)
-      integer, intent(in) :: group
-      character(14), allocatable :: names(:)
-
-      names = pack(keys%name, keys%group == group)
-      names = [character(14) :: names(:1), 'note', names(2:)]
-   end function key_names
-
    !> "bushing 'top_mount': "
    pure function record_head(group, name) result(head)
       integer, intent(in) :: group
@@ -334,8 +325,11 @@ contains
       integer, intent(in) :: group
       character(*), intent(in) :: name
       character(:), allocatable :: words
+      character(14) :: names(count(keys%group == group))
 
-      words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))//did_you_mean(name, key_names(group))
+      names = pack(keys%name, keys%group == group)
+      words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))// &
+         did_you_mean(name, [character(14) :: names(:1), 'note', names(2:)])
    end function unknown_key
 
    !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.

@@ -16,7 +16,7 @@ module ek_reader
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
-      number_of, slot
+      number_of, is_second, slot
    use ek_reference, only: vector_at
    use ek_parameter, only: parameters_t
    use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
@@ -125,8 +125,12 @@ contains
          call check_names(draft)
          if (draft%cards(k)%group == case_group) in_cases = in_cases + draft%complaints%count() - before
       end do
-      call read_model(draft)
-      do j = 2, size(reading_order)
+      if (.not. any(draft%cards%group == model_group) .and. all(draft%cards%group > 0)) &
+         call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
+      draft%plan%prototype%name = ''
+      draft%plan%prototype%title = ''
+      draft%plan%prototype%balance = 'none'
+      do j = 1, size(reading_order)
          do k = 1, size(draft%records)
             if (draft%cards(k)%group /= reading_order(j)) cycle
             draft%k = k
@@ -135,7 +139,10 @@ contains
       end do
       if (.not. any(draft%cards%group == body_group) .and. all(draft%cards%group > 0)) &
          call complain_of_all(draft, 'there is no &body, so nothing can move')
-      call check_bodies(draft)
+      do k = 1, size(draft%records)      ! a body is attached to nothing, unless the element attached to it was rejected
+         if (draft%cards(k)%group == body_group .and. .not. draft%cards(k)%is_used .and. draft%cards(k)%name /= '' .and. &
+            all(draft%cards%group > 0)) call complain(draft, '', 'no joint, bushing or spring is attached to it', at=k)
+      end do
       is_whole = draft%complaints%count() == in_cases
       do k = 1, size(draft%records)
          if (draft%cards(k)%group /= case_group) cycle
@@ -152,6 +159,8 @@ contains
       type(draft_t), intent(inout) :: draft
 
       select case (draft%cards(draft%k)%group)
+      case (model_group)
+         call read_model(draft)
       case (point_group)
          call read_point(draft)
       case (curve_group)
@@ -284,57 +293,31 @@ contains
       character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
          angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
          balances(3) = [character(6) :: 'none', 'spring', 'all']
-      integer :: k, first, length, force, angle, frame, balance, gravity
+      integer :: length, force, angle, frame, balance, gravity
 
-      draft%plan%prototype%name = ''
-      draft%plan%prototype%title = ''
-      draft%plan%prototype%balance = 'none'
-      first = 0
-      do k = 1, size(draft%records)
-         if (draft%cards(k)%group /= model_group) cycle
-         draft%k = k
-         if (first > 0) then
-            call complain(draft, '', 'a second &model; the first is in '//line_of(draft, first))
-            cycle
-         end if
-         first = k
-         call choice(draft, 'length', lengths, length, default=1)
-         call choice(draft, 'force', forces, force, default=1)
-         call choice(draft, 'angle', angles, angle, default=1)
-         call choice(draft, 'axes', frames, frame, default=1)
-         call choice(draft, 'balance', balances, balance, default=1)
-         draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
-         draft%plan%length_unit = draft%units%length
-         draft%plan%force_unit = draft%units%force
-         draft%plan%angle_unit = draft%units%angle
-         draft%plan%is_iso = frame == 2
-         call slot(draft, 'gravity', 1.0_wp, gravity)
-         draft%plan%gravity = gravity
-         associate (model => draft%plan%prototype)
-            model%gravity = number_of(draft, 'gravity', 0.0_wp)
-            model%name = text_of(draft, 'name')
-            model%title = text_of(draft, 'title')
-            model%balance = trim(balances(max(balance, 1)))
-            model%is_iso = frame == 2
-            model%units = draft%units
-            model%is_plausible_wanted = switch_of(draft, 'plausible', .true.)
-            model%where = where_of(draft)
-         end associate
-      end do
-      if (first == 0 .and. all(draft%cards%group > 0)) &
-         call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
+      if (is_second(draft)) return
+      call choice(draft, 'length', lengths, length, default=1)
+      call choice(draft, 'force', forces, force, default=1)
+      call choice(draft, 'angle', angles, angle, default=1)
+      call choice(draft, 'axes', frames, frame, default=1)
+      call choice(draft, 'balance', balances, balance, default=1)
+      draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
+      draft%plan%length_unit = draft%units%length
+      draft%plan%force_unit = draft%units%force
+      draft%plan%angle_unit = draft%units%angle
+      draft%plan%is_iso = frame == 2
+      call slot(draft, 'gravity', 1.0_wp, gravity)
+      draft%plan%gravity = gravity
+      associate (model => draft%plan%prototype)
+         model%gravity = number_of(draft, 'gravity', 0.0_wp)
+         model%name = text_of(draft, 'name')
+         model%title = text_of(draft, 'title')
+         model%balance = trim(balances(max(balance, 1)))
+         model%is_iso = frame == 2
+         model%units = draft%units
+         model%is_plausible_wanted = switch_of(draft, 'plausible', .true.)
+         model%where = where_of(draft)
+      end associate
    end subroutine read_model
-
-   !> Reports a body attached to nothing, unless the element attached to it was rejected.
-   subroutine check_bodies(draft)
-      type(draft_t), intent(inout) :: draft
-      integer :: k
-
-      if (any(draft%cards%group == 0)) return
-      do k = 1, size(draft%records)
-         if (draft%cards(k)%group /= body_group .or. draft%cards(k)%is_used .or. draft%cards(k)%name == '') cycle
-         call complain(draft, '', 'no joint, bushing or spring is attached to it', at=k)
-      end do
-   end subroutine check_bodies
 
 end module ek_reader

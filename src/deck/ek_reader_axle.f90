@@ -8,8 +8,9 @@ module ek_reader_axle
    use ek_builder, only: add_wheel
    use ek_blueprint, only: wheel_plan_t, vector_t, given
    use ek_record, only: element
-   use ek_group, only: group_names, joint_group, measure_group
-   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, numbers_of, slot
+   use ek_group, only: joint_group, measure_group
+   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, numbers_of, &
+      is_second, slot
    use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector, &
       vector_at
    implicit none(type, external)
@@ -153,16 +154,5 @@ contains
       end subroutine check_driver
 
    end subroutine read_steering
-
-   !> Whether a group that may occur once has occurred before; reports it as a mistake.
-   logical function is_second(draft)
-      type(draft_t), intent(inout) :: draft
-      integer :: first
-
-      first = findloc(draft%cards%group, draft%cards(draft%k)%group, dim=1)
-      is_second = first < draft%k
-      if (is_second) call complain(draft, '', 'a second &'//trim(group_names(draft%cards(draft%k)%group))// &
-         '; the first is in '//line_of(draft, first))
-   end function is_second
 
 end module ek_reader_axle

@@ -11,7 +11,7 @@ module ek_scanner
    use ek_text, only: str, lower, quoted
    use ek_letters, only: is_wide, with_line_ends, save_as_utf8
    use ek_cursor, only: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, &
-      take_anything, take_line, drop_unit, unit_message, is_word_begin, is_quote, tab, newline, return
+      take_anything, take_line, drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
    use ek_complaint, only: place_t, complaints_t, place_in
    use ek_record, only: entry_t, record_t, add_value, add_entry, add_record, entry_index
    implicit none(type, external)
@@ -259,7 +259,7 @@ contains
       end if
       after_comma = .false.
       repeats = 1
-      is_string = is_quote(text(cursor%at:cursor%at))
+      is_string = scan(text(cursor%at:cursor%at), quotes) > 0
       if (is_string) then
          call take_string(word)
       else
@@ -274,7 +274,7 @@ contains
                repeats = 1
             end if
             word = word(star + 1:)
-            is_string = word == '' .and. is_quote(next_character(text, cursor))
+            is_string = word == '' .and. scan(next_character(text, cursor), quotes) > 0
             if (is_string) call take_string(word)
          end if
       end if
