@@ -93,7 +93,9 @@ contains
 
       do k = 1, self%used
          do j = k - 1, 1, -1
-            if (.not. is_before(self%list(k)%place, self%list(order(j))%place)) exit
+            associate (this => self%list(k)%place, other => self%list(order(j))%place)
+               if (this%source > other%source .or. (this%source == other%source .and. this%line >= other%line)) exit
+            end associate
             order(j + 1) = order(j)
          end do
          order(j + 1) = k
@@ -105,12 +107,6 @@ contains
       end do
       if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this a deck?'
    end function complaints_text
-
-   !> The order of messages: files in the order of reading, then lines.
-   pure logical function is_before(a, b)
-      type(place_t), intent(in) :: a, b
-      is_before = a%source < b%source .or. (a%source == b%source .and. a%line < b%line)
-   end function is_before
 
    !> The location of a line of a file; line 0: the file itself.
    pure subroutine place_in(file, source, line, place)

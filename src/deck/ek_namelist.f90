@@ -219,9 +219,7 @@ contains
       integer :: k
 
       words = ''
-      do k = 1, size(quotes)
-         if (index(text, trim(quotes(k))) == 1) words = " (write straight quotes: ' or "")"
-      end do
+      if (any([(index(text, trim(quotes(k))) == 1, k=1, size(quotes))])) words = " (write straight quotes: ' or "")"
    end function quote_hint
 
    !> A hint about common mistakes in numbers.

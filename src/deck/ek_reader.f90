@@ -108,8 +108,8 @@ contains
          call fail(error, exit_deck, draft%complaints%text())
          return
       end if
-      allocate (draft%cards(size(draft%records)), draft%parameters%list(64), draft%parameters%x(64), draft%vectors(3, 0:31))
-      draft%vectors = 0.0_wp
+      allocate (draft%cards(size(draft%records)), draft%parameters%list(64), draft%parameters%x(64))
+      allocate (draft%vectors(3, 0:4*size(draft%records) + 1), source=0.0_wp)     ! a record makes two at most
       draft%vectors(:, 1) = [0.0_wp, 0.0_wp, 1.0_wp]
       call new_blueprint(draft%plan)
       if (is_study(draft%records)) then

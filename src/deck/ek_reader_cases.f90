@@ -141,7 +141,6 @@ contains
                quoted(cases(a)%name)//' in '//line_of(draft, k))
          end do
       end do
-
    end subroutine refuse_one_file_for_two
 
    !> A case that scales loads or drives a joint directly.

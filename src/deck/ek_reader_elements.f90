@@ -75,7 +75,8 @@ contains
       else
          if (.not. has_key(draft, 'bodies')) call complain(draft, '', "'bodies' is missing (give bodies and at, or measure)")
          if (.not. has_key(draft, 'at')) call complain(draft, '', "'at' is missing (give bodies and at, or measure)")
-         call find_link(draft, plan, bodies)
+         call find_bodies(draft, bodies)
+         call find_ends(draft, .false., plan%ends)
       end if
       call find_law(draft, plan, law)
       if (has_key(draft, 'preload') .and. has_key(draft, 'free_length')) &
@@ -121,7 +122,8 @@ contains
       type(element_plan_t) :: plan
       integer :: bodies(2)
 
-      call find_link(draft, plan, bodies)
+      call find_bodies(draft, bodies)
+      call find_ends(draft, .false., plan%ends)
       if (.not. draft%cards(draft%k)%is_good) return
       call slot(draft, 'gas_rate', draft%units%force/draft%units%length, plan%rate, default=0.0_wp)
       call slot(draft, 'gas_force', draft%units%force, plan%preload, default=0.0_wp)
@@ -140,7 +142,8 @@ contains
       plan%force_unit = draft%units%force
       plan%value_unit = draft%units%length
       call choice(draft, 'type', [character(7) :: 'bump', 'rebound'], c)
-      call find_link(draft, plan, bodies)
+      call find_bodies(draft, bodies)
+      call find_ends(draft, .false., plan%ends)
       call find_law(draft, plan, law)
       if (allocated(law)) then
          call look_up_curve(law, 0.0_wp, force, slope)
@@ -159,12 +162,12 @@ contains
       type(draft_t), intent(inout) :: draft
       type(element_plan_t) :: plan
       type(curve_t), allocatable :: law
-      logical :: has_bodies, has_axis, is_axis
+      logical :: has_axis, is_axis
       integer :: bodies(2)
 
       plan%force_unit = draft%units%force*draft%units%length
       plan%value_unit = draft%units%angle
-      call find_bodies(draft, bodies, has_bodies)
+      call find_bodies(draft, bodies)
       call find_direction(draft, 'axis', 'axis_vector', plan%axis, has_axis, is_axis)
       if (.not. has_axis) call complain(draft, '', "give 'axis' or 'axis_vector'")
       call find_law(draft, plan, law)
@@ -173,17 +176,6 @@ contains
       call add(draft, new_torsion(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), vector_at(draft, plan%axis), &
          0.0_wp, 0.0_wp, law), plan)
    end subroutine read_torsion
-
-   !> Two different bodies and two distinct points.
-   subroutine find_link(draft, plan, bodies)
-      type(draft_t), intent(inout) :: draft
-      type(element_plan_t), intent(inout) :: plan
-      integer, intent(out) :: bodies(2)
-      logical :: has_bodies, has_ends
-
-      call find_bodies(draft, bodies, has_bodies)
-      call find_ends(draft, .false., plan%ends, has_ends)
-   end subroutine find_link
 
    !> Exactly one of rate and curve.
    subroutine find_law(draft, plan, law)
@@ -222,11 +214,10 @@ contains
       type(draft_t), intent(inout) :: draft
       type(bushing_plan_t) :: plan
       type(bushing_t) :: element
-      logical :: has_bodies, is_found
       integer :: number(2)
 
-      call find_bodies(draft, number, has_bodies)
-      call find_ends(draft, .true., plan%ends, is_found)
+      call find_bodies(draft, number)
+      call find_ends(draft, .true., plan%ends)
       if (.not. (has_key(draft, 'kt') .or. has_key(draft, 'kr') .or. has_key(draft, 'curve'))) &
          call complain(draft, '', "give 'kt', 'kr' or 'curve'")
       call find_laws(draft, plan, element)

@@ -28,12 +28,12 @@ contains
       type(readout_t) :: readout
       type(readout_plan_t) :: plan
       character(:), allocatable :: type
-      logical :: has_bodies, has_points, has_u, has_v, is_set
+      logical :: has_points, has_u, has_v, is_set
       integer :: kind, number(2)
 
       type = text_of(draft, 'type')
       call choice(draft, 'type', measure_types, kind)
-      call find_bodies(draft, number, has_bodies)
+      call find_bodies(draft, number)
       call find_ends(draft, .true., plan%ends, has_points)
       call find_direction(draft, 'axis', 'axis_vector', plan%u, has_u, is_set)
       call find_direction(draft, 'axis_2', 'axis_2_vector', plan%v, has_v, is_set)
@@ -76,12 +76,11 @@ contains
    subroutine read_joint(draft)
       type(draft_t), intent(inout) :: draft
       integer :: number, bodies(2)
-      logical :: is_found
 
       call choice(draft, 'type', joint_kinds, number)
       if (number == 0) then
          ! bodies of a joint of unknown type count as attached: no second message about them
-         call find_bodies(draft, bodies, is_found)
+         call find_bodies(draft, bodies)
          return
       end if
       call check_keys(draft, trim(joint_kinds(number)))

@@ -91,15 +91,9 @@ contains
       type(draft_t), intent(inout) :: draft
       type(vector_t), intent(in) :: vector
       integer, intent(out) :: number
-      real(wp), allocatable :: grown(:, :)
       logical :: is_good
 
       call add_vector(draft%plan, vector, number)
-      if (number > ubound(draft%vectors, 2)) then
-         allocate (grown(3, 0:2*number), source=0.0_wp)
-         grown(:, 0:number - 1) = draft%vectors(:, 0:number - 1)
-         call move_alloc(grown, draft%vectors)
-      end if
       call find_vectors(draft%plan, draft%parameters%x, draft%vectors, is_good, number)
    end subroutine new_vector
 
@@ -159,7 +153,7 @@ contains
    subroutine find_bodies(draft, bodies, is_found)
       type(draft_t), intent(inout) :: draft
       integer, intent(out) :: bodies(2)
-      logical, intent(out) :: is_found
+      logical, intent(out), optional :: is_found
       character(word_length) :: names(2)
       logical :: is_there(2)
       integer :: j, held
@@ -170,12 +164,11 @@ contains
          held = find_card(draft, body_group, names(j))
          if (held > 0 .and. names(j) /= '') draft%cards(held)%is_used = .true.
       end do
-      is_found = all(is_there)
-      if (.not. is_found) return
-      if (bodies(1) == bodies(2)) then
+      if (all(is_there) .and. bodies(1) == bodies(2)) then
          call complain(draft, 'bodies', 'bodies must be two different ones, found '//quoted(names(1))//' twice')
-         is_found = .false.
+         is_there = .false.
       end if
+      if (present(is_found)) is_found = all(is_there)
    end subroutine find_bodies
 
    !> Two distinct points (key `at`); with one point allowed, the second equals the first.
@@ -183,17 +176,19 @@ contains
       type(draft_t), intent(inout) :: draft
       logical, intent(in) :: may_be_one
       integer, intent(out) :: ends(2)      !! vectors
-      logical, intent(out) :: is_found
+      logical, intent(out), optional :: is_found
       character(word_length) :: at(2)
       logical :: is_there
 
       at = texts_of(draft, 'at', 2)
-      call find_point(draft, 'at', trim(at(1)), ends(1), is_found)
-      ends(2) = ends(1)
-      if (at(2) == '' .and. may_be_one) return
-      call find_point(draft, 'at', trim(at(2)), ends(2), is_there)
-      is_found = is_found .and. is_there
-      if (.not. may_be_one .and. is_found) call check_apart(draft, 'at', ends, '', is_there)
+      if (at(2) == '' .and. may_be_one) then
+         call find_point(draft, 'at', trim(at(1)), ends(1), is_there)
+         ends(2) = ends(1)
+      else
+         call find_points(draft, 'at', ends, is_there)
+      end if
+      if (present(is_found)) is_found = is_there
+      if (is_there .and. .not. may_be_one) call check_apart(draft, 'at', ends, '', is_there)
    end subroutine find_ends
 
    !> Both points of a key.
