@@ -5,17 +5,17 @@ module ek_complaint
    implicit none(type, external)
    private
    public :: place_t, complaints_t, place_in
-   public :: single, left_twin, right_twin, twin_prefix, has_side
+   public :: single, left_side, right_side, side_prefix, has_side
 
-   !> The two records that &mirror creates from a record of the left half, one per side, with the side in their names.
-   integer, parameter :: single = 0, left_twin = 1, right_twin = 2
-   character(*), parameter :: twin_prefix(2) = [character(6) :: 'left_', 'right_']
+   !> The sides of the two records that &mirror creates from a record of the left half, which are in their names; or neither.
+   integer, parameter :: single = 0, left_side = 1, right_side = 2
+   character(*), parameter :: side_prefix(2) = [character(6) :: 'left_', 'right_']
 
    !> A location in a file or on the command line.
    type :: place_t
       character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
       integer :: source = 0, line = 0     !! messages are sorted by these
-      integer :: twin = single
+      integer :: side = single
    end type place_t
 
    type :: complaint_t
@@ -55,11 +55,11 @@ contains
       integer :: k
 
       text = visible(what)
-      if (place%twin == right_twin) then
+      if (place%side == right_side) then
          do k = 1, self%used
-            if (self%list(k)%place%twin == left_twin .and. self%list(k)%place%words == place%words) return
+            if (self%list(k)%place%side == left_side .and. self%list(k)%place%words == place%words) return
          end do
-      else if (place%twin == left_twin) then
+      else if (place%side == left_side) then
          do
             k = index(text, "'left_")
             if (k == 0) exit

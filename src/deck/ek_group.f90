@@ -44,7 +44,7 @@ module ek_group
    integer, parameter, public :: polar = 101    !! (x, y, z) → (x, −y, z)
    integer, parameter, public :: axial = 102    !! (x, y, z) → (−x, y, −z)
    integer, parameter, public :: curves = 103   !! 'fy=name' → 'fy=-name' for the components that change sign
-   integer, parameter, public :: side = 104     !! 'left' → 'right'
+   integer, parameter, public :: wheel_side = 104     !! 'left' → 'right'
 
    type :: key_t
       integer :: group
@@ -138,7 +138,7 @@ module ek_group
       key_t(torsion_group, 'curve', word, 1, 1, .false.), &
       key_t(torsion_group, 'preload', number, 1, 1, .false.), &
       key_t(wheel_group, 'body', word, 1, 1, .true., role=body_group), &
-      key_t(wheel_group, 'side', word, 1, 1, .true., role=side), &
+      key_t(wheel_group, 'side', word, 1, 1, .true., role=wheel_side), &
       key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar), &

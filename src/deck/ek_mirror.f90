@@ -10,11 +10,11 @@
 module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_complaint, only: place_t, complaints_t, has_side, left_twin, right_twin, twin_prefix
+   use ek_complaint, only: place_t, complaints_t, has_side, left_side, right_side, side_prefix
    use ek_record, only: record_t, entry_t, value_t, add_record, add_value, element, entry_index, place_of, line_words, role_of, &
       sign_of_image, turns
    use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, is_name, &
-      number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, side
+      number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
    implicit none(type, external)
    private
@@ -43,18 +43,18 @@ contains
       type(complaints_t), intent(inout) :: complaints
       type(half_t) :: half
       type(record_t) :: copy
-      integer :: k, twin
+      integer :: k, side
 
       allocate (whole(2*max(used, 1)))
       whole_used = 0
       call survey(records(:used), half, complaints)
       do k = 1, used
          if (half%is_doubled(k)) then
-            do twin = left_twin, right_twin
+            do side = left_side, right_side
                copy = records(k)
-               copy%twin = twin
-               call rename(half, twin, copy)
-               if (twin == right_twin) call reflect(copy)
+               copy%side = side
+               call rename(half, side, copy)
+               if (side == right_side) call reflect(copy)
                call add_record(whole, whole_used, copy)
             end do
          else if (.not. (half%is_right(k) .and. any(half%is_doubled .and. half%groups == wheel_group))) then
@@ -113,9 +113,9 @@ contains
          end do
       end do
       do k = 1, size(records)
-         if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(twin_prefix)) cycle
+         if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(side_prefix)) cycle
          call complain(complaints, records(k), 'name', 'a name that &mirror duplicates must have at most '// &
-            str(word_length - len(twin_prefix))//' characters, found '//str(len_trim(half%names(k))))
+            str(word_length - len(side_prefix))//' characters, found '//str(len_trim(half%names(k))))
       end do
    end subroutine survey
 
@@ -206,9 +206,9 @@ contains
    end function is_doubled_name
 
    !> Renames the record of one side and its references to others.
-   subroutine rename(half, twin, record)
+   subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
-      integer, intent(in) :: twin
+      integer, intent(in) :: side
       type(record_t), intent(inout) :: record
       integer :: e, v, role
 
@@ -219,9 +219,9 @@ contains
                associate (value => entry%values(v))
                   if (.not. value%is_string .or. value%text == '') cycle
                   if (entry%key == 'name' .and. len_trim(value%text) <= word_length) then
-                     value%text = name_of_twin(group_number(record%group), value%text, twin)
+                     value%text = name_on_side(group_number(record%group), value%text, side)
                   else if (is_doubled_name(half, role, value%text)) then
-                     value%text = name_of_twin(role, value%text, twin)
+                     value%text = name_on_side(role, value%text, side)
                   end if
                end associate
             end do
@@ -230,18 +230,18 @@ contains
    end subroutine rename
 
    !> left_<name>, right_<name>; the wheel 'left' becomes 'left' and 'right'. A name that is too long (reported by `survey`) is cut.
-   pure function name_of_twin(group, name, twin) result(renamed)
-      integer, intent(in) :: group, twin
+   pure function name_on_side(group, name, side) result(renamed)
+      integer, intent(in) :: group, side
       character(*), intent(in) :: name
       character(:), allocatable :: renamed
 
       if (group == wheel_group .and. lower(name) == 'left') then
-         renamed = trim(merge('left ', 'right', twin == left_twin))
+         renamed = trim(merge('left ', 'right', side == left_side))
       else
-         renamed = trim(twin_prefix(twin))//trim(name)
+         renamed = trim(side_prefix(side))//trim(name)
          renamed = renamed(:min(len(renamed), word_length))
       end if
-   end function name_of_twin
+   end function name_on_side
 
    !> A record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
    subroutine keep_single(half, is_refused, record, complaints)
@@ -268,8 +268,8 @@ contains
          do v = 1, record%entries(e)%used
             associate (value => record%entries(e)%values(v))
                if (.not. is_doubled_name(half, role, value%text)) cycle
-               left = name_of_twin(role, value%text, left_twin)
-               right = name_of_twin(role, value%text, right_twin)
+               left = name_on_side(role, value%text, left_side)
+               right = name_on_side(role, value%text, right_side)
                if (left == value%text) cycle
                if (.not. is_refused) call complain(complaints, record, record%entries(e)%key, record%entries(e)%key// &
                   ': &mirror duplicates the '//trim(group_names(role))//' '//quoted(value%text)//'; use '//quoted(left)// &
@@ -286,15 +286,15 @@ contains
       integer, intent(in) :: role
       type(entry_t), intent(inout) :: entry
       type(entry_t) :: both
-      integer :: v, twin
+      integer :: v, side
 
       both = entry
       both%used = 0
       do v = 1, entry%used
          associate (value => entry%values(v))
             if (is_doubled_name(half, role, value%text)) then
-               do twin = left_twin, right_twin
-                  call add_value(both, name_of_twin(role, value%text, twin), value%is_string)
+               do side = left_side, right_side
+                  call add_value(both, name_on_side(role, value%text, side), value%is_string)
                end do
             else
                call add_value(both, value%text, value%is_string)
@@ -318,7 +318,7 @@ contains
                      value_fault(entry%values(v), number) == '') call turn_number(entry%values(v)%text)
                case (curves)
                   call turn_curve(entry%values(v)%text)
-               case (side)
+               case (wheel_side)
                   if (lower(entry%values(v)%text) == 'left') entry%values(v)%text = 'right'
                end select
             end do

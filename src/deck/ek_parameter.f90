@@ -6,7 +6,7 @@ module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_text, only: str, lower, quoted, is_like
-   use ek_complaint, only: right_twin
+   use ek_complaint, only: right_side
    use ek_record, only: record_t, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, point_group, &
       key_t, find_key, is_inside, did_you_mean
@@ -151,7 +151,7 @@ contains
       parameters%x(n) = value
       call find_key(group_number(records(k)%group), key, row, is_known)
       parameters%list(n) = parameter_t(k, key, at, unit, row%range, is_given)
-      if (records(k)%twin /= right_twin) return
+      if (records(k)%side /= right_side) return
       parameters%list(n)%sign = sign_of_image(records(k), key, at)
       do j = n - 1, 1, -1         ! the left record precedes the right one
          if (parameters%list(j)%record /= k - 1) cycle

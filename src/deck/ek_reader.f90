@@ -280,9 +280,9 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if ((draft%records(j)%twin == single) .eqv. (draft%records(k)%twin == single)) return
+         if ((draft%records(j)%side == single) .eqv. (draft%records(k)%side == single)) return
          words = ' (&mirror creates '//trim(draft%cards(k)%name)//' from '// &
-            own_name(draft%records(merge(j, k, draft%records(k)%twin == single)))//')'
+            own_name(draft%records(merge(j, k, draft%records(k)%side == single)))//')'
       end function doubling
 
    end subroutine check_new

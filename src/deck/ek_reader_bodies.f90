@@ -1,7 +1,7 @@
 !> &point, &body, &mass and &load.
 module ek_reader_bodies
    use ek_kinds, only: wp
-   use ek_complaint, only: single, left_twin, right_twin
+   use ek_complaint, only: single, left_side, right_side
    use ek_suspension, only: load_t
    use ek_builder, only: add_body, add_load
    use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, hardpoint, off_left, off_right, in_plane
@@ -27,13 +27,13 @@ contains
       draft%cards(draft%k)%index = number
       at = vector_at(draft, number)
       associate (stays => draft%plan%vectors(number)%stays)
-         select case (draft%records(draft%k)%twin)
-         case (left_twin)
+         select case (draft%records(draft%k)%side)
+         case (left_side)
             stays = off_left
-         case (right_twin)
+         case (right_side)
             stays = off_right
          case default
-            if (abs(at(2)) < plane .and. any(draft%records%twin /= single)) stays = in_plane
+            if (abs(at(2)) < plane .and. any(draft%records%side /= single)) stays = in_plane
          end select
       end associate
    end subroutine read_point

@@ -4,7 +4,7 @@ module ek_reader_cases
    use ek_text, only: str, lower, quoted
    use ek_units, only: millimetre
    use ek_case, only: case_t, method_names, follow_names, most_increments
-   use ek_complaint, only: right_twin
+   use ek_complaint, only: right_side
    use ek_record, only: value_t, element, is_given, own_name
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
@@ -197,7 +197,7 @@ contains
          if (found == 0) return
          if (draft%cards(found)%is_used) return
          ! a load duplicated by &mirror is reported once
-         if (.not. (draft%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, 'load', &
+         if (.not. (draft%records(found)%side == right_side .and. refused == found - 1)) call complain(draft, 'load', &
             'load '//quoted(own_name(draft%records(found)))//' in '//line_of(draft, found)// &
             " is constant; a case scales loads with factor = 'case'")
          refused = found
@@ -296,7 +296,7 @@ contains
 
          do j = 1, size(draft%cards)
             if (draft%cards(j)%group /= wheel_group) cycle
-            if (is_given(draft%records(j), 'tyre_rate') .or. draft%records(j)%twin == right_twin) cycle
+            if (is_given(draft%records(j), 'tyre_rate') .or. draft%records(j)%side == right_side) cycle
             call complain(draft, 'vertical', "vertical = 'road' needs the tyre_rate of wheel "// &
                quoted(draft%cards(j)%name)//' in '//line_of(draft, j))
          end do

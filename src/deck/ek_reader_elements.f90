@@ -5,7 +5,7 @@ module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
-   use ek_complaint, only: right_twin
+   use ek_complaint, only: right_side
    use ek_curve, only: curve_t, new_curve, scaled_curve, look_up_curve, curve_kinds, least_step
    use ek_measure, only: measure_t, distance
    use ek_element, only: new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, element_t
@@ -295,7 +295,7 @@ contains
       call find_direction(draft, 'x_axis', 'x_vector', plan%x, has_x, is_x)
       if (.not. (has_x .or. has_z)) return
       if ((has_x .and. .not. is_x) .or. (has_z .and. .not. is_z)) return
-      choice = merge(chosen_right, chosen, draft%records(draft%k)%twin == right_twin)
+      choice = merge(chosen_right, chosen, draft%records(draft%k)%side == right_side)
       if (.not. has_x) call new_vector(draft, vector_t(kind=choice, a=plan%z), plan%x)
       if (.not. has_z) call new_vector(draft, vector_t(kind=choice, a=plan%x), plan%z)
       is_good = .true.

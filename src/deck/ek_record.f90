@@ -4,7 +4,7 @@ module ek_record
    use ek_kinds, only: wp
    use ek_text, only: str, lower
    use ek_group, only: group_number, key_t, find_key, polar, axial
-   use ek_complaint, only: place_t, place_in, single, twin_prefix
+   use ek_complaint, only: place_t, place_in, single, side_prefix
    implicit none(type, external)
    private
    public :: value_t, entry_t, record_t
@@ -35,7 +35,7 @@ module ek_record
       character(:), allocatable :: file   !! as shown in messages
       integer :: source = 1               !! number of that file, in the order of reading
       integer :: line = 0
-      integer :: twin = single            !! side of a record duplicated by &mirror
+      integer :: side = single            !! side of a record duplicated by &mirror
       integer :: used = 0
       type(entry_t), allocatable :: entries(:)
    end type record_t
@@ -138,9 +138,9 @@ contains
       character(:), allocatable :: name
 
       name = element(record, 'name', 1)
-      if (record%twin == single) return
+      if (record%side == single) return
       if (record%group == 'wheel' .and. name == 'right') name = 'left'      ! the wheel of the half deck has the name of its side
-      if (index(name, trim(twin_prefix(record%twin))) == 1) name = name(len_trim(twin_prefix(record%twin)) + 1:)
+      if (index(name, trim(side_prefix(record%side))) == 1) name = name(len_trim(side_prefix(record%side)) + 1:)
    end function own_name
 
    !> The location of a record or one of its entries; --set is sorted after all files.
@@ -153,7 +153,7 @@ contains
       line = record%line
       if (entry > 0) line = record%entries(entry)%line
       call place_in(record%file, record%source, line, place)
-      place%twin = record%twin
+      place%side = record%side
       if (entry == 0) return
       if (allocated(record%entries(entry)%setting)) then
          place%words = '--set '//record%entries(entry)%setting

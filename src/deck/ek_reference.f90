@@ -5,7 +5,7 @@ module ek_reference
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted
    use ek_rotation, only: unit_vector
-   use ek_complaint, only: has_side, single, left_twin
+   use ek_complaint, only: has_side, single, left_side
    use ek_record, only: element, own_name
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
@@ -41,14 +41,14 @@ contains
       logical :: is_sided
       integer :: j
 
-      is_sided = draft%records(draft%k)%twin == single .and. (group == wheel_group .or. has_side(wrong))
+      is_sided = draft%records(draft%k)%side == single .and. (group == wheel_group .or. has_side(wrong))
       allocate (names(size(draft%cards)))
       names = ''
       do j = 1, size(draft%cards)
          if (draft%cards(j)%group /= group) cycle
-         if (is_sided .or. draft%records(j)%twin == single) then
+         if (is_sided .or. draft%records(j)%side == single) then
             names(j) = draft%cards(j)%name
-         else if (draft%records(j)%twin == left_twin) then
+         else if (draft%records(j)%side == left_side) then
             names(j) = own_name(draft%records(j))
          end if
       end do
