@@ -63,19 +63,16 @@ contains
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_study     !! the file of a study, which includes no other files; default .false.
-      character(:), allocatable :: text
+      character(:), allocatable :: text, name
 
+      name = path
       if (path == '-') then
+         name = 'standard input'
          call read_standard_input(text, error)
       else
          call read_whole(path, text, error, may_stream=.true.)
       end if
-      if (allocated(error)) return
-      if (path == '-') then
-         call parse_deck(text, 'standard input', deck, error, is_study)
-      else
-         call parse_deck(text, path, deck, error, is_study)
-      end if
+      if (.not. allocated(error)) call parse_deck(text, name, deck, error, is_study)
    end subroutine read_deck
 
    !> Parses a deck from a text; `name` is the file name used in messages, and its folder is that of included files.

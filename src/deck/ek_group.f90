@@ -7,7 +7,7 @@ module ek_group
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
-   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_words, is_name
+   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_words
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
@@ -240,12 +240,6 @@ contains
       integer, intent(in) :: group
       can_be_doubled = is_element(group) .or. group == point_group .or. group == body_group
    end function can_be_doubled
-
-   !> Whether a role is the name of another record: then it is the group of that record.
-   pure logical function is_name(role)
-      integer, intent(in) :: role
-      is_name = role >= 1 .and. role <= size(group_names)
-   end function is_name
 
    !> The group names of a deck or of a study, for suggestions.
    pure function names_of_groups(of_deck) result(names)

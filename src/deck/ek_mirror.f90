@@ -13,7 +13,7 @@ module ek_mirror
    use ek_complaint, only: place_t, complaints_t, has_side, left_side, right_side, side_prefix
    use ek_record, only: record_t, entry_t, value_t, add_record, add_value, element, entry_index, place_of, line_words, role_of, &
       sign_of_image, turns
-   use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, is_name, &
+   use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, &
       number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
    implicit none(type, external)
@@ -183,7 +183,7 @@ contains
       follows = .false.
       do e = 1, record%used
          role = role_of(record, record%entries(e)%key)
-         if (.not. is_name(role)) cycle
+         if (role < 1 .or. role > size(group_names)) cycle      ! not the name of a record
          do v = 1, record%entries(e)%used
             associate (text => record%entries(e)%values(v)%text)
                if (has_side(text)) then      ! the reference has a side: the element exists once
@@ -196,7 +196,7 @@ contains
       end do
    end function follows
 
-   !> Whether the record named by a role is duplicated.
+   !> Whether a role is the name of another record, and this record is duplicated.
    pure logical function is_doubled_name(half, role, name)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
@@ -256,7 +256,6 @@ contains
       original = record
       do e = 1, record%used
          role = role_of(record, record%entries(e)%key)
-         if (.not. is_name(role)) cycle
          if (role == load_group) then
             do v = 1, original%entries(e)%first - 1     ! load(2) = … moves up if load(1) was duplicated
                if (is_doubled_name(half, role, element(original, original%entries(e)%key, v))) &

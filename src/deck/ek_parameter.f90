@@ -229,10 +229,7 @@ contains
       real(wp), intent(in) :: x(:)
       integer :: j
 
-      in_range = .true.
-      do j = 1, size(found)
-         in_range = in_range .and. is_inside(parameters%list(found(j)%number)%range, x(found(j)%number))
-      end do
+      in_range = all([(is_inside(parameters%list(found(j)%number)%range, x(found(j)%number)), j=1, size(found))])
    end function in_range
 
    !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.

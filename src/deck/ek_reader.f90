@@ -17,7 +17,6 @@ module ek_reader
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
       number_of, is_second, slot
-   use ek_reference, only: vector_at
    use ek_parameter, only: parameters_t
    use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load
@@ -203,7 +202,7 @@ contains
          draft%k = k
          associate (card => draft%cards(k))
             if (card%group /= point_group) cycle
-            call add_point(draft%plan%prototype, trim(card%name), where_of(draft), vector_at(draft, card%index), card%is_used)
+            call add_point(draft%plan%prototype, trim(card%name), where_of(draft), draft%vectors(:, card%index), card%is_used)
             draft%plan%points = [draft%plan%points, card%index]
          end associate
       end do

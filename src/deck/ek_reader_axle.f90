@@ -11,8 +11,7 @@ module ek_reader_axle
    use ek_group, only: joint_group, measure_group
    use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, numbers_of, &
       is_second, slot
-   use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector, &
-      vector_at
+   use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
    implicit none(type, external)
    private
    public :: read_wheel, read_axle, read_steering
@@ -34,13 +33,13 @@ contains
       this%side = merge(-1, 1, c == 1)
       call find_point(draft, 'centre', text_of(draft, 'centre'), plan%centre, has_centre)
       call find_point(draft, 'contact', text_of(draft, 'contact'), plan%contact, has_contact)
-      centre = vector_at(draft, plan%centre)
+      centre = draft%vectors(:, plan%centre)
       ! a left wheel on the right side would reverse the signs of its results
       if (has_centre .and. c > 0 .and. this%side*centre(2) < 0.0_wp) call complain(draft, 'side', 'side is '// &
          quoted(text_of(draft, 'side'))//', but the centre '//quoted(text_of(draft, 'centre'))// &
          ' lies on the other side (y points '//trim(merge('left ', 'right', draft%plan%is_iso))//')')
       if (has_centre .and. has_contact) then
-         height = dot_product(centre - vector_at(draft, plan%contact), [0.0_wp, 0.0_wp, 1.0_wp])
+         height = dot_product(centre - draft%vectors(:, plan%contact), [0.0_wp, 0.0_wp, 1.0_wp])
          if (.not. height > 0.0_wp) call complain(draft, 'contact', &
             'the contact point must lie below the wheel centre, found it '//str(-height/draft%units%length)//' above')
       end if
@@ -82,7 +81,7 @@ contains
       vector%kind = given
       call slot(draft, 'spin_vector', 1.0_wp, vector%first, count=3)
       call new_vector(draft, vector, plan%spin)
-      spin = vector_at(draft, plan%spin)
+      spin = draft%vectors(:, plan%spin)
       if (.not. this%side*spin(2) > 0.0_wp) call complain(draft, 'spin_vector', 'spin_vector must point outboard, to the '// &
          text_of(draft, 'side')//' (y points '//trim(merge('left ', 'right', draft%plan%is_iso))//')')
    end subroutine find_spin

@@ -7,7 +7,7 @@ module ek_reader_bodies
    use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, hardpoint, off_left, off_right, in_plane
    use ek_design_vector, only: add_mass, plane
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, slot
-   use ek_reference, only: find_point, find_moving_body, new_vector, vector_at
+   use ek_reference, only: find_point, find_moving_body, new_vector
    implicit none(type, external)
    private
    public :: read_point, read_body, read_mass, read_load
@@ -25,7 +25,7 @@ contains
       call slot(draft, 'at', draft%units%length, vector%first, default=0.0_wp, count=3)
       call new_vector(draft, vector, number)
       draft%cards(draft%k)%index = number
-      at = vector_at(draft, number)
+      at = draft%vectors(:, number)
       associate (stays => draft%plan%vectors(number)%stays)
          select case (draft%records(draft%k)%side)
          case (left_side)
@@ -54,7 +54,7 @@ contains
       draft%plan%bodies = [draft%plan%bodies, plan]
       draft%cards(draft%k)%index = size(draft%plan%bodies)
       if (plan%origin > 0) then
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), vector_at(draft, plan%origin), mass)
+         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), draft%vectors(:, plan%origin), mass)
       else
          call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), mass=mass)
       end if
@@ -71,7 +71,7 @@ contains
       if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
       call slot(draft, 'kg', 1.0_wp, plan%kg)
       associate (body => draft%plan%prototype%bodies(plan%body))
-         call add_mass(number_of(draft, 'kg', 1.0_wp), vector_at(draft, plan%at), body%mass, body%centre)
+         call add_mass(number_of(draft, 'kg', 1.0_wp), draft%vectors(:, plan%at), body%mass, body%centre)
       end associate
       draft%plan%masses = [draft%plan%masses, plan]
    end subroutine read_mass

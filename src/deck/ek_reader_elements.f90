@@ -16,7 +16,7 @@ module ek_reader_elements
    use ek_group, only: measure_group, word_length
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, numbers_of, &
       value_count, refuse, slot
-   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector, vector_at
+   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
    public :: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
@@ -173,7 +173,7 @@ contains
       call find_law(draft, plan, law)
       if (.not. draft%cards(draft%k)%is_good) return
       call slot(draft, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
-      call add(draft, new_torsion(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), vector_at(draft, plan%axis), &
+      call add(draft, new_torsion(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), draft%vectors(:, plan%axis), &
          0.0_wp, 0.0_wp, law), plan)
    end subroutine read_torsion
 
@@ -299,9 +299,9 @@ contains
       if (.not. has_x) call new_vector(draft, vector_t(kind=choice, a=plan%z), plan%x)
       if (.not. has_z) call new_vector(draft, vector_t(kind=choice, a=plan%x), plan%z)
       is_good = .true.
-      call marker_axes(draft%plan, vector_at(draft, plan%z), vector_at(draft, plan%x), axes, is_good)
+      call marker_axes(draft%plan, draft%vectors(:, plan%z), draft%vectors(:, plan%x), axes, is_good)
       if (is_good) return
-      angle = angle_between(vector_at(draft, plan%x), vector_at(draft, plan%z))
+      angle = angle_between(draft%vectors(:, plan%x), draft%vectors(:, plan%z))
       call complain(draft, trim(merge('x_axis  ', 'x_vector', has_key(draft, 'x_axis'))), &
          'the x axis must not be parallel to the z axis, found '//str(real(nint(angle*1e4_wp), wp)/1e4_wp)//' deg between them')
    end subroutine find_axes

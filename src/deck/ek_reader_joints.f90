@@ -12,7 +12,7 @@ module ek_reader_joints
    use ek_group, only: measure_group, word_length, most_measures
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, numbers_of, value_count, &
       refuse, slot
-   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector, vector_at
+   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector
    implicit none(type, external)
    private
    public :: read_measure, read_joint
@@ -126,10 +126,10 @@ contains
       end if
       geometry%body_i = numbers(1)
       geometry%body_j = numbers(2)
-      geometry%point_i = vector_at(draft, plan%ends(1))
-      geometry%point_j = vector_at(draft, plan%ends(2))
-      geometry%axis_i = vector_at(draft, plan%axes(1))
-      geometry%axis_j = vector_at(draft, plan%axes(2))
+      geometry%point_i = draft%vectors(:, plan%ends(1))
+      geometry%point_j = draft%vectors(:, plan%ends(2))
+      geometry%axis_i = draft%vectors(:, plan%axes(1))
+      geometry%axis_j = draft%vectors(:, plan%axes(2))
       draft%plan%joints = [draft%plan%joints, plan]
       call add_joint(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), kind, geometry)
       if (kind /= 'universal') return
@@ -146,8 +146,8 @@ contains
       integer, intent(in) :: axes(2)       !! vectors
       real(wp) :: angle
 
-      if (axes_fit(kind, vector_at(draft, axes(1)), vector_at(draft, axes(2)))) return
-      angle = angle_between(vector_at(draft, axes(1)), vector_at(draft, axes(2)))
+      if (axes_fit(kind, draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))) return
+      angle = angle_between(draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))
       select case (kind)
       case ('universal', 'perpendicular')
          call complain(draft, '', 'axis and axis_2 must be at 90 deg to each other, found '//str(angle)//' deg')

@@ -14,7 +14,7 @@ module ek_reference
    implicit none(type, external)
    private
    public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_points, check_apart, find_curve
-   public :: find_driver, find_wheel, is_driver, find_moving_body, new_vector, vector_at
+   public :: find_driver, find_wheel, is_driver, find_moving_body, new_vector
 
 contains
 
@@ -96,14 +96,6 @@ contains
       call add_vector(draft%plan, vector, number)
       call find_vectors(draft%plan, draft%parameters%x, draft%vectors, is_good, number)
    end subroutine new_vector
-
-   !> The present value of a vector [m, -]; zero for number 0.
-   pure function vector_at(draft, number) result(value)
-      type(draft_t), intent(in) :: draft
-      integer, intent(in) :: number
-      real(wp) :: value(3)
-      value = draft%vectors(:, number)
-   end function vector_at
 
    !> The vector of a named point; is_found is .false. if the point is unknown or was rejected.
    subroutine find_point(draft, key, name, vector, is_found)
@@ -217,7 +209,7 @@ contains
       logical, intent(out) :: are_apart
       character(word_length) :: names(2)
 
-      are_apart = norm2(vector_at(draft, ends(2)) - vector_at(draft, ends(1))) > 0.0_wp
+      are_apart = norm2(draft%vectors(:, ends(2)) - draft%vectors(:, ends(1))) > 0.0_wp
       if (are_apart) return
       names = texts_of(draft, key, 2)
       call complain(draft, key, key//': the points '//quoted(names(1))//' and '//quoted(names(2))//' coincide'//consequence)
