@@ -50,7 +50,6 @@ contains
       class(complaints_t), intent(inout) :: self
       type(place_t), intent(in) :: place
       character(*), intent(in) :: what
-      type(complaint_t), allocatable :: grown(:)
       character(:), allocatable :: text
       integer :: k
 
@@ -67,11 +66,7 @@ contains
          end do
       end if
       if (.not. allocated(self%list)) allocate (self%list(8))
-      if (self%used == size(self%list)) then
-         allocate (grown(2*self%used))
-         grown(:self%used) = self%list
-         call move_alloc(grown, self%list)
-      end if
+      if (self%used == size(self%list)) self%list = [self%list, self%list]      ! twice the size
       self%used = self%used + 1
       self%list(self%used)%place = place
       self%list(self%used)%text = place%words//': '//text

@@ -37,7 +37,7 @@ module ek_draft
       type(units_t) :: units
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters
-      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of those of the blueprint
+      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of those of the blueprint [m, -]; 0: zero
    end type draft_t
 
 contains

@@ -47,14 +47,9 @@ contains
       type(entry_t), intent(inout) :: entry
       character(*), intent(in) :: text
       logical, intent(in) :: is_string
-      type(value_t), allocatable :: grown(:)
 
       if (.not. allocated(entry%values)) allocate (entry%values(3))
-      if (entry%used == size(entry%values)) then
-         allocate (grown(2*entry%used))
-         grown(:entry%used) = entry%values
-         call move_alloc(grown, entry%values)
-      end if
+      if (entry%used == size(entry%values)) entry%values = [entry%values, entry%values]      ! twice the size
       entry%used = entry%used + 1
       entry%values(entry%used)%text = text
       entry%values(entry%used)%is_string = is_string
@@ -65,14 +60,9 @@ contains
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
       type(entry_t), intent(in) :: entry
-      type(entry_t), allocatable :: grown(:)
 
       if (.not. allocated(record%entries)) allocate (record%entries(8))
-      if (record%used == size(record%entries)) then
-         allocate (grown(2*record%used))
-         grown(:record%used) = record%entries
-         call move_alloc(grown, record%entries)
-      end if
+      if (record%used == size(record%entries)) record%entries = [record%entries, record%entries]      ! twice the size
       record%used = record%used + 1
       record%entries(record%used) = entry
    end subroutine add_entry
@@ -82,14 +72,9 @@ contains
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(record_t), intent(in) :: record
-      type(record_t), allocatable :: grown(:)
 
       if (.not. allocated(records)) allocate (records(32))
-      if (used == size(records)) then
-         allocate (grown(2*used))
-         grown(:used) = records
-         call move_alloc(grown, records)
-      end if
+      if (used == size(records)) records = [records, records]      ! twice the size
       used = used + 1
       records(used) = record
    end subroutine add_record
