@@ -10,8 +10,10 @@ module ek_quantity
    use ek_units, only: degree, millimetre
    implicit none(type, external)
    private
-   public :: quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
+   public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
    public :: unit_of, unit_text, unit_size, slope_unit
+
+   integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their endings
 
    type :: quantity_t
       character(52) :: name = ''      !! column without the wheel's name; '*': load_held and height_held

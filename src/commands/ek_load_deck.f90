@@ -32,7 +32,7 @@ contains
       settings%changes = line%values('--set')
    end subroutine read_deck_settings
 
-   !> Reads a deck, applies --set, builds the model, and reads the tables and targets of its cases; reports all errors together.
+   !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
    subroutine load_deck(settings, suspension, cases, checksum, error, needs_tables)
       class(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension

@@ -1,17 +1,21 @@
 !> The mistakes of a deck, with their locations: they are collected and reported together.
 module ek_complaint
-   use ek_text, only: str
+   use ek_text, only: str, lower
    use ek_letters, only: visible
-   use ek_twin, only: single, left_twin, right_twin, twin_prefix
    implicit none(type, external)
    private
    public :: place_t, complaints_t, place_in
+   public :: single, left_side, right_side, side_prefix, has_side
+
+   !> The sides of the two records that &mirror creates from a record of the left half, which are in their names; or neither.
+   integer, parameter :: single = 0, left_side = 1, right_side = 2
+   character(*), parameter :: side_prefix(2) = [character(6) :: 'left_', 'right_']
 
    !> A location in a file or on the command line.
    type :: place_t
       character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
       integer :: source = 0, line = 0     !! messages are sorted by these
-      integer :: twin = single
+      integer :: side = single
    end type place_t
 
    type :: complaint_t
@@ -35,63 +39,38 @@ module ek_complaint
 
 contains
 
+   !> Whether a name begins with left_ or right_.
+   pure logical function has_side(name)
+      character(*), intent(in) :: name
+      has_side = index(lower(name), 'left_') == 1 .or. index(lower(name), 'right_') == 1
+   end function has_side
+
    !> Record a mistake. Invisible characters in the message are shown as <U+00A0>.
    pure subroutine complaints_add(self, place, what)
       class(complaints_t), intent(inout) :: self
       type(place_t), intent(in) :: place
       character(*), intent(in) :: what
-      type(complaint_t), allocatable :: grown(:)
+      character(:), allocatable :: text
       integer :: k
 
-      if (place%twin == right_twin) then
+      text = visible(what)
+      if (place%side == right_side) then
          do k = 1, self%used
-            if (self%list(k)%place%twin == left_twin .and. self%list(k)%place%words == place%words) return
+            if (self%list(k)%place%side == left_side .and. self%list(k)%place%words == place%words) return
+         end do
+      else if (place%side == left_side) then
+         do
+            k = index(text, "'left_")
+            if (k == 0) exit
+            text = text(:k)//text(k + len("'left_"):)
          end do
       end if
       if (.not. allocated(self%list)) allocate (self%list(8))
-      if (self%used == size(self%list)) then
-         allocate (grown(2*self%used))
-         do k = 1, self%used
-            call move_complaint(self%list(k), grown(k))
-         end do
-         call move_alloc(grown, self%list)
-      end if
+      if (self%used == size(self%list)) self%list = [self%list, self%list]      ! twice the size
       self%used = self%used + 1
       self%list(self%used)%place = place
-      if (place%twin == left_twin) then
-         self%list(self%used)%text = place%words//': '//visible(without(what, "'"//trim(twin_prefix(left_twin))))
-      else
-         self%list(self%used)%text = place%words//': '//visible(what)
-      end if
+      self%list(self%used)%text = place%words//': '//text
    end subroutine complaints_add
-
-   !> Moves the texts without copying them.
-   pure subroutine move_complaint(from, to)
-      type(complaint_t), intent(inout) :: from, to
-
-      to%place%source = from%place%source
-      to%place%line = from%place%line
-      to%place%twin = from%place%twin
-      call move_alloc(from%place%words, to%place%words)
-      call move_alloc(from%text, to%text)
-   end subroutine move_complaint
-
-   !> A text in which a quote followed by a prefix is replaced by the quote alone.
-   pure function without(text, prefix) result(plain)
-      character(*), intent(in) :: text, prefix
-      character(:), allocatable :: plain
-      integer :: first, found
-
-      plain = ''
-      first = 1
-      do
-         found = index(text(first:), prefix)
-         if (found == 0) exit
-         plain = plain//text(first:first + found - 1)
-         first = first + found - 1 + len(prefix)
-      end do
-      plain = plain//text(first:)
-   end function without
 
    !> The number of recorded mistakes.
    pure integer function complaints_count(self)
@@ -105,15 +84,16 @@ contains
       class(complaints_t), intent(in) :: self
       character(:), allocatable :: text
       integer, parameter :: most = 100
-      integer :: order(self%used), k, j, this
+      integer :: order(self%used), k, j
 
       do k = 1, self%used
-         this = k
          do j = k - 1, 1, -1
-            if (.not. is_before(self%list(this)%place, self%list(order(j))%place)) exit
+            associate (this => self%list(k)%place, other => self%list(order(j))%place)
+               if (this%source > other%source .or. (this%source == other%source .and. this%line >= other%line)) exit
+            end associate
             order(j + 1) = order(j)
          end do
-         order(j + 1) = this
+         order(j + 1) = k
       end do
       text = ''
       do k = 1, min(self%used, most)
@@ -122,12 +102,6 @@ contains
       end do
       if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this a deck?'
    end function complaints_text
-
-   !> The order of messages: files in the order of reading, then lines.
-   pure logical function is_before(a, b)
-      type(place_t), intent(in) :: a, b
-      is_before = a%source < b%source .or. (a%source == b%source .and. a%line < b%line)
-   end function is_before
 
    !> The location of a line of a file; line 0: the file itself.
    pure subroutine place_in(file, source, line, place)

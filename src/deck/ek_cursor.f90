@@ -1,18 +1,26 @@
-!> A position in a text, with procedures that read from it: blanks, identifiers, subscripts, the rest of a line.
+!> A position in a text, with procedures that read from it: blanks, identifiers, subscripts, the rest of a line, and the typing
+!> mistakes between two keys that can be recognised: a missing = sign and a unit after a number.
 !>
 !> Each `take_…` moves the cursor behind the text it returns. Nothing here can fail; the scanner reports mistakes.
 module ek_cursor
+   use ek_text, only: lower
+   use ek_record, only: entry_t
+   use ek_group, only: group_number, key_t, find_key
    implicit none(type, external)
    private
-   public :: cursor_t, skip_blanks, key_follows, take_subscript, take_word, take_anything, take_line, is_word_begin, is_quote
-   public :: tab, newline, return
+   public :: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, take_anything, take_line
+   public :: drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
 
+   character(*), parameter :: quotes = '''"'
    character, parameter :: tab = achar(9), newline = achar(10), return = achar(13)
+   character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_', digits = '0123456789'
+   character(*), parameter :: units(19) = [character(7) :: 'n', 'kn', 'mm', 'cm', 'm', 'nm', 'knm', 'nmm', 'deg', 'degree', &
+      'degrees', 'grad', 'rad', 'kg', 'g', 's', 'ms', 'per', '%']
+   character(*), parameter :: degree_sign = char(194)//char(176)
 
    !> The position of the scanner.
    type :: cursor_t
       integer :: at = 1, line = 1    !! character and line, from 1
-      integer :: source = 1          !! number of the file
    end type cursor_t
 
 contains
@@ -40,25 +48,56 @@ contains
       end do
    end subroutine skip_blanks
 
+   !> The character here; a blank at the end of the text.
+   pure character function next_character(text, cursor)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(in) :: cursor
+      next_character = ' '
+      if (cursor%at <= len(text)) next_character = text(cursor%at:cursor%at)
+   end function next_character
+
    !> Whether a key starts here: a word, optionally a subscript, and an = sign.
    pure logical function key_follows(text, cursor)
       character(*), intent(in) :: text
       type(cursor_t), intent(in) :: cursor
+      character(:), allocatable :: word
+      character :: next
+
+      call look_past_key(text, cursor, word, next)
+      key_follows = next == '='
+   end function key_follows
+
+   !> Whether a key of a group starts here, followed by a colon or a value instead of an = sign.
+   pure logical function lacks_equals(text, cursor, group)
+      character(*), intent(in) :: text, group
+      type(cursor_t), intent(in) :: cursor
+      type(key_t) :: key
+      character(:), allocatable :: word
+      character :: next
+
+      call look_past_key(text, cursor, word, next)
+      call find_key(group_number(group), lower(word), key, lacks_equals)
+      lacks_equals = lacks_equals .and. index(':+-.0123456789''"', next) > 0
+   end function lacks_equals
+
+   !> The word here, and what comes after it and its subscript; a blank at the end of the text.
+   pure subroutine look_past_key(text, cursor, word, next)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(in) :: cursor
+      character(:), allocatable, intent(out) :: word
+      character, intent(out) :: next
       type(cursor_t) :: ahead
       character(:), allocatable :: skipped
 
-      key_follows = .false.
       ahead = cursor
-      call take_word(text, ahead, skipped)
+      call take_word(text, ahead, word)
       call skip_blanks(text, ahead)
-      if (ahead%at > len(text)) return
-      if (text(ahead%at:ahead%at) == '(') then
-         call take_subscript(text, ahead, skipped)
-         call skip_blanks(text, ahead)
-         if (ahead%at > len(text)) return
-      end if
-      key_follows = text(ahead%at:ahead%at) == '='
-   end function key_follows
+      next = next_character(text, ahead)
+      if (next /= '(') return
+      call take_subscript(text, ahead, skipped)
+      call skip_blanks(text, ahead)
+      next = next_character(text, ahead)
+   end subroutine look_past_key
 
    !> The text between ( and ), blanks removed; the cursor moves behind the ).
    pure subroutine take_subscript(text, cursor, content)
@@ -84,15 +123,7 @@ contains
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: word
-      integer :: first
-
-      first = cursor%at
-      do while (cursor%at <= len(text))
-         if (.not. (is_word_begin(text(cursor%at:cursor%at)) .or. &
-            index('0123456789%', text(cursor%at:cursor%at)) > 0)) exit
-         cursor%at = cursor%at + 1
-      end do
-      word = text(first:cursor%at - 1)
+      call take(text, cursor, verify(text(cursor%at:), letters//digits//'%') - 1, word)
    end subroutine take_word
 
    !> The text up to a separator, at least one character.
@@ -100,43 +131,138 @@ contains
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: word
-      integer :: first
+      integer :: more
 
-      first = cursor%at
-      cursor%at = cursor%at + 1
-      do while (cursor%at <= len(text))
-         if (index(' ,/=!()&''"'//tab//newline//return, text(cursor%at:cursor%at)) > 0) exit
-         cursor%at = cursor%at + 1
-      end do
-      word = text(first:cursor%at - 1)
+      more = scan(text(cursor%at + 1:), ' ,/=!()&''"'//tab//newline//return)
+      call take(text, cursor, merge(more, -1, more > 0), word)
    end subroutine take_anything
 
-   !> The rest of a line outside any group, up to the next & or comment.
+   !> The rest of a line outside any group, up to the next & or comment; its beginning is enough to identify it.
    pure subroutine take_line(text, cursor, content)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       character(:), allocatable, intent(out) :: content
-      integer, parameter :: most = 40   ! enough to identify the line
-      integer :: first
 
-      first = cursor%at
-      do while (cursor%at <= len(text))
-         if (index('&!'//newline//return, text(cursor%at:cursor%at)) > 0) exit
-         cursor%at = cursor%at + 1
-      end do
-      content = trim(text(first:min(cursor%at - 1, first + most)))
+      call take(text, cursor, scan(text(cursor%at:), '&!'//newline//return) - 1, content)
+      content = trim(content(:min(len(content), 41)))
    end subroutine take_line
+
+   !> The next characters; −1: all that is left.
+   pure subroutine take(text, cursor, count, taken)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      integer, intent(in) :: count
+      character(:), allocatable, intent(out) :: taken
+      integer :: last
+
+      last = cursor%at + count - 1
+      if (count < 0) last = len(text)
+      taken = text(cursor%at:last)
+      cursor%at = last + 1
+   end subroutine take
 
    !> Whether a name can begin with this character.
    pure logical function is_word_begin(c)
       character, intent(in) :: c
-      is_word_begin = (c >= 'a' .and. c <= 'z') .or. (c >= 'A' .and. c <= 'Z') .or. c == '_'
+      is_word_begin = index(letters, c) > 0
    end function is_word_begin
 
-   !> Whether this character is a quote.
-   pure logical function is_quote(c)
-      character, intent(in) :: c
-      is_quote = c == "'" .or. c == '"'
-   end function is_quote
+   !> Takes the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
+   pure subroutine drop_unit(text, cursor, entry, unit)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor          !! in: after the value; out: after the unit
+      type(entry_t), intent(inout) :: entry            !! a unit attached to its last value is removed
+      character(:), allocatable, intent(out) :: unit
+      type(cursor_t) :: ahead
+      character(:), allocatable :: value, more
+      integer :: last, blanks
+
+      unit = ''
+      if (entry%used == 0) return
+      if (entry%values(entry%used)%is_string) return
+      value = entry%values(entry%used)%text
+      last = verify(value//' ', '+-.'//digits) - 1
+      if (scan(value(:last), digits) == 0) return
+      if (is_unit(value(last + 1:))) then
+         unit = value(last + 1:)
+         entry%values(entry%used)%text = value(:last)
+         call take_quotient(text, cursor, unit)
+      else if (verify(value, '+-.eEdD'//digits) > 0) then
+         return
+      end if
+      do
+         ahead = cursor
+         blanks = verify(text(ahead%at:), ' '//tab) - 1
+         if (blanks < 0) return
+         ahead%at = ahead%at + blanks
+         if (key_follows(text, ahead)) return
+         call take_unit_word(text, ahead, more)
+         if (.not. is_unit(more)) return
+         call take_quotient(text, ahead, more)
+         cursor = ahead
+         unit = trim(adjustl(unit//' '//more))
+      end do
+   end subroutine drop_unit
+
+   !> The message about a unit.
+   pure function unit_message(entry, unit) result(words)
+      type(entry_t), intent(in) :: entry
+      character(*), intent(in) :: unit
+      character(:), allocatable :: words
+      words = entry%key//": found the unit '"//unit//"' after "//entry%values(entry%used)%text// &
+         '; write the number alone (&model sets the units)'
+   end function unit_message
+
+   !> Letters, the degree sign or % from here on.
+   pure subroutine take_unit_word(text, cursor, word)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      character(:), allocatable, intent(out) :: word
+
+      word = text(cursor%at:min(cursor%at + 1, len(text)))
+      if (word == degree_sign) then
+         cursor%at = cursor%at + len(degree_sign)
+      else if (next_character(text, cursor) == '%') then
+         word = '%'
+         cursor%at = cursor%at + 1
+      else if (is_word_begin(next_character(text, cursor))) then
+         call take_word(text, cursor, word)
+      else
+         word = ''
+      end if
+   end subroutine take_unit_word
+
+   !> /mm, *mm, ^2, /(…) following a unit. A / not followed by a letter ends the group.
+   pure subroutine take_quotient(text, cursor, unit)
+      character(*), intent(in) :: text
+      type(cursor_t), intent(inout) :: cursor
+      character(:), allocatable, intent(inout) :: unit
+      character(:), allocatable :: word
+      type(cursor_t) :: ahead
+
+      do while (cursor%at < len(text))
+         if (index('/*^', text(cursor%at:cursor%at)) == 0) return
+         ahead = cursor
+         ahead%at = ahead%at + 1
+         if (text(cursor%at:cursor%at) == '^') then
+            word = text(ahead%at:ahead%at)
+            ahead%at = ahead%at + 1
+         else
+            call take_unit_word(text, ahead, word)
+         end if
+         if (word == '') return
+         unit = unit//text(cursor%at:cursor%at)//word
+         cursor = ahead
+      end do
+   end subroutine take_quotient
+
+   !> Whether a word is a unit, or begins as a product of units.
+   pure logical function is_unit(word)
+      character(*), intent(in) :: word
+      integer :: mark
+
+      mark = scan(word//'*', '*^')
+      is_unit = any(units == lower(word(:mark - 1))) .or. word == degree_sign
+   end function is_unit
 
 end module ek_cursor

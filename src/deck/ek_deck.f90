@@ -10,14 +10,13 @@ module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_deck, exit_usage, exit_file
-   use ek_file, only: read_whole
-   use ek_text, only: str, lower
+   use ek_file, only: read_whole, join_path, folder_name
+   use ek_text, only: str, lower, quoted
    use ek_letters, only: visible
-   use ek_complaint, only: place_t, complaints_t
-   use ek_record, only: record_t, entry_t, element, is_given, add_value, add_entry
+   use ek_complaint, only: place_t, complaints_t, place_in
+   use ek_record, only: record_t, entry_t, element, entry_index, is_given, add_value, add_entry, add_record, place_of
    use ek_scanner, only: scan_text
-   use ek_include, only: read_text
-   use ek_mirror, only: has_mirror, mirror_records
+   use ek_mirror, only: mirror_records
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
@@ -36,9 +35,25 @@ module ek_deck
       type(complaints_t) :: complaints           !! syntax mistakes
       type(setting_t), allocatable :: late(:)    !! settings to be made after &mirror
       logical :: is_mirrored = .false.
-   contains
-      procedure :: is_finished                   !! finish_deck has nothing left to do
    end type deck_t
+
+   ! &include: the record itself stays in the list, so that its keys are checked like all others; the records of the file follow
+   ! it. Every record stores its file, which messages then show.
+   integer, parameter :: most_nested = 8      !! nesting depth of files; more is a mistake
+   integer, parameter :: most_files = 500     !! total: ten files that include ten each, eight levels deep, would be 10^8
+   integer, parameter :: most_letters = 50000000   !! total; the largest known deck has 1 % of it
+
+   type :: file_t
+      character(:), allocatable :: path
+   end type file_t
+
+   !> What has been read so far.
+   type :: files_t
+      type(file_t) :: open(0:most_nested)     !! from the deck inwards
+      integer :: sources = 0, letters = 0     !! files, and their characters
+      type(record_t), allocatable :: records(:)
+      integer :: used = 0
+   end type files_t
 
 contains
 
@@ -48,17 +63,16 @@ contains
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_study     !! the file of a study, which includes no other files; default .false.
-      character(:), allocatable :: text
+      character(:), allocatable :: text, name
 
+      name = path
       if (path == '-') then
+         name = 'standard input'
          call read_standard_input(text, error)
-         if (allocated(error)) return
-         call parse_deck(text, 'standard input', deck, error, is_study)
       else
          call read_whole(path, text, error, may_stream=.true.)
-         if (allocated(error)) return
-         call parse_deck(text, path, deck, error, is_study)
       end if
+      if (.not. allocated(error)) call parse_deck(text, name, deck, error, is_study)
    end subroutine read_deck
 
    !> Parses a deck from a text; `name` is the file name used in messages, and its folder is that of included files.
@@ -67,15 +81,16 @@ contains
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_study     !! default .false.
-      logical :: includes
+      logical :: is_alone
 
       deck%file = trim(name)
-      includes = .true.
-      if (present(is_study)) includes = .not. is_study
-      if (includes) then
-         call read_text(text, deck%file, deck%records, deck%used, deck%complaints)
-      else
+      allocate (deck%late(0))
+      is_alone = .false.
+      if (present(is_study)) is_alone = is_study
+      if (is_alone) then
          call scan_text(text, deck%file, deck%records, deck%used, deck%complaints)
+      else
+         call read_text(text, deck%file, deck%records, deck%used, deck%complaints)
       end if
       call name_tests(deck)
       if (deck%used == 0 .and. deck%complaints%count() == 0) &
@@ -95,9 +110,9 @@ contains
          if (text == '') cycle
          if (lower(element(deck%records(k), 'phase', 1)) == 'anti') text = text//'_anti'
          name%key = 'name'
-         name%first = 1
          name%line = deck%records(k)%line
-         call add_value(name, text, .true., .false.)
+         name%used = 0
+         call add_value(name, text, .true.)
          call add_entry(deck%records(k), name)
       end do
    end subroutine name_tests
@@ -115,15 +130,18 @@ contains
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: message, late_message
       type(deck_t) :: whole
+      type(setting_t) :: late
       logical :: is_found
 
       call apply_setting(deck%records, deck%used, path, text, message, is_found)
       if (message == '') return
-      if (.not. is_found .and. .not. deck%is_finished()) then
+      if (.not. is_found) then
          call finish_deck(deck, whole)
          call apply_setting(whole%records, whole%used, path, text, late_message, is_found)
          if (late_message == '') then
-            call add_late(deck%late, path, text)
+            late%path = path
+            late%text = text
+            deck%late = [deck%late, late]
             return
          end if
          ! the intended name may be that of either kind of record
@@ -133,32 +151,8 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> Appends a setting to those made after &mirror.
-   subroutine add_late(late, path, text)
-      type(setting_t), allocatable, intent(inout) :: late(:)
-      character(*), intent(in) :: path, text
-      type(setting_t), allocatable :: grown(:)
-      integer :: k, used
-
-      used = 0
-      if (allocated(late)) used = size(late)
-      allocate (grown(used + 1))
-      do k = 1, used
-         call move_alloc(late(k)%path, grown(k)%path)
-         call move_alloc(late(k)%text, grown(k)%text)
-      end do
-      grown(used + 1)%path = path
-      grown(used + 1)%text = text
-      call move_alloc(grown, late)
-   end subroutine add_late
-
-   !> Whether the records are final: the model can be built from them.
-   pure logical function is_finished(self)
-      class(deck_t), intent(in) :: self
-      is_finished = self%is_mirrored .or. .not. has_mirror(self%records, self%used)
-   end function is_finished
-
-   !> The deck with both sides written out and the settings of single sides applied. Mistakes are added to its list.
+   !> The deck with both sides written out and the settings of single sides applied; without &mirror, a copy. Mistakes are added
+   !> to its list.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
@@ -167,11 +161,10 @@ contains
       logical :: is_found
       integer :: k
 
-      whole%file = deck%file
-      whole%complaints = deck%complaints
+      whole = deck
+      if (deck%is_mirrored .or. .not. any([(deck%records(k)%group == 'mirror', k=1, deck%used)])) return
       whole%is_mirrored = .true.
       call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%complaints)
-      if (.not. allocated(deck%late)) return
       do k = 1, size(deck%late)
          call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)
          if (message == '') cycle      ! a later setting has removed the record to which this one refers
@@ -187,29 +180,17 @@ contains
       type(deck_t), intent(in) :: deck
       character(16) :: digits
       type(deck_t) :: whole
-
-      if (deck%is_finished()) then
-         digits = checksum_of(deck)
-      else
-         call finish_deck(deck, whole)
-         digits = checksum_of(whole)
-      end if
-   end function deck_checksum
-
-   !> FNV-1a, 64 bits, of all records in hexadecimal digits; titles and notes are ignored.
-   function checksum_of(deck) result(digits)
-      type(deck_t), intent(in) :: deck
-      character(16) :: digits
       integer(i8) :: high, low
       integer :: k, e, v
 
+      call finish_deck(deck, whole)
       high = int(z'cbf29ce4', i8)
       low = int(z'84222325', i8)
-      do k = 1, deck%used
-         if (deck%records(k)%group == 'include') cycle
-         call include('&'//deck%records(k)%group)
-         do e = 1, deck%records(k)%used
-            associate (entry => deck%records(k)%entries(e))
+      do k = 1, whole%used
+         if (whole%records(k)%group == 'include') cycle
+         call include('&'//whole%records(k)%group)
+         do e = 1, whole%records(k)%used
+            associate (entry => whole%records(k)%entries(e))
                if (entry%key == 'note' .or. entry%key == 'title') cycle
                call include(';'//entry%key//'('//str(entry%first)//')')
                do v = 1, entry%used
@@ -237,7 +218,7 @@ contains
          end do
       end subroutine include
 
-   end function checksum_of
+   end function deck_checksum
 
    !> Reads all of standard input line by line: it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)
@@ -270,5 +251,114 @@ contains
       end do
       text = text(:filled)
    end subroutine read_standard_input
+
+   !> Reads all records of a text and of the files it includes. Mistakes are added to the list of messages.
+   subroutine read_text(text, file, records, used, complaints)
+      character(*), intent(in) :: text
+      character(*), intent(in) :: file                        !! its path, or its label in messages
+      type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
+      integer, intent(out) :: used
+      type(complaints_t), intent(inout) :: complaints
+      type(files_t) :: files
+
+      allocate (files%records(32))
+      files%open(0)%path = file
+      call take_text(text, 0, files, complaints)
+      call move_alloc(files%records, records)
+      used = files%used
+   end subroutine read_text
+
+   !> The text of the innermost open file. An &include without a quoted name is left to the check of its keys.
+   recursive subroutine take_text(text, depth, files, complaints)
+      character(*), intent(in) :: text
+      integer, intent(in) :: depth
+      type(files_t), intent(inout) :: files
+      type(complaints_t), intent(inout) :: complaints
+      type(record_t), allocatable :: own(:)
+      type(place_t) :: place
+      integer :: k, entry, own_used
+
+      files%sources = files%sources + 1
+      call scan_text(text, files%open(depth)%path, own, own_used, complaints, files%sources)
+      do k = 1, own_used
+         call add_record(files%records, files%used, own(k))
+         entry = 0
+         if (own(k)%group == 'include') entry = entry_index(own(k), 'file', 1)
+         if (entry == 0) cycle
+         call place_of(own(k), entry, place)
+         associate (file => own(k)%entries(entry))
+            if (file%used == 1 .and. file%values(1)%is_string .and. file%values(1)%text /= '') &
+               call take_file(trim(file%values(1)%text), place, depth, files, complaints)
+         end associate
+      end do
+   end subroutine take_text
+
+   !> Reads a file named relative to the innermost open one.
+   recursive subroutine take_file(name, place, depth, files, complaints)
+      character(*), intent(in) :: name
+      type(place_t), intent(in) :: place        !! of the &include
+      integer, intent(in) :: depth
+      type(files_t), intent(inout) :: files
+      type(complaints_t), intent(inout) :: complaints
+      type(error_t), allocatable :: error
+      type(place_t) :: all_of_it
+      character(:), allocatable :: text, path
+      integer :: k, records_before, complaints_before
+
+      if (files%sources > most_files + 1) return                     ! already reported
+      path = name
+      if (index(files%open(depth)%path, '/') > 0) path = join_path(folder_name(files%open(depth)%path), name)
+      do k = 0, depth
+         if (plain_path(files%open(k)%path) /= plain_path(path)) cycle
+         call complaints%add(place, 'include: '//quoted(path)//' includes itself')
+         return
+      end do
+      if (depth == most_nested) then
+         call complaints%add(place, 'include: files are nested more than '//str(most_nested)//' deep')
+         return
+      end if
+      call read_whole(path, text, error)
+      if (allocated(error)) then
+         call complaints%add(place, 'include: '//error%message)
+         return
+      end if
+      files%letters = files%letters + min(len(text), most_letters)
+      if (files%sources > most_files .or. files%letters > most_letters) then
+         call place_in(files%open(0)%path, 0, 0, all_of_it)   ! sorted before all other mistakes, which may be its consequences
+         call complaints%add(all_of_it, 'more than '//str(most_files)//' files or '//str(most_letters/1000000)// &
+            ' MB are included in total; the last one by '//place%words)
+         files%sources = most_files + 2                       ! reported once; the rest is not read
+         return
+      end if
+      records_before = files%used
+      complaints_before = complaints%count()
+      files%open(depth + 1)%path = path
+      call take_text(text, depth + 1, files, complaints)
+      if (files%used == records_before .and. complaints%count() == complaints_before) &
+         call complaints%add(place, 'include: no group found in '//quoted(path))
+   end subroutine take_file
+
+   !> A path without 'x/..' and '.', so that different spellings of one path compare equal.
+   pure function plain_path(path) result(plain)
+      character(*), intent(in) :: path
+      character(:), allocatable :: plain
+      character(:), allocatable :: part
+      integer :: first, slash, last
+
+      plain = ''
+      first = 1
+      do while (first <= len(path))
+         slash = index(path(first:)//'/', '/')
+         part = path(first:first + slash - 2)
+         first = first + slash
+         last = index(plain, '/', back=.true.)
+         if (part == '..' .and. plain /= '' .and. plain(last + 1:) /= '..') then
+            plain = plain(:last - 1)
+         else if (part /= '.' .and. part /= '') then
+            plain = plain//'/'//part
+         end if
+      end do
+      if (index(path, '/') /= 1) plain = '.'//plain
+   end function plain_path
 
 end module ek_deck

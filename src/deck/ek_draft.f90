@@ -9,14 +9,14 @@ module ek_draft
    use ek_units, only: units_t
    use ek_complaint, only: complaints_t, place_t, place_in
    use ek_record, only: record_t, entry_index, is_given, place_of, line_words
-   use ek_group, only: record_head, word_length
+   use ek_group, only: group_names, record_head, word_length
    use ek_blueprint, only: blueprint_t
    use ek_parameter, only: parameters_t, add_parameter
    implicit none(type, external)
    private
-   public :: draft_t, card_t, complain, complain_at, complain_of_all, where_of, line_of, has_key
+   public :: draft_t, card_t, complain, complain_of_all, where_of, line_of, has_key
    public :: text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, choice, choose
-   public :: slot, slots
+   public :: refuse, is_second, slot
 
    !> The information about one record.
    type :: card_t
@@ -37,32 +37,38 @@ module ek_draft
       type(units_t) :: units
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters
-      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of those of the blueprint
+      real(wp), allocatable :: vectors(:, :)    !! (3, 0:n) present values of those of the blueprint [m, -]; 0: zero
    end type draft_t
 
 contains
 
-   !> Reports a mistake in the record being read, at the line of `key` ('': the line of the record).
-   subroutine complain(draft, key, what)
+   !> Reports a mistake in record `at`, by default the one being read, at the line of `key` ('': the line of the record).
+   subroutine complain(draft, key, what, at)
       type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: key, what
-      call complain_at(draft, draft%k, key, what)
-   end subroutine complain
-
-   !> Reports a mistake in record k.
-   subroutine complain_at(draft, k, key, what)
-      type(draft_t), intent(inout) :: draft
-      integer, intent(in) :: k
-      character(*), intent(in) :: key, what
+      integer, intent(in), optional :: at
       type(place_t) :: place
-      integer :: entry
+      integer :: entry, k
 
+      k = draft%k
+      if (present(at)) k = at
       entry = 0
       if (key /= '') entry = entry_index(draft%records(k), key, 0)
       call place_of(draft%records(k), entry, place)
       call draft%complaints%add(place, record_head(draft%cards(k)%group, draft%cards(k)%name)//what)
       draft%cards(k)%is_good = .false.
-   end subroutine complain_at
+   end subroutine complain
+
+   !> Rejects keys that have no meaning here.
+   subroutine refuse(draft, keys, why)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: keys(:), why
+      integer :: k
+
+      do k = 1, size(keys)
+         if (has_key(draft, trim(keys(k)))) call complain(draft, trim(keys(k)), trim(keys(k))//': '//why)
+      end do
+   end subroutine refuse
 
    !> Reports a mistake of the deck as a whole.
    subroutine complain_of_all(draft, what)
@@ -73,6 +79,17 @@ contains
       call place_in(draft%file, 0, 0, place)
       call draft%complaints%add(place, what)
    end subroutine complain_of_all
+
+   !> Whether a group that may occur once has occurred before; reports it as a mistake.
+   logical function is_second(draft)
+      type(draft_t), intent(inout) :: draft
+      integer :: first
+
+      first = findloc(draft%cards%group, draft%cards(draft%k)%group, dim=1)
+      is_second = first < draft%k
+      if (is_second) call complain(draft, '', 'a second &'//trim(group_names(draft%cards(draft%k)%group))// &
+         '; the first is in '//line_of(draft, first))
+   end function is_second
 
    !> 'file:line' of the record being read.
    pure function where_of(draft) result(place)
@@ -107,19 +124,21 @@ contains
       if (draft%records(draft%k)%entries(entry_of)%is_bad) entry_of = 0
    end function entry_of
 
-   !> The text of element `at` of a key as written, '' if it is not given.
+   !> The text of an element of a key as written, '' if it is not given or was rejected.
    pure function raw(draft, key, at) result(text)
       type(draft_t), intent(in) :: draft
       character(*), intent(in) :: key
-      integer, intent(in) :: at
+      integer, intent(in), optional :: at         !! usually 1
       character(:), allocatable :: text
-      integer :: e
+      integer :: e, k
 
+      k = 1
+      if (present(at)) k = at
       text = ''
-      e = entry_of(draft, key, at)
+      e = entry_of(draft, key, k)
       if (e == 0) return
       associate (entry => draft%records(draft%k)%entries(e))
-         text = entry%values(at - entry%first + 1)%text
+         text = entry%values(k - entry%first + 1)%text
       end associate
    end function raw
 
@@ -130,7 +149,7 @@ contains
       character(*), intent(in), optional :: default     !! usually ''
       character(:), allocatable :: text
 
-      text = trim(raw(draft, key, 1))
+      text = trim(raw(draft, key))
       if (text == '' .and. present(default)) text = default
    end function text_of
 
@@ -154,12 +173,9 @@ contains
       real(wp), intent(in) :: default
       integer, intent(in), optional :: at         !! usually 1
       character(:), allocatable :: text
-      integer :: k
 
-      k = 1
-      if (present(at)) k = at
       value = default
-      text = raw(draft, key, k)
+      text = raw(draft, key, at)
       if (text /= '') read (text, *) value
    end function number_of
 
@@ -171,9 +187,7 @@ contains
       real(wp) :: values(most)
       integer :: k
 
-      do k = 1, most
-         values(k) = number_of(draft, key, 0.0_wp, k)
-      end do
+      values = [(number_of(draft, key, 0.0_wp, k), k=1, most)]
    end function numbers_of
 
    !> A whole number.
@@ -183,12 +197,9 @@ contains
       integer, intent(in) :: default
       integer, intent(in), optional :: at
       character(:), allocatable :: text
-      integer :: k
 
-      k = 1
-      if (present(at)) k = at
       value = default
-      text = raw(draft, key, k)
+      text = raw(draft, key, at)
       if (text /= '') read (text, *) value
    end function whole_of
 
@@ -200,7 +211,7 @@ contains
       character(:), allocatable :: text
 
       value = default
-      text = raw(draft, key, 1)
+      text = raw(draft, key)
       if (text /= '') read (text, *) value
    end function switch_of
 
@@ -210,11 +221,8 @@ contains
       character(*), intent(in) :: key
       integer :: e
 
-      value_count = 0
       associate (record => draft%records(draft%k))
-         do e = 1, record%used
-            if (record%entries(e)%key == key) value_count = value_count + record%entries(e)%used
-         end do
+         value_count = sum(record%entries(:record%used)%used, [(record%entries(e)%key == key, e=1, record%used)])
       end associate
    end function value_count
 
@@ -239,45 +247,38 @@ contains
 
       number = 0
       if (word == '') return
-      list = ''
-      do j = 1, size(choices)
-         if (lower(word) == lower(choices(j))) number = j
-         if (j > 1) list = list//', '
-         list = list//quoted(choices(j))
+      number = findloc([(lower(choices(j)) == lower(word), j=1, size(choices))], .true., dim=1)
+      if (number > 0) return
+      list = quoted(choices(1))
+      do j = 2, size(choices)
+         list = list//', '//quoted(choices(j))
       end do
-      if (number == 0) call complain(draft, key, key//' must be one of '//list//', found '//quoted(word))
+      call complain(draft, key, key//' must be one of '//list//', found '//quoted(word))
    end subroutine choose
 
-   !> Makes a number of the record being read a parameter; `number` is 0 if it is not given and has no default.
-   subroutine slot(draft, key, unit, number, default)
+   !> Makes a number of the record being read, or the first `count` elements of a list, parameters; `number` is that of the first,
+   !> 0 if the key is not given and has no default.
+   subroutine slot(draft, key, unit, number, default, count)
       type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: key
       real(wp), intent(in) :: unit                   !! SI value of the unit in the deck
       integer, intent(out) :: number
       real(wp), intent(in), optional :: default      !! in the unit of the deck; absent: the key has none
-      call slots(draft, key, 1, unit, number, default)
-   end subroutine slot
-
-   !> The same for the first `count` elements of a list; `first` is the number of the first parameter.
-   subroutine slots(draft, key, count, unit, first, default)
-      type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: key
-      integer, intent(in) :: count
-      real(wp), intent(in) :: unit
-      integer, intent(out) :: first
-      real(wp), intent(in), optional :: default
+      integer, intent(in), optional :: count         !! usually 1
       real(wp) :: usual
-      integer :: k
+      integer :: k, elements
 
-      first = 0
+      number = 0
       usual = 0.0_wp
       if (present(default)) usual = default
       if (.not. present(default) .and. .not. has_key(draft, key)) return
-      first = draft%parameters%used + 1
-      do k = 1, count
+      elements = 1
+      if (present(count)) elements = count
+      number = draft%parameters%used + 1
+      do k = 1, elements
          call add_parameter(draft%parameters, draft%records, draft%k, key, k, number_of(draft, key, usual, k)*unit, unit, &
             entry_of(draft, key, k) > 0)
       end do
-   end subroutine slots
+   end subroutine slot
 
 end module ek_draft

@@ -10,21 +10,22 @@
 module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_twin, only: has_side, left_twin, right_twin, twin_prefix
-   use ek_complaint, only: place_t, complaints_t
-   use ek_record, only: record_t, entry_t, add_record, add_value, element, entry_index, place_of, line_words
-   use ek_group, only: word_length, did_you_mean
-   use ek_mirror_role, only: role_of, is_element, can_be_doubled, is_name, named_group, loads
-   use ek_mirror_twin, only: reflect, number_of
+   use ek_complaint, only: place_t, complaints_t, has_side, left_side, right_side, side_prefix
+   use ek_record, only: record_t, entry_t, value_t, add_record, add_value, element, entry_index, place_of, line_words, role_of, &
+      sign_of_image, turns
+   use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, &
+      number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
+   use ek_namelist, only: value_fault
    implicit none(type, external)
    private
-   public :: has_mirror, mirror_records
+   public :: mirror_records
 
    real(wp), parameter :: in_plane = 1.0e-9_wp      !! m; a point closer to y = 0 exists once
 
    !> Information about the half deck during duplication, one array element per record.
    type :: half_t
-      character(word_length), allocatable :: groups(:), names(:)   !! lower case; '' if there is no name
+      integer, allocatable :: groups(:)
+      character(word_length), allocatable :: names(:)   !! lower case; '' if there is no usable name
       logical, allocatable :: is_doubled(:), is_shared(:)
       logical, allocatable :: is_right(:)            !! a wheel of the right side, rejected
       real(wp) :: length = 1.0e-3_wp                 !! the deck's length unit [m]
@@ -33,19 +34,7 @@ module ek_mirror
 
 contains
 
-   !> Whether the records contain a &mirror.
-   pure logical function has_mirror(records, used)
-      type(record_t), intent(in) :: records(:)
-      integer, intent(in) :: used
-      integer :: k
-
-      has_mirror = .false.
-      do k = 1, used
-         if (records(k)%group == 'mirror') has_mirror = .true.
-      end do
-   end function has_mirror
-
-   !> The records of both sides, each left one followed by its right one. Without &mirror: a copy.
+   !> The records of both sides, each left one followed by its right one.
    subroutine mirror_records(records, used, whole, whole_used, complaints)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
@@ -54,21 +43,21 @@ contains
       type(complaints_t), intent(inout) :: complaints
       type(half_t) :: half
       type(record_t) :: copy
-      integer :: k, twin
+      integer :: k, side
 
       allocate (whole(2*max(used, 1)))
       whole_used = 0
       call survey(records(:used), half, complaints)
       do k = 1, used
          if (half%is_doubled(k)) then
-            do twin = left_twin, right_twin
+            do side = left_side, right_side
                copy = records(k)
-               copy%twin = twin
-               call rename(half, twin, copy)
-               if (twin == right_twin) call reflect(copy)
+               copy%side = side
+               call rename(half, side, copy)
+               if (side == right_side) call reflect(copy)
                call add_record(whole, whole_used, copy)
             end do
-         else if (.not. (half%is_right(k) .and. any(half%is_doubled .and. half%groups == 'wheel'))) then
+         else if (.not. (half%is_right(k) .and. any(half%is_doubled .and. half%groups == wheel_group))) then
             copy = records(k)
             call keep_single(half, half%is_right(k), copy, complaints)
             call add_record(whole, whole_used, copy)
@@ -81,15 +70,20 @@ contains
       type(record_t), intent(in) :: records(:)
       type(half_t), intent(out) :: half
       type(complaints_t), intent(inout) :: complaints
-      integer :: mirror, k
+      integer :: mirror, pass, k, e
 
       allocate (half%groups(size(records)), half%names(size(records)))
       allocate (half%is_doubled(size(records)), half%is_shared(size(records)), half%is_right(size(records)), source=.false.)
       half%names = ''
       mirror = 0
       do k = 1, size(records)
-         half%groups(k) = records(k)%group
-         if (entry_index(records(k), 'name', 1) > 0) half%names(k) = name_of(records(k))
+         half%groups(k) = group_number(records(k)%group)
+         e = entry_index(records(k), 'name', 1)
+         if (e > 0) then
+            associate (name => records(k)%entries(e)%values(1))
+               if (name%is_string .and. len_trim(name%text) <= word_length) half%names(k) = lower(name%text)
+            end associate
+         end if
          select case (records(k)%group)
          case ('mirror')
             if (mirror > 0) call complain(complaints, records(k), '', 'a second &mirror; the first is in '// &
@@ -109,20 +103,19 @@ contains
 
       do k = 1, size(records)
          if (is_of_one(half, k)) cycle
-         if (records(k)%group == 'body') half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
-         if (records(k)%group == 'point') call judge_point(records(k), half, half%is_doubled(k), complaints)
+         if (half%groups(k) == body_group) half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
+         if (half%groups(k) == point_group) call judge_point(records(k), half, half%is_doubled(k), complaints)
+      end do
+      do pass = 1, 2      ! measures first: other elements refer to them
+         do k = 1, size(records)
+            if (.not. is_element(half%groups(k)) .or. is_of_one(half, k)) cycle
+            if ((half%groups(k) == measure_group) .eqv. (pass == 1)) half%is_doubled(k) = follows(records(k), half)
+         end do
       end do
       do k = 1, size(records)
-         if (records(k)%group == 'measure' .and. .not. is_of_one(half, k)) half%is_doubled(k) = follows(records(k), half)
-      end do
-      do k = 1, size(records)
-         if (.not. is_element(records(k)%group) .or. records(k)%group == 'measure' .or. is_of_one(half, k)) cycle
-         half%is_doubled(k) = follows(records(k), half)
-      end do
-      do k = 1, size(records)
-         if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(twin_prefix)) cycle
+         if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(side_prefix)) cycle
          call complain(complaints, records(k), 'name', 'a name that &mirror duplicates must have at most '// &
-            str(word_length - len(twin_prefix))//' characters, found '//str(len_trim(half%names(k))))
+            str(word_length - len(side_prefix))//' characters, found '//str(len_trim(half%names(k))))
       end do
    end subroutine survey
 
@@ -131,26 +124,19 @@ contains
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
       type(complaints_t), intent(inout) :: complaints
-      logical :: is_candidate(size(half%names))
-      logical :: is_found
+      logical :: is_candidate(size(half%names)), is_it(size(half%names))
       integer :: e, v, k
 
-      do k = 1, size(half%names)
-         is_candidate(k) = can_be_doubled(trim(half%groups(k)))
-      end do
+      is_candidate = [(can_be_doubled(half%groups(k)), k=1, size(half%names))]
       do e = 1, mirror%used
          if (mirror%entries(e)%key /= 'shared') cycle
          do v = 1, mirror%entries(e)%used
             associate (value => mirror%entries(e)%values(v))
                if (.not. value%is_string .or. value%text == '') cycle     ! reported by the check of keys
-               is_found = .false.
-               do k = 1, size(half%names)
-                  if (half%names(k) /= lower(value%text)) cycle
-                  is_found = .true.
-                  half%is_shared(k) = is_candidate(k)
-               end do
-               if (mirror%entries(e)%used == 1 .and. lower(value%text) == 'none') is_found = .true.
-               if (.not. is_found) call complain(complaints, mirror, 'shared', 'shared: there is no body, point or element '// &
+               is_it = half%names == lower(value%text)
+               half%is_shared = half%is_shared .or. (is_it .and. is_candidate)
+               if (any(is_it) .or. (mirror%entries(e)%used == 1 .and. lower(value%text) == 'none')) cycle
+               call complain(complaints, mirror, 'shared', 'shared: there is no body, point or element '// &
                   quoted(value%text)//did_you_mean(value%text, pack(half%names, is_candidate)))
             end associate
          end do
@@ -171,12 +157,18 @@ contains
       logical, intent(out) :: is_doubled
       type(complaints_t), intent(inout) :: complaints
       real(wp) :: y
-      logical :: is_known
+      integer :: e
 
-      call number_of(point, 'at', 2, y, is_known)
-      is_doubled = .not. is_known .or. abs(y)*half%length >= in_plane
+      is_doubled = .true.
+      e = entry_index(point, 'at', 2)
+      if (e == 0) return
+      associate (given => point%entries(e)%values(3 - point%entries(e)%first))
+         if (value_fault(given, number) /= '') return
+         read (given%text, *) y
+      end associate
+      is_doubled = abs(y)*half%length >= in_plane
       ! for a deck of the right half, only the wheel is reported
-      if (.not. (is_known .and. is_doubled) .or. any(half%is_right)) return
+      if (.not. is_doubled .or. any(half%is_right)) return
       if (y*half%outboard < 0.0_wp) call complain(complaints, point, 'at', &
          'a deck with &mirror must describe the left half, found y = '//str(y)//' on the right (y points '// &
          trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); list a point that exists only once in shared')
@@ -191,7 +183,7 @@ contains
       follows = .false.
       do e = 1, record%used
          role = role_of(record, record%entries(e)%key)
-         if (.not. is_name(role)) cycle
+         if (role < 1 .or. role > size(group_names)) cycle      ! not the name of a record
          do v = 1, record%entries(e)%used
             associate (text => record%entries(e)%values(v)%text)
                if (has_side(text)) then      ! the reference has a side: the element exists once
@@ -204,21 +196,19 @@ contains
       end do
    end function follows
 
-   !> Whether the record named by a role is duplicated.
+   !> Whether a role is the name of another record, and this record is duplicated.
    pure logical function is_doubled_name(half, role, name)
       type(half_t), intent(in) :: half
       integer, intent(in) :: role
       character(*), intent(in) :: name
 
-      is_doubled_name = .false.
-      if (name == '' .or. len_trim(name) > word_length) return
-      is_doubled_name = any(half%is_doubled .and. half%groups == named_group(role) .and. half%names == lower(name))
+      is_doubled_name = any(half%is_doubled .and. half%groups == role .and. half%names == lower(name)) .and. name /= ''
    end function is_doubled_name
 
    !> Renames the record of one side and its references to others.
-   subroutine rename(half, twin, record)
+   subroutine rename(half, side, record)
       type(half_t), intent(in) :: half
-      integer, intent(in) :: twin
+      integer, intent(in) :: side
       type(record_t), intent(inout) :: record
       integer :: e, v, role
 
@@ -226,32 +216,32 @@ contains
          associate (entry => record%entries(e))
             role = role_of(record, entry%key)
             do v = 1, entry%used
-               if (.not. entry%values(v)%is_string) cycle
-               if (entry%key == 'name') then
-                  if (len_trim(entry%values(v)%text) > word_length .or. entry%values(v)%text == '') cycle
-                  entry%values(v)%text = name_of_twin(record%group, entry%values(v)%text, twin)
-               else if (is_name(role)) then
-                  if (is_doubled_name(half, role, entry%values(v)%text)) &
-                     entry%values(v)%text = name_of_twin(named_group(role), entry%values(v)%text, twin)
-               end if
+               associate (value => entry%values(v))
+                  if (.not. value%is_string .or. value%text == '') cycle
+                  if (entry%key == 'name' .and. len_trim(value%text) <= word_length) then
+                     value%text = name_on_side(group_number(record%group), value%text, side)
+                  else if (is_doubled_name(half, role, value%text)) then
+                     value%text = name_on_side(role, value%text, side)
+                  end if
+               end associate
             end do
          end associate
       end do
    end subroutine rename
 
    !> left_<name>, right_<name>; the wheel 'left' becomes 'left' and 'right'. A name that is too long (reported by `survey`) is cut.
-   pure function name_of_twin(group, name, twin) result(renamed)
-      character(*), intent(in) :: group, name
-      integer, intent(in) :: twin
+   pure function name_on_side(group, name, side) result(renamed)
+      integer, intent(in) :: group, side
+      character(*), intent(in) :: name
       character(:), allocatable :: renamed
 
-      if (group == 'wheel' .and. lower(name) == 'left') then
-         renamed = trim(merge('left ', 'right', twin == left_twin))
+      if (group == wheel_group .and. lower(name) == 'left') then
+         renamed = trim(merge('left ', 'right', side == left_side))
       else
-         renamed = trim(twin_prefix(twin))//trim(name)
+         renamed = trim(side_prefix(side))//trim(name)
          renamed = renamed(:min(len(renamed), word_length))
       end if
-   end function name_of_twin
+   end function name_on_side
 
    !> A record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
    subroutine keep_single(half, is_refused, record, complaints)
@@ -266,8 +256,7 @@ contains
       original = record
       do e = 1, record%used
          role = role_of(record, record%entries(e)%key)
-         if (.not. is_name(role)) cycle
-         if (role == loads) then
+         if (role == load_group) then
             do v = 1, original%entries(e)%first - 1     ! load(2) = … moves up if load(1) was duplicated
                if (is_doubled_name(half, role, element(original, original%entries(e)%key, v))) &
                   record%entries(e)%first = record%entries(e)%first + 1
@@ -278,11 +267,11 @@ contains
          do v = 1, record%entries(e)%used
             associate (value => record%entries(e)%values(v))
                if (.not. is_doubled_name(half, role, value%text)) cycle
-               left = name_of_twin(named_group(role), value%text, left_twin)
-               right = name_of_twin(named_group(role), value%text, right_twin)
+               left = name_on_side(role, value%text, left_side)
+               right = name_on_side(role, value%text, right_side)
                if (left == value%text) cycle
                if (.not. is_refused) call complain(complaints, record, record%entries(e)%key, record%entries(e)%key// &
-                  ': &mirror duplicates the '//named_group(role)//' '//quoted(value%text)//'; use '//quoted(left)// &
+                  ': &mirror duplicates the '//trim(group_names(role))//' '//quoted(value%text)//'; use '//quoted(left)// &
                   ' or '//quoted(right))
                value%text = left
             end associate
@@ -296,36 +285,89 @@ contains
       integer, intent(in) :: role
       type(entry_t), intent(inout) :: entry
       type(entry_t) :: both
-      integer :: v, twin
+      integer :: v, side
 
+      both = entry
+      both%used = 0
       do v = 1, entry%used
          associate (value => entry%values(v))
             if (is_doubled_name(half, role, value%text)) then
-               do twin = left_twin, right_twin
-                  call add_value(both, name_of_twin(named_group(role), value%text, twin), value%is_string, .false.)
+               do side = left_side, right_side
+                  call add_value(both, name_on_side(role, value%text, side), value%is_string)
                end do
             else
-               call add_value(both, value%text, value%is_string, value%is_empty)
+               call add_value(both, value%text, value%is_string)
             end if
          end associate
       end do
-      if (both%used == entry%used) return
-      entry%used = both%used
-      call move_alloc(both%values, entry%values)
+      entry = both
    end subroutine expand
 
-   !> The name of a record, lower case; '' if it has no usable name.
-   pure function name_of(record) result(name)
-      type(record_t), intent(in) :: record
-      character(:), allocatable :: name
-      integer :: e
+   !> Turns a record into its mirror image; names are unchanged, and invalid numbers are left for the check of values.
+   subroutine reflect(record)
+      type(record_t), intent(inout) :: record
+      integer :: e, v
 
-      name = ''
-      e = entry_index(record, 'name', 1)
-      if (e == 0) return
-      if (record%entries(e)%values(1)%is_string .and. len_trim(record%entries(e)%values(1)%text) <= word_length) &
-         name = trim(lower(record%entries(e)%values(1)%text))
-   end function name_of
+      do e = 1, record%used
+         associate (entry => record%entries(e))
+            do v = 1, entry%used
+               select case (role_of(record, entry%key))
+               case (polar, axial)
+                  if (sign_of_image(record, entry%key, entry%first + v - 1) < 0.0_wp .and. &
+                     value_fault(entry%values(v), number) == '') call turn_number(entry%values(v)%text)
+               case (curves)
+                  call turn_curve(entry%values(v)%text)
+               case (wheel_side)
+                  if (lower(entry%values(v)%text) == 'left') entry%values(v)%text = 'right'
+               end select
+            end do
+            if (entry%key == 'axis' .and. turns(record)) call exchange_ends(entry)
+         end associate
+      end do
+   end subroutine reflect
+
+   !> '5' ↔ '-5'; zero has no sign.
+   subroutine turn_number(text)
+      character(:), allocatable, intent(inout) :: text
+
+      if (verify(text(:scan(text//'e', 'eEdD') - 1), '+-0.') == 0) return
+      select case (text(1:1))
+      case ('-')
+         text = text(2:)
+      case ('+')
+         text = '-'//text(2:)
+      case default
+         text = '-'//text
+      end select
+   end subroutine turn_number
+
+   !> 'fy=c' ↔ 'fy=-c', for the components whose sign changes in marker axes.
+   subroutine turn_curve(text)
+      character(:), allocatable, intent(inout) :: text
+      character(:), allocatable :: name, component
+      integer :: mark
+
+      mark = index(text, '=')
+      component = trim(adjustl(lower(text(:max(mark - 1, 0)))))
+      if (.not. any(component == [character(2) :: 'fy', 'mx', 'mz'])) return
+      name = '-'//trim(adjustl(text(mark + 1:)))
+      if (index(name, '--') == 1) name = trim(adjustl(name(3:)))
+      text = component//'='//name
+   end subroutine turn_curve
+
+   !> Exchanges the two points of an axis.
+   subroutine exchange_ends(entry)
+      type(entry_t), intent(inout) :: entry
+      type(value_t) :: kept
+
+      if (entry%used == 2 .and. entry%first == 1) then
+         kept = entry%values(1)
+         entry%values(1) = entry%values(2)
+         entry%values(2) = kept
+      else if (entry%used == 1 .and. entry%first <= 2) then
+         entry%first = 3 - entry%first
+      end if
+   end subroutine exchange_ends
 
    !> Reports a mistake at a key of a record, or at the record if the key is ''.
    subroutine complain(complaints, record, key, what)
@@ -338,11 +380,7 @@ contains
       entry = 0
       if (key /= '') entry = entry_index(record, key, 0)
       call place_of(record, entry, place)
-      if (element(record, 'name', 1) == '') then
-         call complaints%add(place, record%group//': '//what)
-      else
-         call complaints%add(place, record%group//' '//quoted(element(record, 'name', 1))//': '//what)
-      end if
+      call complaints%add(place, record_head(group_number(record%group), element(record, 'name', 1))//what)
    end subroutine complain
 
 end module ek_mirror

@@ -9,10 +9,16 @@ module ek_namelist
    use ek_complaint, only: place_t, complaints_t
    use ek_record, only: record_t, entry_t, value_t, entry_index, is_given, place_of
    use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_words, word, prose, number, whole, switch, &
-      word_length, note_length, largest_exponent, smallest_exponent
+      word_length, note_length
    implicit none(type, external)
    private
    public :: check_record, value_fault
+
+   integer, parameter :: largest_exponent = 30      !! numbers above 1e30 are mistakes and could overflow later
+   integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
+   character(*), parameter :: digits = '0123456789'
+   character(*), parameter :: types(switch) = [character(17) :: 'a text in quotes', 'a text in quotes', 'a number', &
+      'a whole number', '.true. or .false.']
 
 contains
 
@@ -25,7 +31,7 @@ contains
       logical, intent(out) :: is_good
       type(key_t) :: key
       logical :: is_known
-      integer :: k, first
+      integer :: k
 
       is_good = .true.
       do k = 1, record%used
@@ -45,49 +51,41 @@ contains
 
       !> Whether type, count and values of entry k fit its key.
       logical function fits()
-         character(:), allocatable :: fault
-         integer :: given, j, l
+         character(:), allocatable :: name, fault
+         logical :: is_same(record%used)
+         integer :: given, first, last, j
 
          fits = .false.
          associate (entry => record%entries(k))
-            given = 0
-            first = huge(first)
-            do l = 1, record%used        ! kt(1)=… kt(2)=… are counted together and checked at the first one
-               if (record%entries(l)%key /= entry%key) cycle
-               given = given + record%entries(l)%used
-               first = min(first, l)
-            end do
+            name = trim(key%name)
+            last = entry%first + entry%used - 1
+            is_same = [(record%entries(j)%key == entry%key, j=1, record%used)]
+            given = sum(record%entries(:record%used)%used, is_same)    ! kt(1)=… kt(2)=… are counted together
+            first = findloc(is_same, .true., dim=1)                    ! and checked at the first one
             if (entry%used == 0) then    ! reported by the scanner
                is_good = .false.
                return
-            end if
-            if (entry%first + entry%used - 1 > key%most) then
-               if (entry%first > 1) then
-                  call complain(k, trim(key%name)//' has '//plural(key%most, 'element', 'elements')//', found element '// &
-                     str(entry%first + entry%used - 1))
-               else
-                  call complain(k, trim(key%name)//' '//needs(key)//', found '//str(given)//surplus(key, entry))
+            else if (last > key%most .and. entry%first > 1) then
+               fault = name//' has '//plural(key%most, 'element', 'elements')//', found element '//str(last)
+            else if (last > key%most) then
+               fault = name//' '//needs(key)//', found '//str(given)//surplus(key, entry)
+            else if (given < key%least .and. first == k) then
+               fault = name//' '//needs(key)//', found '//str(given)
+            else
+               fault = ''
+               if (entry%first > 1 .and. given >= key%least) then     ! lists start at their first element and have no gaps
+                  if (entry_index(record, entry%key, entry%first - 1) == 0) fault = name//element_text(key, entry%first - 1)// &
+                     ' is missing, found '//name//element_text(key, entry%first)
                end if
-               return
+               do j = 1, entry%used
+                  if (fault /= '') exit
+                  fault = value_fault(entry%values(j), key%type)
+                  if (fault /= '') fault = name//element_text(key, entry%first + j - 1)//' must be '//fault
+               end do
             end if
-            if (given < key%least .and. first == k) then
-               call complain(k, trim(key%name)//' '//needs(key)//', found '//str(given))
-               return
-            end if
-            if (entry%first > 1 .and. given >= key%least) then     ! lists start at their first element and have no gaps
-               if (entry_index(record, entry%key, entry%first - 1) == 0) then
-                  call complain(k, trim(key%name)//element_text(key, entry%first - 1)//' is missing, found '//trim(key%name)// &
-                     element_text(key, entry%first))
-                  return
-               end if
-            end if
-            do j = 1, entry%used
-               fault = value_fault(entry%values(j), key%type)
-               if (fault == '') cycle
-               call complain(k, trim(key%name)//element_text(key, entry%first + j - 1)//' must be '//fault)
-               return
-            end do
-            fits = .true.
+            fits = fault == ''
+            if (.not. fits) call complain(k, fault)
+            if (.not. fits .or. key%type /= number) return
             do j = 1, entry%used      ! each number outside its range is reported
                fault = out_of_range(key, entry, j)
                if (fault == '') cycle
@@ -110,7 +108,7 @@ contains
 
    end subroutine check_record
 
-   !> 'kt(2) must be 0 or more, found -1'; '' if the number is in the range of its key, or is none.
+   !> 'kt(2) must be 0 or more, found -1'; '' if the number is in the range of its key.
    function out_of_range(key, entry, k) result(words)
       type(key_t), intent(in) :: key
       type(entry_t), intent(in) :: entry
@@ -119,11 +117,10 @@ contains
       real(wp) :: value
 
       words = ''
-      if (key%type /= number) return
       read (entry%values(k)%text, *) value
       if (is_inside(key%range, value)) return
-      words = trim(key%name)//' '//range_words(key, str(value))
-      if (key%least == key%most) words = trim(key%name)//element_text(key, entry%first + k - 1)//' '//range_words(key, str(value))
+      if (key%least == key%most) words = element_text(key, entry%first + k - 1)
+      words = trim(key%name)//words//' '//range_words(key, str(value))
    end function out_of_range
 
    !> 'needs 3 values'
@@ -131,11 +128,8 @@ contains
       type(key_t), intent(in) :: key
       character(:), allocatable :: words
 
-      if (key%least == key%most) then
-         words = 'needs '//plural(key%least, 'value', 'values')
-      else
-         words = 'needs '//str(key%least)//' to '//str(key%most)//' values'
-      end if
+      words = 'needs '//str(key%least)//' to '//str(key%most)//' values'
+      if (key%least == key%most) words = 'needs '//plural(key%least, 'value', 'values')
    end function needs
 
    !> Hints about surplus values: a decimal comma, or an unknown key without = after it.
@@ -151,12 +145,12 @@ contains
             if (value%is_string .or. value%is_empty) cycle
             if (scan(lower(value%text(:1)), 'abcdefghijklmnopqrstuvwxyz') == 1 .and. j < entry%used) then
                ! an unclosed string leaves no numbers
-               if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, '0123456789') == 0) cycle
+               if (.not. entry%values(j + 1)%is_string .and. scan(entry%values(j + 1)%text, digits) == 0) cycle
                words = ' (is the = after '//quoted(value%text)//' missing?)'
                return
             end if
-            if (key%type /= number .or. verify(value%text, '0123456789') > 0) cycle
-            if (verify(before, '+-0123456789') > 0) cycle
+            if (key%type /= number .or. verify(value%text, digits) > 0) cycle
+            if (verify(before, '+-'//digits) > 0) cycle
             words = ' (a decimal comma? Write '//before//'.'//value%text//', not '//before//','//value%text//')'
             return
          end associate
@@ -177,52 +171,44 @@ contains
       type(value_t), intent(in) :: value
       integer, intent(in) :: type
       character(:), allocatable :: fault
-      character(:), allocatable :: expected
-
-      select case (type)
-      case (word, prose)
-         expected = 'a text in quotes'
-      case (number)
-         expected = 'a number'
-      case (whole)
-         expected = 'a whole number'
-      case default
-         expected = '.true. or .false.'
-      end select
+      logical :: is_fit
 
       fault = ''
       if (value%is_empty) then
-         fault = expected//', found nothing between the commas'
-         return
-      end if
-      select case (type)
-      case (word, prose)
+         fault = trim(types(type))//', found nothing between the commas'
+      else if (type == word .or. type == prose) then
          if (.not. value%is_string) then
-            fault = expected//', found '//value%text//' without quotes'//quote_hint(value%text)
-         else if (type == word .and. len(value%text) > word_length) then
-            fault = 'at most '//str(word_length)//' characters long, found '//str(len(value%text))
-         else if (len(value%text) > note_length) then
-            fault = 'at most '//str(note_length)//' characters long, found '//str(len(value%text))
+            fault = trim(types(type))//', found '//value%text//' without quotes'//quote_hint(value%text)
+         else if (len(value%text) > merge(word_length, note_length, type == word)) then
+            fault = 'at most '//str(merge(word_length, note_length, type == word))//' characters long, found '// &
+               str(len(value%text))
          else if (value%text == '') then
-            fault = expected//', found an empty text'
+            fault = trim(types(type))//', found an empty text'
          else if (bad_byte(value%text) > 0) then
             fault = 'UTF-8 text, found '//quoted(value%text)//'; save the file as UTF-8'
          end if
-      case default
-         if (value%is_string) then
-            fault = expected//', found the string '//quoted(value%text)
-         else if (type == switch) then
-            if (.not. is_switch(value%text)) fault = expected//', found '//value%text
-         else if (type == whole) then
-            if (.not. is_whole(value%text)) fault = expected//', found '//value%text
-         else if (.not. is_number(value%text)) then
-            fault = expected//', found '//value%text//number_hint(value%text)
-         else if (size_exponent(value%text) > largest_exponent) then
-            fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
-         else if (size_exponent(value%text) < smallest_exponent) then
-            fault = '0 or a number above 1e'//str(smallest_exponent)//', found '//value%text
+      else if (value%is_string) then
+         fault = trim(types(type))//', found the string '//quoted(value%text)
+      else
+         select case (type)
+         case (number)
+            is_fit = is_number(value%text)
+         case (whole)
+            is_fit = is_signed(value%text) .and. len(value%text) - scan(value%text(:1), '+-') <= 9
+         case default
+            is_fit = any(lower(value%text) == [character(7) :: '.true.', '.false.', 'true', 'false', '.t.', '.f.', 't', 'f'])
+         end select
+         if (.not. is_fit) then
+            fault = trim(types(type))//', found '//value%text
+            if (type == number) fault = fault//number_hint(value%text)
+         else if (type == number) then
+            if (size_exponent(value%text) > largest_exponent) then
+               fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text
+            else if (size_exponent(value%text) < smallest_exponent) then
+               fault = '0 or a number above 1e'//str(smallest_exponent)//', found '//value%text
+            end if
          end if
-      end select
+      end if
    end function value_fault
 
    !> A hint if a text has typographic quotes.
@@ -233,9 +219,7 @@ contains
       integer :: k
 
       words = ''
-      do k = 1, size(quotes)
-         if (index(text, trim(quotes(k))) == 1) words = " (write straight quotes: ' or "")"
-      end do
+      if (any([(index(text, trim(quotes(k))) == 1, k=1, size(quotes))])) words = " (write straight quotes: ' or "")"
    end function quote_hint
 
    !> A hint about common mistakes in numbers.
@@ -251,68 +235,47 @@ contains
       end if
    end function number_hint
 
-   pure logical function is_switch(text)
-      character(*), intent(in) :: text
-      is_switch = any(lower(text) == [character(7) :: '.true.', '.false.', 'true', 'false', '.t.', '.f.', 't', 'f'])
-   end function is_switch
-
-   !> Digits with an optional sign, at most nine of them.
-   pure logical function is_whole(text)
+   !> Whether a text is digits with an optional sign.
+   pure logical function is_signed(text)
       character(*), intent(in) :: text
       integer :: first
 
       first = 1
-      if (text(1:1) == '-' .or. text(1:1) == '+') first = 2
-      is_whole = len(text) >= first .and. len(text) < first + 9 .and. verify(text(first:), '0123456789') == 0
-   end function is_whole
+      if (scan(text, '+-') == 1) first = 2
+      is_signed = len(text) >= first .and. verify(text(first:), digits) == 0
+   end function is_signed
 
    !> [sign] digits [. digits] [e|d [sign] digits], at least one digit before the exponent.
    pure logical function is_number(text)
       character(*), intent(in) :: text
-      integer :: mark, first, last
+      character(:), allocatable :: mantissa
+      integer :: mark
 
-      is_number = .false.
-      last = scan(text, 'eEdD') - 1
-      if (last >= 0) then
-         mark = last + 2
-         if (mark > len(text)) return
-         if (index('+-', text(mark:mark)) > 0) mark = mark + 1
-         if (mark > len(text)) return
-         if (verify(text(mark:), '0123456789') > 0) return
-      else
-         last = len(text)
-      end if
-      if (last < 1) return
-      first = 1
-      if (index('+-', text(1:1)) > 0) first = 2
-      if (scan(text(first:last), '0123456789') == 0) return
-      if (verify(text(first:last), '0123456789.') > 0) return
-      is_number = index(text(first:last), '.') == index(text(first:last), '.', back=.true.)
+      mark = scan(text//'e', 'eEdD')
+      mantissa = text(:mark - 1)
+      if (scan(mantissa, '+-') == 1) mantissa = mantissa(2:)
+      is_number = scan(mantissa, digits) > 0 .and. verify(mantissa, digits//'.') == 0 .and. &
+         index(mantissa, '.') == index(mantissa, '.', back=.true.)
+      if (mark <= len(text)) is_number = is_number .and. is_signed(text(mark + 1:))
    end function is_number
 
-   !> The power of ten of a well-formed number's first digit.
-   pure integer function size_exponent(text)
+   !> The power of ten of a well-formed number's first digit; 0 of zero.
+   pure integer function size_exponent(text) result(power)
       character(*), intent(in) :: text
-      integer :: mark, last, dot, lead, status
+      integer :: mark, dot, lead, status
 
-      mark = scan(text, 'eEdD')
-      size_exponent = 0
-      last = len(text)
-      if (mark > 0) then
-         last = mark - 1
+      mark = scan(text//'e', 'eEdD')
+      power = 0
+      if (mark <= len(text)) then
          status = 1
-         if (len(text) - mark < 8) read (text(mark + 1:), *, iostat=status) size_exponent
-         if (status /= 0) size_exponent = merge(-9999999, 9999999, text(mark + 1:mark + 1) == '-')
+         if (len(text) - mark < 8) read (text(mark + 1:), *, iostat=status) power
+         if (status /= 0) power = merge(-9999999, 9999999, text(mark + 1:mark + 1) == '-')
       end if
-      lead = scan(text(:last), '123456789')
-      if (lead == 0) then
-         size_exponent = 0
-         return
-      end if
-      dot = index(text(:last), '.')
-      if (dot == 0) dot = last + 1
-      size_exponent = size_exponent + dot - lead
-      if (lead < dot) size_exponent = size_exponent - 1
+      dot = index(text(:mark - 1)//'.', '.')
+      lead = scan(text(:mark - 1), '123456789')
+      power = power + dot - lead
+      if (lead < dot) power = power - 1
+      if (lead == 0) power = 0
    end function size_exponent
 
 end module ek_namelist

@@ -5,15 +5,15 @@
 module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_text, only: str, is_like
-   use ek_twin, only: right_twin
-   use ek_record, only: record_t, entry_index, element, own_name
-   use ek_group, only: group_names, group_number, point_group, key_t, find_key, is_single, is_inside
-   use ek_setting, only: path_t, split_path, change_t, changed
-   use ek_mirror_role, only: sign_of_image
+   use ek_text, only: str, lower, quoted, is_like
+   use ek_complaint, only: right_side
+   use ek_record, only: record_t, element, own_name, sign_of_image
+   use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, point_group, &
+      key_t, find_key, is_inside, did_you_mean
    implicit none(type, external)
    private
    public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range, parameter_path
+   public :: path_t, split_path, is_meant, change_t, changed
 
    !> One number of the deck.
    type :: parameter_t
@@ -40,7 +40,93 @@ module ek_parameter
       real(wp) :: sign = 1.0_wp           !! −1: it takes the opposite of the value written to the path
    end type choice_t
 
+   !> A path, split; without a name for a group that has none.
+   type :: path_t
+      integer :: group = 0
+      character(:), allocatable :: name, key
+      type(key_t) :: row                     !! of the key, if the group has it
+      logical :: is_known = .false.
+      integer :: first = 1
+      logical :: has_subscript = .false.
+      logical :: is_wild = .false.           !! the name contains *
+   end type path_t
+
+   !> A change of a number: value ← factor × value + term.
+   type :: change_t
+      logical :: is_relative = .false.
+      real(wp) :: factor = 0.0_wp, term = 0.0_wp     !! term: in the unit of the deck
+   end type change_t
+
 contains
+
+   !> 'bushing.top_mount.kt(1)' → group, name, key and subscript; 'model.length', 'axle.wheelbase' have no name.
+   subroutine split_path(text, path, message)
+      character(*), intent(in) :: text
+      type(path_t), intent(out) :: path
+      character(:), allocatable, intent(out) :: message     !! '' if there is no mistake
+      character(:), allocatable :: inside
+      integer :: dot, last, mark, status
+
+      message = ''
+      path%name = ''
+      path%key = ''
+      dot = index(text, '.')
+      last = index(text, '.', back=.true.)
+      if (dot <= 1) then
+         message = 'expected group.name.key=value'
+         return
+      end if
+      path%group = group_number(lower(text(:dot - 1)))
+      if (.not. is_deck_group(path%group)) then
+         message = 'there is no group '//quoted(text(:dot - 1))//did_you_mean(text(:dot - 1), names_of_groups(of_deck=.true.))
+      else if (path%group == include_group) then
+         message = '--set cannot change an &include'
+      else if (is_single(path%group) .and. dot /= last) then
+         message = 'expected '//trim(group_names(path%group))//'.key=value'
+      else if (.not. is_single(path%group) .and. dot == last) then
+         message = 'expected group.name.key=value'
+      end if
+      if (message /= '') return
+      if (dot < last) path%name = text(dot + 1:last - 1)
+      path%is_wild = index(path%name, '*') > 0
+      path%key = lower(text(last + 1:))
+      mark = index(path%key, '(')
+      if (mark > 0) then
+         path%has_subscript = .true.
+         inside = path%key(mark + 1:len(path%key) - 1)
+         status = 1
+         if (path%key(len(path%key):) == ')' .and. inside /= '' .and. len(inside) < 7 .and. verify(inside, '0123456789') == 0) &
+            read (inside, *, iostat=status) path%first
+         if (status /= 0) then
+            message = 'the subscript must be one whole number, found '//path%key(mark:)
+            return
+         end if
+         path%key = path%key(:mark - 1)
+      end if
+      if (path%group == point_group .and. len(path%key) == 1 .and. index('xyz', path%key) > 0) then
+         path%first = index('xyz', path%key)
+         path%has_subscript = .true.
+         path%key = 'at'
+      end if
+      call find_key(path%group, path%key, path%row, path%is_known)
+   end subroutine split_path
+
+   !> Whether a path leads to this record.
+   pure logical function is_meant(record, path)
+      type(record_t), intent(in) :: record
+      type(path_t), intent(in) :: path
+
+      is_meant = record%group == group_names(path%group)
+      if (is_meant .and. .not. is_single(path%group)) is_meant = is_like(element(record, 'name', 1), path%name)
+   end function is_meant
+
+   !> The number after a change, rounded to 15 digits: the number that a person would write into the deck.
+   function changed(change, value) result(text)
+      type(change_t), intent(in) :: change
+      real(wp), intent(in) :: value          !! in the unit of the deck
+      character(:), allocatable :: text
+      text = str(change%factor*value + change%term, 15)
+   end function changed
 
    !> Adds a number of a record; its number is parameters%used.
    subroutine add_parameter(parameters, records, k, key, at, value, unit, is_given)
@@ -51,27 +137,21 @@ contains
       real(wp), intent(in) :: value                  !! SI
       real(wp), intent(in) :: unit
       logical, intent(in) :: is_given
-      type(parameter_t), allocatable :: grown(:)
-      real(wp), allocatable :: grown_x(:)
       type(key_t) :: row
       logical :: is_known
       integer :: n, j
 
       n = parameters%used
-      if (.not. allocated(parameters%list)) allocate (parameters%list(64), parameters%x(64))
       if (n == size(parameters%x)) then
-         allocate (grown(2*n), grown_x(2*n))
-         grown(:n) = parameters%list
-         grown_x(:n) = parameters%x
-         call move_alloc(grown, parameters%list)
-         call move_alloc(grown_x, parameters%x)
+         parameters%list = [parameters%list, parameters%list]      ! twice the size
+         parameters%x = [parameters%x, parameters%x]
       end if
       n = n + 1
       parameters%used = n
       parameters%x(n) = value
       call find_key(group_number(records(k)%group), key, row, is_known)
       parameters%list(n) = parameter_t(k, key, at, unit, row%range, is_given)
-      if (records(k)%twin /= right_twin) return
+      if (records(k)%side /= right_side) return
       parameters%list(n)%sign = sign_of_image(records(k), key, at)
       do j = n - 1, 1, -1         ! the left record precedes the right one
          if (parameters%list(j)%record /= k - 1) cycle
@@ -99,7 +179,7 @@ contains
          associate (this => parameters%list(k), record => records(parameters%list(k)%record))
             if (record%group /= group_names(path%group) .or. this%key /= path%key) cycle
             if (path%has_subscript .and. this%at /= path%first) cycle
-            if (is_single(path%group) .or. is_like(element(record, 'name', 1), path%name)) then
+            if (is_meant(record, path)) then
                found = [found, choice_t(k, 1.0_wp)]
             else if (is_like(own_name(record), path%name)) then
                found = [found, choice_t(k, this%sign)]
@@ -149,10 +229,7 @@ contains
       real(wp), intent(in) :: x(:)
       integer :: j
 
-      in_range = .true.
-      do j = 1, size(found)
-         in_range = in_range .and. is_inside(parameters%list(found(j)%number)%range, x(found(j)%number))
-      end do
+      in_range = all([(is_inside(parameters%list(found(j)%number)%range, x(found(j)%number)), j=1, size(found))])
    end function in_range
 
    !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.

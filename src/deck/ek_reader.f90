@@ -7,27 +7,24 @@ module ek_reader
    use ek_text, only: lower
    use ek_error, only: error_t, fail, exit_deck
    use ek_units, only: new_units
-   use ek_twin, only: single
-   use ek_complaint, only: place_t
+   use ek_complaint, only: place_t, single
    use ek_record, only: record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
       curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
-      word_length, record_head, did_you_mean, is_legal_name, illegal_name, has_results
+      word_length, record_head, did_you_mean, has_results
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, finish_deck
-   use ek_draft, only: draft_t, complain, complain_at, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
-      number_of, slot
-   use ek_reference, only: vector_at
+   use ek_draft, only: draft_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
+      number_of, is_second, slot
    use ek_parameter, only: parameters_t
-   use ek_reserved_name, only: reserved_because
-   use ek_reader_bodies, only: read_point, read_body, read_mass
+   use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
+   use ek_reader_bodies, only: read_point, read_body, read_mass, read_load
    use ek_reader_joints, only: read_measure, read_joint
-   use ek_reader_springs, only: read_curve, read_spring, read_damper, read_stop, read_torsion
-   use ek_reader_elements, only: read_bushing, read_load
-   use ek_reader_wheels, only: read_wheel
-   use ek_reader_axle, only: read_axle, read_steering
+   use ek_reader_elements, only: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   use ek_reader_axle, only: read_wheel, read_axle, read_steering
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
+   use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t
    use ek_builder, only: add_point, add_gravity
    use ek_completion, only: allocate_lists
@@ -48,7 +45,7 @@ module ek_reader
       type(blueprint_t) :: plan
       type(parameters_t) :: parameters           !! with their values in the deck, x
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
-      type(case_t), allocatable :: cases(:)      !! may be of size 0; includes cases with a mistake
+      type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with a mistake
    end type design_t
 
 contains
@@ -82,18 +79,14 @@ contains
       type(draft_t) :: draft
       logical :: is_complete
 
-      if (deck%is_finished()) then
-         draft%complaints = deck%complaints
-         draft%records = deck%records(:deck%used)
-      else
-         call finish_deck(deck, finished)
-         draft%complaints = finished%complaints
-         draft%records = finished%records(:finished%used)
-      end if
+      call finish_deck(deck, finished)
+      draft%complaints = finished%complaints
+      draft%records = finished%records(:finished%used)
       draft%file = deck%file
       allocate (design%cases(0))
       call read_records(draft, design%cases, is_complete, error)
       if (is_complete) call complete_prototype(draft)
+      call read_tables(design%cases, draft%plan%prototype, is_complete)
       design%plan = draft%plan
       design%parameters = draft%parameters
       call move_alloc(draft%records, design%records)
@@ -114,8 +107,8 @@ contains
          call fail(error, exit_deck, draft%complaints%text())
          return
       end if
-      allocate (draft%cards(size(draft%records)), draft%parameters%list(64), draft%parameters%x(64), draft%vectors(3, 0:31))
-      draft%vectors = 0.0_wp
+      allocate (draft%cards(size(draft%records)), draft%parameters%list(64), draft%parameters%x(64))
+      allocate (draft%vectors(3, 0:4*size(draft%records) + 1), source=0.0_wp)     ! a record makes two at most
       draft%vectors(:, 1) = [0.0_wp, 0.0_wp, 1.0_wp]
       call new_blueprint(draft%plan)
       if (is_study(draft%records)) then
@@ -131,8 +124,12 @@ contains
          call check_names(draft)
          if (draft%cards(k)%group == case_group) in_cases = in_cases + draft%complaints%count() - before
       end do
-      call read_model(draft)
-      do j = 2, size(reading_order)
+      if (.not. any(draft%cards%group == model_group) .and. all(draft%cards%group > 0)) &
+         call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
+      draft%plan%prototype%name = ''
+      draft%plan%prototype%title = ''
+      draft%plan%prototype%balance = 'none'
+      do j = 1, size(reading_order)
          do k = 1, size(draft%records)
             if (draft%cards(k)%group /= reading_order(j)) cycle
             draft%k = k
@@ -141,7 +138,10 @@ contains
       end do
       if (.not. any(draft%cards%group == body_group) .and. all(draft%cards%group > 0)) &
          call complain_of_all(draft, 'there is no &body, so nothing can move')
-      call check_bodies(draft)
+      do k = 1, size(draft%records)      ! a body is attached to nothing, unless the element attached to it was rejected
+         if (draft%cards(k)%group == body_group .and. .not. draft%cards(k)%is_used .and. draft%cards(k)%name /= '' .and. &
+            all(draft%cards%group > 0)) call complain(draft, '', 'no joint, bushing or spring is attached to it', at=k)
+      end do
       is_whole = draft%complaints%count() == in_cases
       do k = 1, size(draft%records)
          if (draft%cards(k)%group /= case_group) cycle
@@ -158,6 +158,8 @@ contains
       type(draft_t), intent(inout) :: draft
 
       select case (draft%cards(draft%k)%group)
+      case (model_group)
+         call read_model(draft)
       case (point_group)
          call read_point(draft)
       case (curve_group)
@@ -200,7 +202,7 @@ contains
          draft%k = k
          associate (card => draft%cards(k))
             if (card%group /= point_group) cycle
-            call add_point(draft%plan%prototype, trim(card%name), where_of(draft), vector_at(draft, card%index), card%is_used)
+            call add_point(draft%plan%prototype, trim(card%name), where_of(draft), draft%vectors(:, card%index), card%is_used)
             draft%plan%points = [draft%plan%points, card%index]
          end associate
       end do
@@ -211,17 +213,10 @@ contains
    !> Whether a file contains groups of a study and none of a deck.
    pure logical function is_study(records)
       type(record_t), intent(in) :: records(:)
-      integer :: k, group
+      integer :: groups(size(records)), k
 
-      is_study = .false.
-      do k = 1, size(records)
-         group = group_number(records(k)%group)
-         if (is_deck_group(group)) then
-            is_study = .false.
-            return
-         end if
-         is_study = is_study .or. group > 0
-      end do
+      groups = [(group_number(records(k)%group), k=1, size(records))]
+      is_study = any(groups > 0) .and. .not. any([(is_deck_group(groups(k)), k=1, size(records))])
    end function is_study
 
    !> Checks group, keys, counts and types of the record, and that its name is legal and unique.
@@ -284,9 +279,9 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if ((draft%records(j)%twin == single) .eqv. (draft%records(k)%twin == single)) return
+         if ((draft%records(j)%side == single) .eqv. (draft%records(k)%side == single)) return
          words = ' (&mirror creates '//trim(draft%cards(k)%name)//' from '// &
-            own_name(draft%records(merge(j, k, draft%records(k)%twin == single)))//')'
+            own_name(draft%records(merge(j, k, draft%records(k)%side == single)))//')'
       end function doubling
 
    end subroutine check_new
@@ -297,57 +292,31 @@ contains
       character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
          angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
          balances(3) = [character(6) :: 'none', 'spring', 'all']
-      integer :: k, first, length, force, angle, frame, balance, gravity
+      integer :: length, force, angle, frame, balance, gravity
 
-      draft%plan%prototype%name = ''
-      draft%plan%prototype%title = ''
-      draft%plan%prototype%balance = 'none'
-      first = 0
-      do k = 1, size(draft%records)
-         if (draft%cards(k)%group /= model_group) cycle
-         draft%k = k
-         if (first > 0) then
-            call complain(draft, '', 'a second &model; the first is in '//line_of(draft, first))
-            cycle
-         end if
-         first = k
-         call choice(draft, 'length', lengths, length, default=1)
-         call choice(draft, 'force', forces, force, default=1)
-         call choice(draft, 'angle', angles, angle, default=1)
-         call choice(draft, 'axes', frames, frame, default=1)
-         call choice(draft, 'balance', balances, balance, default=1)
-         draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
-         draft%plan%length_unit = draft%units%length
-         draft%plan%force_unit = draft%units%force
-         draft%plan%angle_unit = draft%units%angle
-         draft%plan%is_iso = frame == 2
-         call slot(draft, 'gravity', 1.0_wp, gravity)
-         draft%plan%gravity = gravity
-         associate (model => draft%plan%prototype)
-            model%gravity = number_of(draft, 'gravity', 0.0_wp)
-            model%name = text_of(draft, 'name')
-            model%title = text_of(draft, 'title')
-            model%balance = trim(balances(max(balance, 1)))
-            model%is_iso = frame == 2
-            model%units = draft%units
-            model%is_plausible_wanted = switch_of(draft, 'plausible', .true.)
-            model%where = where_of(draft)
-         end associate
-      end do
-      if (first == 0 .and. all(draft%cards%group > 0)) &
-         call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
+      if (is_second(draft)) return
+      call choice(draft, 'length', lengths, length, default=1)
+      call choice(draft, 'force', forces, force, default=1)
+      call choice(draft, 'angle', angles, angle, default=1)
+      call choice(draft, 'axes', frames, frame, default=1)
+      call choice(draft, 'balance', balances, balance, default=1)
+      draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
+      draft%plan%length_unit = draft%units%length
+      draft%plan%force_unit = draft%units%force
+      draft%plan%angle_unit = draft%units%angle
+      draft%plan%is_iso = frame == 2
+      call slot(draft, 'gravity', 1.0_wp, gravity)
+      draft%plan%gravity = gravity
+      associate (model => draft%plan%prototype)
+         model%gravity = number_of(draft, 'gravity', 0.0_wp)
+         model%name = text_of(draft, 'name')
+         model%title = text_of(draft, 'title')
+         model%balance = trim(balances(max(balance, 1)))
+         model%is_iso = frame == 2
+         model%units = draft%units
+         model%is_plausible_wanted = switch_of(draft, 'plausible', .true.)
+         model%where = where_of(draft)
+      end associate
    end subroutine read_model
-
-   !> Reports a body attached to nothing, unless the element attached to it was rejected.
-   subroutine check_bodies(draft)
-      type(draft_t), intent(inout) :: draft
-      integer :: k
-
-      if (any(draft%cards%group == 0)) return
-      do k = 1, size(draft%records)
-         if (draft%cards(k)%group /= body_group .or. draft%cards(k)%is_used .or. draft%cards(k)%name == '') cycle
-         call complain_at(draft, k, '', 'no joint, bushing or spring is attached to it')
-      end do
-   end subroutine check_bodies
 
 end module ek_reader

@@ -1,17 +1,90 @@
-!> &axle and &steering: data of the vehicle around the suspension. At most one of each.
+!> &wheel: the wheels whose attitude is reported; &axle and &steering: data of the vehicle around the suspension, at most one of
+!> each.
 module ek_reader_axle
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, quoted
    use ek_element, only: is_of_angle
+   use ek_suspension, only: wheel_t
+   use ek_builder, only: add_wheel
+   use ek_blueprint, only: wheel_plan_t, vector_t, given
    use ek_record, only: element
-   use ek_group, only: group_names, joint_group, measure_group
-   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, slot
-   use ek_reference, only: look_up, find_card
+   use ek_group, only: joint_group, measure_group
+   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, numbers_of, &
+      is_second, slot
+   use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
    implicit none(type, external)
    private
-   public :: read_axle, read_steering
+   public :: read_wheel, read_axle, read_steering
 
 contains
+
+   !> &wheel.
+   subroutine read_wheel(draft)
+      type(draft_t), intent(inout) :: draft
+      type(wheel_plan_t) :: plan
+      type(wheel_t) :: this
+      real(wp) :: height, centre(3)
+      logical :: has_body, has_centre, has_contact, is_there
+      integer :: c
+
+      draft%cards(draft%k)%index = 1 + count(draft%cards(:draft%k - 1)%group == draft%cards(draft%k)%group)
+      call find_moving_body(draft, this%body, has_body)
+      call choice(draft, 'side', [character(5) :: 'left', 'right'], c)
+      this%side = merge(-1, 1, c == 1)
+      call find_point(draft, 'centre', text_of(draft, 'centre'), plan%centre, has_centre)
+      call find_point(draft, 'contact', text_of(draft, 'contact'), plan%contact, has_contact)
+      centre = draft%vectors(:, plan%centre)
+      ! a left wheel on the right side would reverse the signs of its results
+      if (has_centre .and. c > 0 .and. this%side*centre(2) < 0.0_wp) call complain(draft, 'side', 'side is '// &
+         quoted(text_of(draft, 'side'))//', but the centre '//quoted(text_of(draft, 'centre'))// &
+         ' lies on the other side (y points '//trim(merge('left ', 'right', draft%plan%is_iso))//')')
+      if (has_centre .and. has_contact) then
+         height = dot_product(centre - draft%vectors(:, plan%contact), [0.0_wp, 0.0_wp, 1.0_wp])
+         if (.not. height > 0.0_wp) call complain(draft, 'contact', &
+            'the contact point must lie below the wheel centre, found it '//str(-height/draft%units%length)//' above')
+      end if
+      call find_spin(draft, plan, this)
+      this%has_steer_axis = has_key(draft, 'steer_axis')
+      call find_points(draft, 'steer_axis', plan%steer_axis, is_there)
+      if (is_there) call check_apart(draft, 'steer_axis', plan%steer_axis, '', is_there)
+      if (.not. draft%cards(draft%k)%is_good) return
+      call slot(draft, 'radius', draft%units%length, plan%radius)
+      call slot(draft, 'tyre_rate', draft%units%force/draft%units%length, plan%tyre_rate)
+      call slot(draft, 'tyre_width', draft%units%length, plan%tyre_width)
+      call slot(draft, 'sprung_mass', 1.0_wp, plan%sprung_mass)
+      this%name = text_of(draft, 'name')
+      this%where = where_of(draft)
+      call add_wheel(draft%plan%prototype, this)
+      draft%plan%wheels = [draft%plan%wheels, plan]
+   end subroutine read_wheel
+
+   !> The spin axis, from spin_vector or from toe and camber.
+   subroutine find_spin(draft, plan, this)
+      type(draft_t), intent(inout) :: draft
+      type(wheel_plan_t), intent(inout) :: plan
+      type(wheel_t), intent(in) :: this
+      type(vector_t) :: vector
+      real(wp) :: spin(3)
+
+      if (.not. has_key(draft, 'spin_vector')) then
+         call slot(draft, 'toe', draft%units%angle, plan%toe, default=0.0_wp)
+         call slot(draft, 'camber', draft%units%angle, plan%camber, default=0.0_wp)
+         return
+      end if
+      if (has_key(draft, 'toe') .or. has_key(draft, 'camber')) call complain(draft, 'spin_vector', &
+         'give either spin_vector or toe and camber, not both')
+      if (.not. draft%cards(draft%k)%is_good) return
+      if (.not. norm2(numbers_of(draft, 'spin_vector', 3)) > 0.0_wp) then
+         call complain(draft, 'spin_vector', 'spin_vector has zero length')
+         return
+      end if
+      vector%kind = given
+      call slot(draft, 'spin_vector', 1.0_wp, vector%first, count=3)
+      call new_vector(draft, vector, plan%spin)
+      spin = draft%vectors(:, plan%spin)
+      if (.not. this%side*spin(2) > 0.0_wp) call complain(draft, 'spin_vector', 'spin_vector must point outboard, to the '// &
+         text_of(draft, 'side')//' (y points '//trim(merge('left ', 'right', draft%plan%is_iso))//')')
+   end subroutine find_spin
 
    !> &axle: front or rear, and its shares of braking and driving force.
    subroutine read_axle(draft)
@@ -67,7 +140,7 @@ contains
       subroutine check_driver()
          integer :: measure
 
-         if (lower(element(draft%records(found), 'type', 1)) /= 'driver') then
+         if (.not. is_driver(draft, found)) then
             call complain(draft, 'driver', 'driver: the joint '//quoted(driver)//' in line '// &
                str(draft%records(found)%line)//' is not a driver')
             return
@@ -80,16 +153,5 @@ contains
       end subroutine check_driver
 
    end subroutine read_steering
-
-   !> Whether a group that may occur once has occurred before; reports it as a mistake.
-   logical function is_second(draft)
-      type(draft_t), intent(inout) :: draft
-      integer :: first
-
-      first = findloc(draft%cards%group, draft%cards(draft%k)%group, dim=1)
-      is_second = first < draft%k
-      if (is_second) call complain(draft, '', 'a second &'//trim(group_names(draft%cards(draft%k)%group))// &
-         '; the first is in '//line_of(draft, first))
-   end function is_second
 
 end module ek_reader_axle

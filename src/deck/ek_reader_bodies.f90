@@ -1,16 +1,16 @@
-!> &point, &body and &mass.
+!> &point, &body, &mass and &load.
 module ek_reader_bodies
    use ek_kinds, only: wp
-   use ek_text, only: quoted
-   use ek_twin, only: single, left_twin, right_twin
-   use ek_builder, only: add_body
-   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, hardpoint, off_left, off_right, in_plane
+   use ek_complaint, only: single, left_side, right_side
+   use ek_suspension, only: load_t
+   use ek_builder, only: add_body, add_load
+   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, hardpoint, off_left, off_right, in_plane
    use ek_design_vector, only: add_mass, plane
-   use ek_draft, only: draft_t, complain, where_of, has_key, text_of, number_of, slot, slots
-   use ek_reference, only: find_point, find_body, new_vector, vector_at
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, slot
+   use ek_reference, only: find_point, find_moving_body, new_vector
    implicit none(type, external)
    private
-   public :: read_point, read_body, read_mass
+   public :: read_point, read_body, read_mass, read_load
 
 contains
 
@@ -22,18 +22,18 @@ contains
       integer :: number
 
       vector%kind = hardpoint
-      call slots(draft, 'at', 3, draft%units%length, vector%first, default=0.0_wp)
+      call slot(draft, 'at', draft%units%length, vector%first, default=0.0_wp, count=3)
       call new_vector(draft, vector, number)
       draft%cards(draft%k)%index = number
-      at = vector_at(draft, number)
+      at = draft%vectors(:, number)
       associate (stays => draft%plan%vectors(number)%stays)
-         select case (draft%records(draft%k)%twin)
-         case (left_twin)
+         select case (draft%records(draft%k)%side)
+         case (left_side)
             stays = off_left
-         case (right_twin)
+         case (right_side)
             stays = off_right
          case default
-            if (abs(at(2)) < plane .and. any(draft%records%twin /= single)) stays = in_plane
+            if (abs(at(2)) < plane .and. any(draft%records%side /= single)) stays = in_plane
          end select
       end associate
    end subroutine read_point
@@ -54,7 +54,7 @@ contains
       draft%plan%bodies = [draft%plan%bodies, plan]
       draft%cards(draft%k)%index = size(draft%plan%bodies)
       if (plan%origin > 0) then
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), vector_at(draft, plan%origin), mass)
+         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), draft%vectors(:, plan%origin), mass)
       else
          call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), mass=mass)
       end if
@@ -66,16 +66,41 @@ contains
       type(mass_plan_t) :: plan
       logical :: has_body, has_place
 
-      call find_body(draft, 'body', text_of(draft, 'body'), plan%body, has_body)
+      call find_moving_body(draft, plan%body, has_body)
       call find_point(draft, 'at', text_of(draft, 'at'), plan%at, has_place)
-      if (has_body .and. plan%body == 0) &
-         call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
       if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
       call slot(draft, 'kg', 1.0_wp, plan%kg)
       associate (body => draft%plan%prototype%bodies(plan%body))
-         call add_mass(number_of(draft, 'kg', 1.0_wp), vector_at(draft, plan%at), body%mass, body%centre)
+         call add_mass(number_of(draft, 'kg', 1.0_wp), draft%vectors(:, plan%at), body%mass, body%centre)
       end associate
       draft%plan%masses = [draft%plan%masses, plan]
    end subroutine read_mass
+
+   !> &load: force and moment in global axes.
+   subroutine read_load(draft)
+      type(draft_t), intent(inout) :: draft
+      type(load_plan_t) :: plan
+      type(load_t) :: element
+      logical :: has_body, is_found
+      integer :: c
+
+      call find_moving_body(draft, element%body, has_body)
+      call find_point(draft, 'at', text_of(draft, 'at'), plan%at, is_found)
+      call choice(draft, 'factor', [character(8) :: 'constant', 'case'], c, default=1)
+      if (.not. (has_key(draft, 'force') .or. has_key(draft, 'moment'))) &
+         call complain(draft, '', "give 'force' or 'moment'")
+      element%is_case = c /= 1
+      ! stored for a rejected load too: a case may check whether it is scaled
+      draft%cards(draft%k)%is_used = element%is_case
+      if (.not. draft%cards(draft%k)%is_good) return
+
+      call slot(draft, 'force', draft%units%force, plan%force, default=0.0_wp, count=3)
+      call slot(draft, 'moment', draft%units%force*draft%units%length, plan%moment, default=0.0_wp, count=3)
+      element%name = text_of(draft, 'name')
+      element%where = where_of(draft)
+      element%follows = switch_of(draft, 'follows', .false.)
+      call add_load(draft%plan%prototype, element)
+      draft%plan%loads = [draft%plan%loads, plan]
+   end subroutine read_load
 
 end module ek_reader_bodies

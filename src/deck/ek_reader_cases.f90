@@ -1,21 +1,24 @@
-!> &case: the load or motion applied to the wheels or to any driver.
+!> &case: the load or motion applied to the wheels or to any driver, or a test of the rig, which ek_rig mounts.
 module ek_reader_cases
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_units, only: millimetre
+   use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rolls, steers, loads_wheels, takes_table
    use ek_case, only: case_t, method_names, follow_names, most_increments
-   use ek_twin, only: right_twin
-   use ek_record, only: value_t, own_name
+   use ek_complaint, only: right_side
+   use ek_record, only: value_t, element, is_given, own_name
    use ek_namelist, only: value_fault
+   use ek_realise, only: steepest_roll
    use ek_blueprint, only: case_plan_t
-   use ek_group, only: wheel_group, case_group, load_group, number, most_loads, word_length
-   use ek_draft, only: draft_t, complain, complain_at, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
-      whole_of, slot
-   use ek_reference, only: look_up, find_driver, find_wheel
-   use ek_reader_tests, only: read_test
+   use ek_group, only: wheel_group, case_group, load_group, steering_group, number, most_loads, word_length
+   use ek_draft, only: draft_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, whole_of, refuse, &
+      slot
+   use ek_reference, only: look_up, find_driver, find_wheel, is_driver
    implicit none(type, external)
    private
    public :: read_case, refuse_one_file_for_two
+
+   character(*), parameter :: verticals(4) = [character(6) :: 'centre', 'patch', 'force', 'road']
 
    ! limits of the tolerance: rounding of a metre is 1e-13 mm, and no case converges below that; above a millimetre
    ! the first guess of every state would be accepted
@@ -44,8 +47,8 @@ contains
          call read_drive(draft, this, unit)
       end if
       if (this%test /= 'table' .and. lower(text_of(draft, 'test')) /= 'table') then
-         call require('from')
-         call require('to')
+         if (.not. has_key(draft, 'from')) call complain(draft, '', "'from' is missing")
+         if (.not. has_key(draft, 'to')) call complain(draft, '', "'to' is missing")
          if (draft%cards(draft%k)%is_good .and. .not. abs(to - from) > 0.0_wp) &
             call complain(draft, 'to', 'from and to must differ, found '//str(from)//' twice')
       end if
@@ -76,11 +79,6 @@ contains
       draft%cards(draft%k)%index = size(draft%plan%cases)
 
    contains
-
-      subroutine require(key)
-         character(*), intent(in) :: key
-         if (.not. has_key(draft, key)) call complain(draft, '', quoted(key)//' is missing')
-      end subroutine require
 
       !> target = 'column=value', the value in the unit of the column.
       subroutine read_target()
@@ -134,23 +132,12 @@ contains
          if (cases(a)%target == '') cycle
          do b = 1, size(cases)
             if (lower(cases(b)%name) /= lower(cases(a)%name)//'_target') cycle
-            draft%k = record_of(b)
-            k = record_of(a)
+            draft%k = findloc(draft%cards%group == case_group .and. draft%cards%index == b, .true., dim=1)
+            k = findloc(draft%cards%group == case_group .and. draft%cards%index == a, .true., dim=1)
             call complain(draft, 'name', 'the results of this case would have the same file as the target of case '// &
                quoted(cases(a)%name)//' in '//line_of(draft, k))
          end do
       end do
-
-   contains
-
-      !> The record of a case.
-      pure integer function record_of(case)
-         integer, intent(in) :: case
-         do record_of = 1, size(draft%cards)
-            if (draft%cards(record_of)%group == case_group .and. draft%cards(record_of)%index == case) return
-         end do
-      end function record_of
-
    end subroutine refuse_one_file_for_two
 
    !> A case that scales loads or drives a joint directly.
@@ -158,7 +145,6 @@ contains
       type(draft_t), intent(inout) :: draft
       type(case_t), intent(inout) :: this
       real(wp), intent(inout) :: unit      !! of from and to → SI
-      character(8), parameter :: test_keys(4) = [character(8) :: 'vertical', 'phase', 'offset', 'file']
       character(word_length) :: load(most_loads)
       integer :: j, loads, refused
 
@@ -167,10 +153,7 @@ contains
       else if (.not. (has_key(draft, 'load') .or. has_key(draft, 'drive'))) then
          call complain(draft, '', "give 'load', 'drive' or 'test'")
       end if
-      do j = 1, size(test_keys)
-         if (has_key(draft, trim(test_keys(j)))) call complain(draft, trim(test_keys(j)), &
-            trim(test_keys(j))//": only a case with a 'test' takes this key")
-      end do
+      call refuse(draft, [character(8) :: 'vertical', 'phase', 'offset', 'file'], "only a case with a 'test' takes this key")
       load = texts_of(draft, 'load', most_loads)
       loads = count(load /= '')
       refused = 0
@@ -211,12 +194,134 @@ contains
          if (found == 0) return
          if (draft%cards(found)%is_used) return
          ! a load duplicated by &mirror is reported once
-         if (.not. (draft%records(found)%twin == right_twin .and. refused == found - 1)) call complain(draft, 'load', &
+         if (.not. (draft%records(found)%side == right_side .and. refused == found - 1)) call complain(draft, 'load', &
             'load '//quoted(own_name(draft%records(found)))//' in '//line_of(draft, found)// &
             " is constant; a case scales loads with factor = 'case'")
          refused = found
       end subroutine find_load
 
    end subroutine read_drive
+
+   !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported.
+   subroutine read_test(draft, from, to, this, unit)
+      type(draft_t), intent(inout) :: draft
+      real(wp), intent(in) :: from, to       !! in the unit of the deck
+      type(case_t), intent(inout) :: this
+      real(wp), intent(inout) :: unit        !! of from and to → SI
+      type(rig_test_t) :: test
+      integer :: c, wheels(2)
+
+      call choice(draft, 'test', rig_tests%name, c)
+      this%load = ''
+      if (c == 0) return
+      test = rig_tests(c)
+      this%test = trim(test%name)
+      call refuse_in_test('load', .true., 'a test applies its own loads')
+      call refuse_in_test('drive', test%action /= steers, 'only test ''steering'' drives a joint')
+      call refuse_in_test('phase', .not. test%has_phase, 'only tests with forces or torques have a phase')
+      call refuse_in_test('offset', .not. test%has_trail, 'only test ''lateral_force'' has an offset')
+      call refuse_in_test('file', test%action /= takes_table, 'only test ''table'' reads a file')
+      call refuse_in_test('from', test%action == takes_table, 'the table sets the range')
+      call refuse_in_test('to', test%action == takes_table, 'the table sets the range')
+      call refuse_in_test('increments', test%action == takes_table, 'each row of the table is one state')
+      call refuse_in_test('target', test%action == takes_table, 'the rows of a table form no path to search')
+
+      call count_wheels()
+      call choice(draft, 'vertical', verticals, c)
+      if (c > 0) this%vertical = trim(verticals(c))
+      if (test%action == rolls) call refuse_in_test('vertical', c == 3, &
+         'the test prescribes heights: ''centre'', ''patch'' or ''road''')
+      if (test%action == loads_wheels .and. lifts(test)) call refuse_in_test('vertical', c > 0 .and. c /= 3, &
+         'the test prescribes the force')
+      if (c == 4) call check_tyres()
+      call choice(draft, 'phase', [character(4) :: 'in', 'anti'], c)
+      this%is_anti = c == 2
+      if (this%is_anti .or. needs_both(test)) then
+         if (any(wheels == 0)) call complain(draft, 'test', 'a left and a right wheel are needed; the deck has '// &
+            str(count(wheels > 0)))
+      end if
+      this%offset = number_of(draft, 'offset', 0.0_wp)*draft%units%length
+      this%wheel = max(wheels(1), 1)
+      if (wheels(1) == 0) this%wheel = max(wheels(2), 1)
+      call find_wheel(draft, of_one_wheel(test), "with test = 'single_travel'", this%wheel)
+
+      select case (test%unit)
+      case ('mm')
+         unit = merge(draft%units%force, draft%units%length, this%vertical == 'force')
+      case ('deg')
+         unit = draft%units%angle
+      case ('N')
+         unit = draft%units%force
+      case default
+         unit = 1.0_wp          ! N m, as on every rig
+      end select
+      if (test%action == rolls .and. max(abs(from), abs(to))*unit > steepest_roll) call complain(draft, 'to', &
+         'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
+      if (test%action == steers) call find_steering(draft, this%drive, unit)
+      if (test%action == takes_table) then
+         if (.not. has_key(draft, 'file')) call complain(draft, '', "'file' is missing")
+         this%file = text_of(draft, 'file')
+         associate (deck_file => draft%records(draft%k)%file)
+            if (index(this%file, '/') /= 1) this%file = deck_file(:index(deck_file, '/', back=.true.))//this%file
+         end associate
+      end if
+
+   contains
+
+      subroutine refuse_in_test(key, is_wrong, why)
+         character(*), intent(in) :: key, why
+         logical, intent(in) :: is_wrong
+         if (is_wrong .and. has_key(draft, key)) call complain(draft, key, key//' is not allowed in test '// &
+            quoted(this%test)//': '//why)
+      end subroutine refuse_in_test
+
+      !> At most one wheel per side, and at least one wheel.
+      subroutine count_wheels()
+         integer :: j, side
+
+         wheels = 0
+         do j = 1, size(draft%cards)
+            if (draft%cards(j)%group /= wheel_group) cycle
+            side = merge(2, 1, lower(element(draft%records(j), 'side', 1)) == 'right')
+            if (wheels(side) > 0) call complain(draft, 'test', &
+               'the rig tests one axle, but the deck has two wheels on one side')
+            wheels(side) = draft%cards(j)%index
+         end do
+         if (all(wheels == 0)) call complain(draft, 'test', 'the rig needs a &wheel')
+      end subroutine count_wheels
+
+      !> With vertical = 'road', each wheel needs a tyre rate.
+      subroutine check_tyres()
+         integer :: j
+
+         do j = 1, size(draft%cards)
+            if (draft%cards(j)%group /= wheel_group) cycle
+            if (is_given(draft%records(j), 'tyre_rate') .or. draft%records(j)%side == right_side) cycle
+            call complain(draft, 'vertical', "vertical = 'road' needs the tyre_rate of wheel "// &
+               quoted(draft%cards(j)%name)//' in '//line_of(draft, j))
+         end do
+      end subroutine check_tyres
+
+   end subroutine read_test
+
+   !> The steered joint: `drive` of the case, or else the driver of &steering, or else the only driver.
+   subroutine find_steering(draft, drive, unit)
+      type(draft_t), intent(inout) :: draft
+      character(:), allocatable, intent(out) :: drive
+      real(wp), intent(inout) :: unit        !! deck unit of its value → SI
+      logical :: is_one(size(draft%cards))
+      integer :: j
+
+      drive = text_of(draft, 'drive')
+      j = findloc(draft%cards%group, steering_group, dim=1)
+      if (drive == '' .and. j > 0) drive = element(draft%records(j), 'driver', 1)
+      is_one = [(is_driver(draft, j), j=1, size(draft%cards))]
+      if (drive == '' .and. count(is_one) == 1) drive = trim(draft%cards(findloc(is_one, .true., dim=1))%name)
+      if (drive == '') then
+         call complain(draft, 'test', "the steered joint is unknown: give drive = '<driver joint>' or a &steering")
+      else
+         call find_driver(draft, drive, [character(1) ::], unit)
+      end if
+   end subroutine find_steering
 
 end module ek_reader_cases

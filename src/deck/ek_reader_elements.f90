@@ -1,33 +1,223 @@
-!> &bushing and &load.
+!> &curve, and the elastic elements: &spring, &damper, &stop, &torsion, each of one measure, and &bushing.
+!>
+!> A curve has no units of its own: its numbers have the deck units of the element that uses it.
 module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
-   use ek_twin, only: right_twin
+   use ek_complaint, only: right_side
+   use ek_curve, only: curve_t, new_curve, scaled_curve, look_up_curve, curve_kinds, least_step
+   use ek_measure, only: measure_t, distance
+   use ek_element, only: new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, element_t
    use ek_elastic, only: bushing_t
-   use ek_suspension, only: load_t
-   use ek_builder, only: add_bushing, add_load
-   use ek_blueprint, only: vector_t, bushing_plan_t, load_plan_t, chosen, chosen_right
+   use ek_builder, only: add_element, add_bushing
+   use ek_blueprint, only: element_plan_t, curve_plan_t, vector_t, bushing_plan_t, chosen, chosen_right
    use ek_design_vector, only: marker_axes
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, slots
-   use ek_group, only: word_length
-   use ek_reference, only: find_point, find_body, find_bodies, find_direction, find_ends, find_curve, new_vector, vector_at
+   use ek_group, only: measure_group, word_length
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, numbers_of, &
+      value_count, refuse, slot
+   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
-   public :: read_bushing, read_load
+   public :: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+
+   real(wp), parameter :: origin(3) = 0.0_wp           !! numbers of the prototype are set by `realise`
+   real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
 contains
+
+   !> &curve: points and interpolation.
+   subroutine read_curve(draft)
+      type(draft_t), intent(inout) :: draft
+      type(curve_plan_t) :: plan
+      real(wp), allocatable :: x(:)
+      character(:), allocatable :: least
+      integer :: j, c
+
+      draft%plan%curves = [draft%plan%curves, plan]
+      draft%cards(draft%k)%index = size(draft%plan%curves)
+      call choice(draft, 'kind', curve_kinds, c, default=1)
+      if (.not. draft%cards(draft%k)%is_good) return
+      plan%points = value_count(draft, 'x')
+      if (value_count(draft, 'y') /= plan%points) call complain(draft, 'y', 'y needs as many values as x, '// &
+         str(plan%points)//', found '//str(value_count(draft, 'y')))
+      if (.not. draft%cards(draft%k)%is_good) return
+      x = numbers_of(draft, 'x', plan%points)
+      do j = 2, plan%points
+         if (x(j) - x(j - 1) >= least_step) cycle
+         least = ''
+         if (x(j) > x(j - 1)) least = ' by '//str(least_step)//' or more'
+         call complain(draft, 'x', 'x must increase'//least//', found '//str(x(j))//' after '//str(x(j - 1)))
+         return
+      end do
+      plan%name = text_of(draft, 'name')
+      plan%kind = trim(curve_kinds(c))
+      call slot(draft, 'x', 1.0_wp, plan%x, count=plan%points)
+      call slot(draft, 'y', 1.0_wp, plan%y, count=plan%points)
+      draft%plan%curves(size(draft%plan%curves)) = plan
+   end subroutine read_curve
+
+   !> &spring: between two points, or on a measure.
+   subroutine read_spring(draft)
+      type(draft_t), intent(inout) :: draft
+      type(element_plan_t) :: plan
+      type(measure_t) :: measure
+      type(element_t) :: element
+      type(curve_t), allocatable :: law
+      integer :: bodies(2)
+
+      plan%force_unit = draft%units%force
+      plan%value_unit = draft%units%length
+      bodies = 0
+      measure%kind = distance
+      if (has_key(draft, 'measure')) then
+         call find_measure()
+      else
+         if (.not. has_key(draft, 'bodies')) call complain(draft, '', "'bodies' is missing (give bodies and at, or measure)")
+         if (.not. has_key(draft, 'at')) call complain(draft, '', "'at' is missing (give bodies and at, or measure)")
+         call find_bodies(draft, bodies)
+         call find_ends(draft, .false., plan%ends)
+      end if
+      call find_law(draft, plan, law)
+      if (has_key(draft, 'preload') .and. has_key(draft, 'free_length')) &
+         call complain(draft, 'free_length', 'give either preload or free_length, not both')
+      if (.not. draft%cards(draft%k)%is_good) return
+      call slot(draft, 'free_length', draft%units%length, plan%free_length)
+      if (plan%free_length == 0) call slot(draft, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
+
+      if (plan%readout == 0) then
+         measure%body_i = bodies(1)
+         measure%body_j = bodies(2)
+      end if
+      element = new_measure_spring(text_of(draft, 'name'), where_of(draft), measure, 0.0_wp, curve=law)
+      element%is_balanced = switch_of(draft, 'balance', .true.)
+      call add(draft, element, plan)
+
+   contains
+
+      !> The measure of the spring, and the units of its value and force.
+      subroutine find_measure()
+         integer :: found
+
+         call refuse(draft, ['bodies', 'at    '], 'not used with measure; give either measure, or bodies and at')
+         call look_up(draft, 'measure', measure_group, text_of(draft, 'measure'), found)
+         if (found == 0) return
+         plan%readout = draft%cards(found)%index
+         if (plan%readout == 0) then      ! the measure was rejected
+            draft%cards(draft%k)%is_good = .false.
+            return
+         end if
+         plan%value_unit = draft%cards(found)%factor
+         measure = draft%plan%prototype%readouts(plan%readout)%measure
+         if (is_of_angle(measure%kind)) plan%force_unit = plan%force_unit*draft%units%length
+         if (measure%kind /= distance) call refuse(draft, ['free_length'], &
+            'only a spring on a distance takes this key; give preload instead')
+      end subroutine find_measure
+
+   end subroutine read_spring
+
+   !> &damper: only the gas force acts in statics.
+   subroutine read_damper(draft)
+      type(draft_t), intent(inout) :: draft
+      type(element_plan_t) :: plan
+      integer :: bodies(2)
+
+      call find_bodies(draft, bodies)
+      call find_ends(draft, .false., plan%ends)
+      if (.not. draft%cards(draft%k)%is_good) return
+      call slot(draft, 'gas_rate', draft%units%force/draft%units%length, plan%rate, default=0.0_wp)
+      call slot(draft, 'gas_force', draft%units%force, plan%preload, default=0.0_wp)
+      call add(draft, new_damper(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), origin, origin, 0.0_wp, 0.0_wp), &
+         plan)
+   end subroutine read_damper
+
+   !> &stop.
+   subroutine read_stop(draft)
+      type(draft_t), intent(inout) :: draft
+      type(element_plan_t) :: plan
+      type(curve_t), allocatable :: law
+      real(wp) :: force, slope
+      integer :: bodies(2), c
+
+      plan%force_unit = draft%units%force
+      plan%value_unit = draft%units%length
+      call choice(draft, 'type', [character(7) :: 'bump', 'rebound'], c)
+      call find_bodies(draft, bodies)
+      call find_ends(draft, .false., plan%ends)
+      call find_law(draft, plan, law)
+      if (allocated(law)) then
+         call look_up_curve(law, 0.0_wp, force, slope)
+         if (abs(force) > 0.0_wp) call complain(draft, 'curve', 'curve '//quoted(text_of(draft, 'curve'))// &
+            ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force/plan%force_unit))
+      end if
+      if (.not. draft%cards(draft%k)%is_good) return
+      call slot(draft, 'clearance', draft%units%length, plan%clearance)
+      call slot(draft, 'rounding', draft%units%length, plan%rounding, default=usual_rounding/draft%units%length)
+      call add(draft, new_stop(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), origin, origin, c == 1, &
+         0.0_wp, 1.0_wp, 0.0_wp, law), plan)
+   end subroutine read_stop
+
+   !> &torsion: moment/angle about an axis fixed in the first body.
+   subroutine read_torsion(draft)
+      type(draft_t), intent(inout) :: draft
+      type(element_plan_t) :: plan
+      type(curve_t), allocatable :: law
+      logical :: has_axis, is_axis
+      integer :: bodies(2)
+
+      plan%force_unit = draft%units%force*draft%units%length
+      plan%value_unit = draft%units%angle
+      call find_bodies(draft, bodies)
+      call find_direction(draft, 'axis', 'axis_vector', plan%axis, has_axis, is_axis)
+      if (.not. has_axis) call complain(draft, '', "give 'axis' or 'axis_vector'")
+      call find_law(draft, plan, law)
+      if (.not. draft%cards(draft%k)%is_good) return
+      call slot(draft, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
+      call add(draft, new_torsion(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), draft%vectors(:, plan%axis), &
+         0.0_wp, 0.0_wp, law), plan)
+   end subroutine read_torsion
+
+   !> Exactly one of rate and curve.
+   subroutine find_law(draft, plan, law)
+      type(draft_t), intent(inout) :: draft
+      type(element_plan_t), intent(inout) :: plan
+      type(curve_t), allocatable, intent(out) :: law      !! unallocated without a curve: an absent argument
+      type(curve_t) :: curve       ! in deck units
+
+      if (has_key(draft, 'rate') .and. has_key(draft, 'curve')) then
+         call complain(draft, 'curve', 'give either rate or curve, not both')
+      else if (.not. (has_key(draft, 'rate') .or. has_key(draft, 'curve'))) then
+         call complain(draft, '', "give 'rate' or 'curve'")
+      end if
+      call find_curve(draft, 'curve', text_of(draft, 'curve'), plan%curve)
+      call slot(draft, 'rate', plan%force_unit/plan%value_unit, plan%rate)
+      if (plan%curve == 0) return
+      associate (this => draft%plan%curves(plan%curve), x => draft%parameters%x)
+         curve = new_curve(x(this%x:this%x + this%points - 1), x(this%y:this%y + this%points - 1), this%kind)
+         curve%name = this%name
+      end associate
+      allocate (law, source=scaled_curve(curve, plan%value_unit, plan%force_unit))
+   end subroutine find_law
+
+   !> Adds an element to the prototype and its plan to the blueprint.
+   subroutine add(draft, element, plan)
+      type(draft_t), intent(inout) :: draft
+      type(element_t), intent(in) :: element
+      type(element_plan_t), intent(in) :: plan
+
+      call add_element(draft%plan%prototype, element)
+      draft%plan%elements = [draft%plan%elements, plan]
+   end subroutine add
 
    !> &bushing. Rates: force/length and moment/angle, the moment being force × length.
    subroutine read_bushing(draft)
       type(draft_t), intent(inout) :: draft
       type(bushing_plan_t) :: plan
       type(bushing_t) :: element
-      logical :: has_bodies, is_found
       integer :: number(2)
 
-      call find_bodies(draft, number, has_bodies)
-      call find_ends(draft, .true., plan%ends, is_found)
+      call find_bodies(draft, number)
+      call find_ends(draft, .true., plan%ends)
       if (.not. (has_key(draft, 'kt') .or. has_key(draft, 'kr') .or. has_key(draft, 'curve'))) &
          call complain(draft, '', "give 'kt', 'kr' or 'curve'")
       call find_laws(draft, plan, element)
@@ -35,10 +225,10 @@ contains
       if (.not. draft%cards(draft%k)%is_good) return
 
       associate (units => draft%units)
-         call slots(draft, 'kt', 3, units%force/units%length, plan%kt, default=0.0_wp)
-         call slots(draft, 'kr', 3, units%force*units%length/units%angle, plan%kr, default=0.0_wp)
-         call slots(draft, 'preload_force', 3, units%force, plan%preload_force, default=0.0_wp)
-         call slots(draft, 'preload_moment', 3, units%force*units%length, plan%preload_moment, default=0.0_wp)
+         call slot(draft, 'kt', units%force/units%length, plan%kt, default=0.0_wp, count=3)
+         call slot(draft, 'kr', units%force*units%length/units%angle, plan%kr, default=0.0_wp, count=3)
+         call slot(draft, 'preload_force', units%force, plan%preload_force, default=0.0_wp, count=3)
+         call slot(draft, 'preload_moment', units%force*units%length, plan%preload_moment, default=0.0_wp, count=3)
       end associate
       element%name = text_of(draft, 'name')
       element%where = where_of(draft)
@@ -105,44 +295,15 @@ contains
       call find_direction(draft, 'x_axis', 'x_vector', plan%x, has_x, is_x)
       if (.not. (has_x .or. has_z)) return
       if ((has_x .and. .not. is_x) .or. (has_z .and. .not. is_z)) return
-      choice = merge(chosen_right, chosen, draft%records(draft%k)%twin == right_twin)
+      choice = merge(chosen_right, chosen, draft%records(draft%k)%side == right_side)
       if (.not. has_x) call new_vector(draft, vector_t(kind=choice, a=plan%z), plan%x)
       if (.not. has_z) call new_vector(draft, vector_t(kind=choice, a=plan%x), plan%z)
       is_good = .true.
-      call marker_axes(draft%plan, vector_at(draft, plan%z), vector_at(draft, plan%x), axes, is_good)
+      call marker_axes(draft%plan, draft%vectors(:, plan%z), draft%vectors(:, plan%x), axes, is_good)
       if (is_good) return
-      angle = angle_between(vector_at(draft, plan%x), vector_at(draft, plan%z))
+      angle = angle_between(draft%vectors(:, plan%x), draft%vectors(:, plan%z))
       call complain(draft, trim(merge('x_axis  ', 'x_vector', has_key(draft, 'x_axis'))), &
          'the x axis must not be parallel to the z axis, found '//str(real(nint(angle*1e4_wp), wp)/1e4_wp)//' deg between them')
    end subroutine find_axes
-
-   !> &load: force and moment in global axes.
-   subroutine read_load(draft)
-      type(draft_t), intent(inout) :: draft
-      type(load_plan_t) :: plan
-      type(load_t) :: element
-      logical :: has_body, is_found
-      integer :: c
-
-      call find_body(draft, 'body', text_of(draft, 'body'), element%body, has_body)
-      if (has_body .and. element%body == 0 .and. text_of(draft, 'body') /= '') &
-         call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
-      call find_point(draft, 'at', text_of(draft, 'at'), plan%at, is_found)
-      call choice(draft, 'factor', [character(8) :: 'constant', 'case'], c, default=1)
-      if (.not. (has_key(draft, 'force') .or. has_key(draft, 'moment'))) &
-         call complain(draft, '', "give 'force' or 'moment'")
-      element%is_case = c /= 1
-      ! stored for a rejected load too: a case may check whether it is scaled
-      draft%cards(draft%k)%is_used = element%is_case
-      if (.not. draft%cards(draft%k)%is_good) return
-
-      call slots(draft, 'force', 3, draft%units%force, plan%force, default=0.0_wp)
-      call slots(draft, 'moment', 3, draft%units%force*draft%units%length, plan%moment, default=0.0_wp)
-      element%name = text_of(draft, 'name')
-      element%where = where_of(draft)
-      element%follows = switch_of(draft, 'follows', .false.)
-      call add_load(draft%plan%prototype, element)
-      draft%plan%loads = [draft%plan%loads, plan]
-   end subroutine read_load
 
 end module ek_reader_elements

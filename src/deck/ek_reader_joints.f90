@@ -11,8 +11,8 @@ module ek_reader_joints
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
    use ek_group, only: measure_group, word_length, most_measures
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, numbers_of, value_count, &
-      slot, slots
-   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, new_vector, vector_at
+      refuse, slot
+   use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector
    implicit none(type, external)
    private
    public :: read_measure, read_joint
@@ -28,12 +28,12 @@ contains
       type(readout_t) :: readout
       type(readout_plan_t) :: plan
       character(:), allocatable :: type
-      logical :: has_bodies, has_points, has_u, has_v, is_set
+      logical :: has_points, has_u, has_v, is_set
       integer :: kind, number(2)
 
       type = text_of(draft, 'type')
       call choice(draft, 'type', measure_types, kind)
-      call find_bodies(draft, number, has_bodies)
+      call find_bodies(draft, number)
       call find_ends(draft, .true., plan%ends, has_points)
       call find_direction(draft, 'axis', 'axis_vector', plan%u, has_u, is_set)
       call find_direction(draft, 'axis_2', 'axis_2_vector', plan%v, has_v, is_set)
@@ -45,19 +45,17 @@ contains
          if (.not. has_key(draft, 'at')) call complain(draft, '', "'at' is missing")
          draft%cards(draft%k)%factor = draft%units%length
       case default
-         call refuse(draft, 'at', 'a measure of type '//quoted(type)//' takes no points')
+         call refuse(draft, ['at'], 'a measure of type '//quoted(type)//' takes no points')
          draft%cards(draft%k)%factor = merge(draft%units%angle, 1.0_wp, kind == rotation)
       end select
       if (kind == distance) then
-         call check_apart(draft, plan%ends, has_points, 'a distance')
-         call refuse(draft, 'axis', 'a distance takes no axis')
-         call refuse(draft, 'axis_vector', 'a distance takes no axis')
+         call need_two_points(draft, plan%ends, has_points, 'a distance')
+         call refuse(draft, ['axis       ', 'axis_vector'], 'a distance takes no axis')
       else if (.not. has_u) then
          call complain(draft, '', "give 'axis' or 'axis_vector'")
       end if
       if (kind /= axis_axis) then
-         call refuse(draft, 'axis_2', 'only a measure of type '//quoted('axes')//' takes a second axis')
-         call refuse(draft, 'axis_2_vector', 'only a measure of type '//quoted('axes')//' takes a second axis')
+         call refuse(draft, ['axis_2       ', 'axis_2_vector'], 'only a measure of type '//quoted('axes')//' takes a second axis')
       else if (.not. has_v) then
          call complain(draft, '', "give 'axis_2' or 'axis_2_vector'")
       end if
@@ -78,12 +76,11 @@ contains
    subroutine read_joint(draft)
       type(draft_t), intent(inout) :: draft
       integer :: number, bodies(2)
-      logical :: is_found
 
       call choice(draft, 'type', joint_kinds, number)
       if (number == 0) then
          ! bodies of a joint of unknown type count as attached: no second message about them
-         call find_bodies(draft, bodies, is_found)
+         call find_bodies(draft, bodies)
          return
       end if
       call check_keys(draft, trim(joint_kinds(number)))
@@ -110,7 +107,7 @@ contains
       call find_ends(draft, .true., plan%ends, has_points)
       select case (kind)
       case ('distance')
-         call check_apart(draft, plan%ends, has_points, 'a distance joint')
+         call need_two_points(draft, plan%ends, has_points, 'a distance joint')
       case ('in_plane', 'in_line')
          continue
       case default
@@ -129,10 +126,10 @@ contains
       end if
       geometry%body_i = numbers(1)
       geometry%body_j = numbers(2)
-      geometry%point_i = vector_at(draft, plan%ends(1))
-      geometry%point_j = vector_at(draft, plan%ends(2))
-      geometry%axis_i = vector_at(draft, plan%axes(1))
-      geometry%axis_j = vector_at(draft, plan%axes(2))
+      geometry%point_i = draft%vectors(:, plan%ends(1))
+      geometry%point_j = draft%vectors(:, plan%ends(2))
+      geometry%axis_i = draft%vectors(:, plan%axes(1))
+      geometry%axis_j = draft%vectors(:, plan%axes(2))
       draft%plan%joints = [draft%plan%joints, plan]
       call add_joint(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), kind, geometry)
       if (kind /= 'universal') return
@@ -149,8 +146,8 @@ contains
       integer, intent(in) :: axes(2)       !! vectors
       real(wp) :: angle
 
-      if (axes_fit(kind, vector_at(draft, axes(1)), vector_at(draft, axes(2)))) return
-      angle = angle_between(vector_at(draft, axes(1)), vector_at(draft, axes(2)))
+      if (axes_fit(kind, draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))) return
+      angle = angle_between(draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))
       select case (kind)
       case ('universal', 'perpendicular')
          call complain(draft, '', 'axis and axis_2 must be at 90 deg to each other, found '//str(angle)//' deg')
@@ -177,8 +174,7 @@ contains
       plan%readouts = [readout]
       plan%units = [place_unit]
       if (.not. has_key(draft, 'stiffness')) then
-         if (has_key(draft, 'balance')) call complain(draft, 'balance', &
-            'balance: only a driver with a stiffness takes this key')
+         call refuse(draft, ['balance'], 'only a driver with a stiffness takes this key')
          call add_driver(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), readout)
       else
          reaction_unit = draft%units%force
@@ -213,7 +209,7 @@ contains
       plan%readouts = draft%cards(found(:given))%index
       if (any(plan%readouts == 0)) return      ! a measure that was rejected
       plan%units = draft%cards(found(:given))%factor
-      call slots(draft, 'ratios', given, 1.0_wp, first)
+      call slot(draft, 'ratios', 1.0_wp, first, count=given)
       plan%ratios = [(first + j - 1, j=1, given)]
       call add_coupler(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), plan%readouts, &
          numbers_of(draft, 'ratios', given))
@@ -226,7 +222,7 @@ contains
       character(*), intent(in) :: kind
       character(*), parameter :: joint_keys(11) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
          'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance']
-      logical :: is_geometric
+      logical :: is_geometric, has_axis, has_second
       logical :: may(11), must(11)
       integer :: j
 
@@ -234,51 +230,43 @@ contains
       may(1:2) = is_geometric
       may(3:4) = needs_axis(kind)
       may(5:6) = needs_second_axis(kind) .or. kind == 'parallel'
-      may(7) = kind == 'driver'
+      may([7, 10, 11]) = kind == 'driver'
       may(8:9) = kind == 'coupler'
-      may(10:11) = kind == 'driver'
       must = may
       must(2) = is_geometric .and. kind /= 'parallel' .and. kind /= 'perpendicular'
-      must(3:6) = .false.
-      must(10:11) = .false.
+      must([3, 4, 5, 6, 10, 11]) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(draft, trim(joint_keys(j)), 'a '//kind//' joint does not take this key')
+         if (.not. may(j)) call refuse(draft, joint_keys(j:j), 'a '//kind//' joint does not take this key')
          if (must(j) .and. .not. has_key(draft, trim(joint_keys(j)))) &
             call complain(draft, '', quoted(joint_keys(j))//' is missing')
       end do
+      has_axis = has_key(draft, 'axis') .or. has_key(draft, 'axis_vector')
+      has_second = has_key(draft, 'axis_2') .or. has_key(draft, 'axis_2_vector')
       if (kind == 'universal') then
-         if (.not. any([has_key(draft, 'axis'), has_key(draft, 'axis_vector'), has_key(draft, 'axis_2'), &
-            has_key(draft, 'axis_2_vector')])) call complain(draft, '', &
+         if (.not. (has_axis .or. has_second)) call complain(draft, '', &
             "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
          return
       end if
-      if (needs_axis(kind) .and. .not. (has_key(draft, 'axis') .or. has_key(draft, 'axis_vector'))) &
-         call complain(draft, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
-      if (needs_second_axis(kind) .and. .not. (has_key(draft, 'axis_2') .or. has_key(draft, 'axis_2_vector'))) &
+      if (needs_axis(kind) .and. .not. has_axis) call complain(draft, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
+      if (needs_second_axis(kind) .and. .not. has_second) &
          call complain(draft, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
    end subroutine check_keys
 
-   !> Rejects a key that has no meaning here.
-   subroutine refuse(draft, key, why)
-      type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: key, why
-      if (has_key(draft, key)) call complain(draft, key, key//': '//why)
-   end subroutine refuse
-
    !> Checks that two distinct points are given.
-   subroutine check_apart(draft, ends, is_found, what)
+   subroutine need_two_points(draft, ends, is_found, what)
       type(draft_t), intent(inout) :: draft
       integer, intent(in) :: ends(2)       !! vectors
       logical, intent(in) :: is_found
       character(*), intent(in) :: what
       character(word_length) :: at(2)
+      logical :: are_apart
 
       at = texts_of(draft, 'at', 2)
       if (at(1) /= '' .and. at(2) == '') then
          call complain(draft, 'at', 'at: '//what//' needs two points, found one')
-      else if (is_found .and. .not. norm2(vector_at(draft, ends(2)) - vector_at(draft, ends(1))) > 0.0_wp) then
-         call complain(draft, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+      else if (is_found) then
+         call check_apart(draft, 'at', ends, '', are_apart)
       end if
-   end subroutine check_apart
+   end subroutine need_two_points
 
 end module ek_reader_joints

@@ -1,13 +1,15 @@
 !> The parsed content of a deck before interpretation: records (namelist groups) of entries
 !> (`key = values`), with the file and line of each.
 module ek_record
-   use ek_text, only: str
-   use ek_twin, only: single, twin_prefix
-   use ek_complaint, only: place_t, place_in
+   use ek_kinds, only: wp
+   use ek_text, only: str, lower
+   use ek_group, only: group_number, key_t, find_key, polar, axial
+   use ek_complaint, only: place_t, place_in, single, side_prefix
    implicit none(type, external)
    private
    public :: value_t, entry_t, record_t
    public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_words, own_name
+   public :: role_of, sign_of_image, turns
 
    !> One value as written; a string without its quotes.
    type :: value_t
@@ -33,101 +35,49 @@ module ek_record
       character(:), allocatable :: file   !! as shown in messages
       integer :: source = 1               !! number of that file, in the order of reading
       integer :: line = 0
-      integer :: twin = single            !! side of a record duplicated by &mirror
+      integer :: side = single            !! side of a record duplicated by &mirror
       integer :: used = 0
       type(entry_t), allocatable :: entries(:)
    end type record_t
 
 contains
 
-   !> Append one value to an entry.
-   pure subroutine add_value(entry, text, is_string, is_empty)
+   !> Append one value to an entry; one that is not a string and has no text is empty.
+   pure subroutine add_value(entry, text, is_string)
       type(entry_t), intent(inout) :: entry
       character(*), intent(in) :: text
-      logical, intent(in) :: is_string, is_empty
-      type(value_t), allocatable :: grown(:)
-      integer :: k
+      logical, intent(in) :: is_string
 
       if (.not. allocated(entry%values)) allocate (entry%values(3))
-      if (entry%used == size(entry%values)) then
-         allocate (grown(2*entry%used))
-         do k = 1, entry%used
-            grown(k)%is_string = entry%values(k)%is_string
-            grown(k)%is_empty = entry%values(k)%is_empty
-            call move_alloc(entry%values(k)%text, grown(k)%text)
-         end do
-         call move_alloc(grown, entry%values)
-      end if
+      if (entry%used == size(entry%values)) entry%values = [entry%values, entry%values]      ! twice the size
       entry%used = entry%used + 1
       entry%values(entry%used)%text = text
       entry%values(entry%used)%is_string = is_string
-      entry%values(entry%used)%is_empty = is_empty
+      entry%values(entry%used)%is_empty = .not. is_string .and. text == ''
    end subroutine add_value
 
-   !> Append an entry to a record; the values are moved.
+   !> Append an entry to a record.
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
-      type(entry_t), intent(inout) :: entry   !! empty afterwards
-      type(entry_t), allocatable :: grown(:)
-      integer :: k
+      type(entry_t), intent(in) :: entry
 
       if (.not. allocated(record%entries)) allocate (record%entries(8))
-      if (record%used == size(record%entries)) then
-         allocate (grown(2*record%used))
-         do k = 1, record%used
-            call move_entry(record%entries(k), grown(k))
-         end do
-         call move_alloc(grown, record%entries)
-      end if
+      if (record%used == size(record%entries)) record%entries = [record%entries, record%entries]      ! twice the size
       record%used = record%used + 1
-      call move_entry(entry, record%entries(record%used))
+      record%entries(record%used) = entry
    end subroutine add_entry
 
-   pure subroutine move_entry(from, to)
-      type(entry_t), intent(inout) :: from, to
-
-      to%first = from%first
-      to%line = from%line
-      to%is_bad = from%is_bad
-      to%used = from%used
-      call move_alloc(from%key, to%key)
-      call move_alloc(from%setting, to%setting)
-      call move_alloc(from%values, to%values)
-      from%used = 0
-   end subroutine move_entry
-
-   !> Append a record to a list whose first `used` elements are filled; the entries are moved.
+   !> Append a record to a list whose first `used` elements are filled.
    pure subroutine add_record(records, used, record)
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
-      type(record_t), intent(inout) :: record   !! empty afterwards
-      type(record_t), allocatable :: grown(:)
-      integer :: k
+      type(record_t), intent(in) :: record
 
       if (.not. allocated(records)) allocate (records(32))
-      if (used == size(records)) then
-         allocate (grown(2*used))
-         do k = 1, used
-            call move_record(records(k), grown(k))
-         end do
-         call move_alloc(grown, records)
-      end if
+      if (used == size(records)) records = [records, records]      ! twice the size
       used = used + 1
-      call move_record(record, records(used))
+      records(used) = record
    end subroutine add_record
-
-   pure subroutine move_record(from, to)
-      type(record_t), intent(inout) :: from, to
-
-      to%line = from%line
-      to%source = from%source
-      to%twin = from%twin
-      to%used = from%used
-      call move_alloc(from%group, to%group)
-      call move_alloc(from%file, to%file)
-      call move_alloc(from%entries, to%entries)
-      from%used = 0
-   end subroutine move_record
 
    !> The entry that contains element `at` of a key (any element if `at` is 0); 0 if there is none.
    pure integer function entry_index(record, key, at)
@@ -136,17 +86,15 @@ contains
       integer, intent(in) :: at
       integer :: k
 
-      entry_index = 0
       do k = 1, record%used
-         if (len(record%entries(k)%key) /= len_trim(key)) cycle
-         if (record%entries(k)%key /= key) cycle
-         if (at /= 0) then
-            if (at < record%entries(k)%first) cycle
-            if (at >= record%entries(k)%first + record%entries(k)%used) cycle
-         end if
+         associate (entry => record%entries(k))
+            if (entry%key /= key) cycle
+            if (at /= 0 .and. (at < entry%first .or. at >= entry%first + entry%used)) cycle
+         end associate
          entry_index = k
          return
       end do
+      entry_index = 0
    end function entry_index
 
    !> The text of element `at` of a key; '' if it is not given.
@@ -175,9 +123,9 @@ contains
       character(:), allocatable :: name
 
       name = element(record, 'name', 1)
-      if (record%twin == single) return
+      if (record%side == single) return
       if (record%group == 'wheel' .and. name == 'right') name = 'left'      ! the wheel of the half deck has the name of its side
-      if (index(name, trim(twin_prefix(record%twin))) == 1) name = name(len_trim(twin_prefix(record%twin)) + 1:)
+      if (index(name, trim(side_prefix(record%side))) == 1) name = name(len_trim(side_prefix(record%side)) + 1:)
    end function own_name
 
    !> The location of a record or one of its entries; --set is sorted after all files.
@@ -185,17 +133,17 @@ contains
       type(record_t), intent(in) :: record
       integer, intent(in) :: entry            !! 0: the record itself
       type(place_t), intent(out) :: place
+      integer :: line
 
-      if (entry > 0) then
-         call place_in(record%file, record%source, record%entries(entry)%line, place)
-         if (allocated(record%entries(entry)%setting)) then
-            place%words = '--set '//record%entries(entry)%setting
-            place%source = huge(place%source)
-         end if
-      else
-         call place_in(record%file, record%source, record%line, place)
+      line = record%line
+      if (entry > 0) line = record%entries(entry)%line
+      call place_in(record%file, record%source, line, place)
+      place%side = record%side
+      if (entry == 0) return
+      if (allocated(record%entries(entry)%setting)) then
+         place%words = '--set '//record%entries(entry)%setting
+         place%source = huge(place%source)
       end if
-      place%twin = record%twin
    end subroutine place_of
 
    !> 'line 12' of a record; 'line 12 of wheels.nml' if the record with the message is in another file.
@@ -205,5 +153,34 @@ contains
       words = 'line '//str(record%line)
       if (record%source /= seen_from%source) words = words//' of '//record%file
    end function line_words
+
+   !> The role of a key under y → −y, as in the table of keys; 0: the same on both sides.
+   pure integer function role_of(record, key) result(role)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: key
+      type(key_t) :: row
+      logical :: is_known
+
+      role = 0
+      call find_key(group_number(record%group), key, row, is_known)
+      if (is_known) role = row%role
+      if (role == polar .and. key == 'axis_vector' .and. turns(record)) role = axial
+   end function role_of
+
+   !> The sign of element `at` of a key in the mirror image of its record.
+   pure real(wp) function sign_of_image(record, key, at) result(sign)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: key
+      integer, intent(in) :: at
+
+      sign = 1.0_wp
+      if (role_of(record, key) == merge(polar, axial, at == 2)) sign = -1.0_wp
+   end function sign_of_image
+
+   !> Whether the axis of the record is a rotation axis: the sense of rotation determines the sign of the value.
+   pure logical function turns(record)
+      type(record_t), intent(in) :: record
+      turns = record%group == 'torsion' .or. (record%group == 'measure' .and. lower(element(record, 'type', 1)) == 'rotation')
+   end function turns
 
 end module ek_record

@@ -5,16 +5,16 @@ module ek_reference
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted
    use ek_rotation, only: unit_vector
-   use ek_twin, only: has_side, single, left_twin
+   use ek_complaint, only: has_side, single, left_side
    use ek_record, only: element, own_name
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
    use ek_design_vector, only: find_vectors
-   use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, slots
+   use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, refuse, slot
    implicit none(type, external)
    private
-   public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_curve
-   public :: find_driver, find_wheel, new_vector, vector_at
+   public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_points, check_apart, find_curve
+   public :: find_driver, find_wheel, is_driver, find_moving_body, new_vector
 
 contains
 
@@ -41,14 +41,14 @@ contains
       logical :: is_sided
       integer :: j
 
-      is_sided = draft%records(draft%k)%twin == single .and. (group == wheel_group .or. has_side(wrong))
+      is_sided = draft%records(draft%k)%side == single .and. (group == wheel_group .or. has_side(wrong))
       allocate (names(size(draft%cards)))
       names = ''
       do j = 1, size(draft%cards)
          if (draft%cards(j)%group /= group) cycle
-         if (is_sided .or. draft%records(j)%twin == single) then
+         if (is_sided .or. draft%records(j)%side == single) then
             names(j) = draft%cards(j)%name
-         else if (draft%records(j)%twin == left_twin) then
+         else if (draft%records(j)%side == left_side) then
             names(j) = own_name(draft%records(j))
          end if
       end do
@@ -91,25 +91,11 @@ contains
       type(draft_t), intent(inout) :: draft
       type(vector_t), intent(in) :: vector
       integer, intent(out) :: number
-      real(wp), allocatable :: grown(:, :)
       logical :: is_good
 
       call add_vector(draft%plan, vector, number)
-      if (number > ubound(draft%vectors, 2)) then
-         allocate (grown(3, 0:2*number), source=0.0_wp)
-         grown(:, 0:number - 1) = draft%vectors(:, 0:number - 1)
-         call move_alloc(grown, draft%vectors)
-      end if
       call find_vectors(draft%plan, draft%parameters%x, draft%vectors, is_good, number)
    end subroutine new_vector
-
-   !> The present value of a vector [m, -]; zero for number 0.
-   pure function vector_at(draft, number) result(value)
-      type(draft_t), intent(in) :: draft
-      integer, intent(in) :: number
-      real(wp) :: value(3)
-      value = draft%vectors(:, number)
-   end function vector_at
 
    !> The vector of a named point; is_found is .false. if the point is unknown or was rejected.
    subroutine find_point(draft, key, name, vector, is_found)
@@ -144,11 +130,22 @@ contains
       if (is_found) body = draft%cards(found)%index
    end subroutine find_body
 
+   !> The body named by the key `body`, which must move.
+   subroutine find_moving_body(draft, body, is_found)
+      type(draft_t), intent(inout) :: draft
+      integer, intent(out) :: body
+      logical, intent(out) :: is_found
+
+      call find_body(draft, 'body', text_of(draft, 'body'), body, is_found)
+      if (is_found .and. body == 0) &
+         call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
+   end subroutine find_moving_body
+
    !> Both bodies of an element (key `bodies`); they must differ. Marks them as attached.
    subroutine find_bodies(draft, bodies, is_found)
       type(draft_t), intent(inout) :: draft
       integer, intent(out) :: bodies(2)
-      logical, intent(out) :: is_found
+      logical, intent(out), optional :: is_found
       character(word_length) :: names(2)
       logical :: is_there(2)
       integer :: j, held
@@ -159,12 +156,11 @@ contains
          held = find_card(draft, body_group, names(j))
          if (held > 0 .and. names(j) /= '') draft%cards(held)%is_used = .true.
       end do
-      is_found = all(is_there)
-      if (.not. is_found) return
-      if (bodies(1) == bodies(2)) then
+      if (all(is_there) .and. bodies(1) == bodies(2)) then
          call complain(draft, 'bodies', 'bodies must be two different ones, found '//quoted(names(1))//' twice')
-         is_found = .false.
+         is_there = .false.
       end if
+      if (present(is_found)) is_found = all(is_there)
    end subroutine find_bodies
 
    !> Two distinct points (key `at`); with one point allowed, the second equals the first.
@@ -172,20 +168,52 @@ contains
       type(draft_t), intent(inout) :: draft
       logical, intent(in) :: may_be_one
       integer, intent(out) :: ends(2)      !! vectors
-      logical, intent(out) :: is_found
+      logical, intent(out), optional :: is_found
       character(word_length) :: at(2)
       logical :: is_there
 
       at = texts_of(draft, 'at', 2)
-      call find_point(draft, 'at', trim(at(1)), ends(1), is_found)
-      ends(2) = ends(1)
-      if (at(2) == '' .and. may_be_one) return
-      call find_point(draft, 'at', trim(at(2)), ends(2), is_there)
-      is_found = is_found .and. is_there
-      if (may_be_one .or. .not. is_found) return
-      if (.not. norm2(vector_at(draft, ends(2)) - vector_at(draft, ends(1))) > 0.0_wp) &
-         call complain(draft, 'at', 'at: the points '//quoted(at(1))//' and '//quoted(at(2))//' coincide')
+      if (at(2) == '' .and. may_be_one) then
+         call find_point(draft, 'at', trim(at(1)), ends(1), is_there)
+         ends(2) = ends(1)
+      else
+         call find_points(draft, 'at', ends, is_there)
+      end if
+      if (present(is_found)) is_found = is_there
+      if (is_there .and. .not. may_be_one) call check_apart(draft, 'at', ends, '', is_there)
    end subroutine find_ends
+
+   !> Both points of a key.
+   subroutine find_points(draft, key, ends, is_found)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: key
+      integer, intent(out) :: ends(2)      !! vectors
+      logical, intent(out) :: is_found
+      character(word_length) :: names(2)
+      logical :: is_there(2)
+      integer :: j
+
+      names = texts_of(draft, key, 2)
+      do j = 1, 2
+         call find_point(draft, key, trim(names(j)), ends(j), is_there(j))
+      end do
+      is_found = all(is_there)
+   end subroutine find_points
+
+   !> Reports the two points of a key if they coincide.
+   subroutine check_apart(draft, key, ends, consequence, are_apart)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: key
+      integer, intent(in) :: ends(2)       !! vectors
+      character(*), intent(in) :: consequence
+      logical, intent(out) :: are_apart
+      character(word_length) :: names(2)
+
+      are_apart = norm2(draft%vectors(:, ends(2)) - draft%vectors(:, ends(1))) > 0.0_wp
+      if (are_apart) return
+      names = texts_of(draft, key, 2)
+      call complain(draft, key, key//': the points '//quoted(names(1))//' and '//quoted(names(2))//' coincide'//consequence)
+   end subroutine check_apart
 
    !> A direction given by two points or by a vector.
    subroutine find_direction(draft, points_key, vector_key, direction, is_given, is_good)
@@ -194,26 +222,24 @@ contains
       integer, intent(out) :: direction          !! vector: a unit vector; 0 if not is_good
       logical, intent(out) :: is_given           !! either key is present
       logical, intent(out) :: is_good
-      character(word_length) :: points(2)
       type(vector_t) :: vector
-      logical :: is_there(2), has_points, has_vector
+      logical :: has_points, has_vector, is_found
+      integer :: ends(2)
 
       direction = 0
       is_good = .false.
       has_points = has_key(draft, points_key)
       has_vector = has_key(draft, vector_key)
       is_given = has_points .or. has_vector
+      if (.not. is_given) return
       if (has_points) then
-         points = texts_of(draft, points_key, 2)
-         call find_point(draft, points_key, trim(points(1)), vector%a, is_there(1))
-         call find_point(draft, points_key, trim(points(2)), vector%b, is_there(2))
-         if (.not. all(is_there)) return
+         call find_points(draft, points_key, ends, is_found)
+         if (.not. is_found) return
+         call check_apart(draft, points_key, ends, ' and give no direction', is_found)
+         if (.not. is_found) return
          vector%kind = along
-         if (.not. norm2(vector_at(draft, vector%b) - vector_at(draft, vector%a)) > 0.0_wp) then
-            call complain(draft, points_key, points_key//': the points '//quoted(points(1))//' and '// &
-               quoted(points(2))//' coincide and give no direction')
-            return
-         end if
+         vector%a = ends(1)
+         vector%b = ends(2)
       end if
       if (has_points .and. has_vector) then
          call complain(draft, vector_key, 'give either '//points_key//' or '//vector_key//', not both')
@@ -225,9 +251,8 @@ contains
             if (draft%cards(draft%k)%is_good) call complain(draft, vector_key, vector_key//' has zero length')
             return
          end if
-         call slots(draft, vector_key, 3, 1.0_wp, vector%first)
+         call slot(draft, vector_key, 1.0_wp, vector%first, count=3)
       end if
-      if (.not. is_given) return
       call new_vector(draft, vector, direction)
       is_good = .true.
    end subroutine find_direction
@@ -245,32 +270,29 @@ contains
       if (draft%cards(found)%is_good) curve = draft%cards(found)%index
    end subroutine find_curve
 
+   !> Whether record k is a driver joint.
+   pure logical function is_driver(draft, k)
+      type(draft_t), intent(in) :: draft
+      integer, intent(in) :: k
+      is_driver = draft%cards(k)%group == joint_group .and. lower(element(draft%records(k), 'type', 1)) == 'driver'
+   end function is_driver
+
    !> The driver joint named by a case; reports a mistake if there is none.
    subroutine find_driver(draft, name, others, unit)
       type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
       real(wp), intent(inout) :: unit                 !! deck unit of the driven value → SI; unchanged if not found
-      character(word_length), allocatable :: names(:)
-      integer :: j, found, n
+      integer :: j, found
 
       found = find_card(draft, joint_group, name)
-      if (found > 0) then
-         unit = draft%cards(found)%factor
-         if (lower(element(draft%records(found), 'type', 1)) /= 'driver') call complain(draft, 'drive', &
-            'drive: the joint '//quoted(name)//' in '//line_of(draft, found)//' is not a driver')
+      if (found == 0) then
+         call complain(draft, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, &
+            [character(word_length) :: pack(draft%cards%name, [(is_driver(draft, j), j=1, size(draft%cards))]), others]))
          return
       end if
-      n = size(draft%cards)
-      allocate (names(n + size(others)))
-      names = ''
-      do j = 1, size(others)
-         names(n + j) = others(j)
-      end do
-      do j = 1, n
-         if (draft%cards(j)%group /= joint_group) cycle
-         if (lower(element(draft%records(j), 'type', 1)) == 'driver') names(j) = draft%cards(j)%name
-      end do
-      call complain(draft, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, names))
+      unit = draft%cards(found)%factor
+      if (.not. is_driver(draft, found)) call complain(draft, 'drive', 'drive: the joint '//quoted(name)//' in '// &
+         line_of(draft, found)//' is not a driver')
    end subroutine find_driver
 
    !> The wheel named by a case, if it names one; reports a mistake if there is none, or if the case takes no wheel.
@@ -284,7 +306,7 @@ contains
       if (text_of(draft, 'wheel') == '') return
       call look_up(draft, 'wheel', wheel_group, text_of(draft, 'wheel'), found)
       if (found > 0) wheel = draft%cards(found)%index
-      if (.not. may_have_one) call complain(draft, 'wheel', 'wheel: only a case '//which//' takes this key')
+      if (.not. may_have_one) call refuse(draft, ['wheel'], 'only a case '//which//' takes this key')
    end subroutine find_wheel
 
 end module ek_reference

@@ -10,10 +10,9 @@
 module ek_scanner
    use ek_text, only: str, lower, quoted
    use ek_letters, only: is_wide, with_line_ends, save_as_utf8
-   use ek_cursor, only: cursor_t, skip_blanks, key_follows, take_subscript, take_word, take_anything, take_line, &
-      is_word_begin, is_quote, tab, newline, return
+   use ek_cursor, only: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, &
+      take_anything, take_line, drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
    use ek_complaint, only: place_t, complaints_t, place_in
-   use ek_slip, only: lacks_equals, drop_unit, unit_message
    use ek_record, only: entry_t, record_t, add_value, add_entry, add_record, entry_index
    implicit none(type, external)
    private
@@ -32,7 +31,7 @@ contains
       integer, intent(out) :: used
       type(complaints_t), intent(inout) :: complaints
       integer, intent(in), optional :: source                 !! number of the file, in the order of reading; default 1
-      type(record_t) :: record
+      type(record_t) :: blank, record
       type(cursor_t) :: cursor
       character(:), allocatable :: text, word
       integer :: last_stray
@@ -40,39 +39,36 @@ contains
       allocate (records(32))
       used = 0
       last_stray = 0
-      if (present(source)) cursor%source = source
+      blank%file = file
+      if (present(source)) blank%source = source
       if (is_wide(written)) then
-         call complain(complaints, file, cursor, 0, save_as_utf8)
+         call complain(complaints, blank, 0, save_as_utf8)
          return
       end if
       text = with_line_ends(written)
-      if (len(text) >= 3) then
-         if (text(1:3) == byte_order_mark) cursor%at = 4
-      end if
+      if (index(text(:min(3, len(text))), byte_order_mark) == 1) cursor%at = 4
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) exit
          if (text(cursor%at:cursor%at) == '&') then
+            record = blank
             record%line = cursor%line
             cursor%at = cursor%at + 1
             call take_word(text, cursor, word)
-            word = lower(word)
-            if (word == 'end') then
-               call complain(complaints, file, cursor, record%line, "'&end' without a group before it")
+            record%group = lower(word)
+            if (record%group == 'end') then
+               call complain(complaints, record, record%line, "'&end' without a group before it")
                cycle
             else if (word == '') then
-               call complain(complaints, file, cursor, record%line, "'&' without a group name")
+               call complain(complaints, record, record%line, "'&' without a group name")
             end if
-            record%group = word
-            record%file = file
-            record%source = cursor%source
-            call scan_record(text, file, cursor, record, complaints)
+            call scan_record(text, cursor, record, complaints)
             call add_record(records, used, record)
          else
             call take_line(text, cursor, word)
             ! one message per line is enough
-            if (cursor%line /= last_stray) call complain(complaints, file, cursor, cursor%line, &
-               'text outside any group: '//quoted(word)//" (a group begins with &, ends with /, a comment begins with !)")
+            if (cursor%line /= last_stray) call complain(complaints, blank, cursor%line, 'text outside any group: '// &
+               quoted(word)//" (a group begins with &, ends with /, a comment begins with !)")
             last_stray = cursor%line
          end if
       end do
@@ -84,12 +80,14 @@ contains
       type(entry_t), intent(inout) :: entry               !! values are appended
       character(:), allocatable, intent(out) :: message   !! '' if there is no mistake
       type(complaints_t) :: complaints
+      type(record_t) :: record
       type(cursor_t) :: cursor
       character(:), allocatable :: unit
       logical :: after_comma
 
       message = ''
       after_comma = .true.
+      record%file = ''
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) exit
@@ -97,7 +95,7 @@ contains
             message = 'unexpected '//quoted(text(cursor%at:cursor%at))
             return
          end if
-         call scan_value(text, '', cursor, entry, after_comma, complaints)
+         call scan_value(text, cursor, record, entry, after_comma, complaints)
          call drop_unit(text, cursor, entry, unit)
          if (unit /= '') then
             message = unit_message(entry, unit)
@@ -109,15 +107,15 @@ contains
    end subroutine scan_values
 
    !> Reads one group, from after its name to its end.
-   subroutine scan_record(text, file, cursor, record, complaints)
-      character(*), intent(in) :: text, file
+   subroutine scan_record(text, cursor, record, complaints)
+      character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       type(record_t), intent(inout) :: record
       type(complaints_t), intent(inout) :: complaints
       type(entry_t) :: entry, lost
       type(cursor_t) :: start
       character(:), allocatable :: word
-      logical :: after_comma, is_open
+      logical :: after_comma, is_open, is_key
       character :: c
 
       is_open = .false.      ! whether `entry` is being filled
@@ -125,77 +123,64 @@ contains
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) then
-            call complain(complaints, file, cursor, record%line, '&'//record%group//" is not terminated by '/'")
+            call complain(complaints, record, record%line, '&'//record%group//" is not terminated by '/'")
             exit
          end if
+         start = cursor
          c = text(cursor%at:cursor%at)
          if (c == '/') then
             cursor%at = cursor%at + 1
             exit
          else if (c == '&') then
-            start = cursor
             cursor%at = cursor%at + 1
             call take_word(text, cursor, word)
             if (lower(word) == 'end') exit
             cursor = start
-            call complain(complaints, file, cursor, record%line, '&'//record%group// &
+            call complain(complaints, record, record%line, '&'//record%group// &
                " is not terminated by '/' before the next group in line "//str(cursor%line))
             exit
          end if
-
-         start = cursor
+         is_key = .false.
          if (is_word_begin(c)) then
-            if (key_follows(text, cursor)) then
-               if (is_open) call close_entry(file, cursor, entry, record, complaints)
-               cursor = start
-               call open_entry(text, file, cursor, record%group, entry, complaints)
-               is_open = .true.
-               after_comma = .true.           ! a comma here leaves the first value empty
-               cycle
-            end if
-            cursor = start
+            is_key = key_follows(text, cursor)
             ! after the values of a key, the name of another key is not a value
-            if ((.not. is_open .or. entry%used > 0) .and. lacks_equals(text, cursor, record%group)) then
-               if (is_open) call close_entry(file, cursor, entry, record, complaints)
-               call open_entry(text, file, cursor, record%group, entry, complaints)
-               is_open = .true.
-               after_comma = .true.
-               cycle
-            end if
+            if (.not. is_key .and. (.not. is_open .or. entry%used > 0)) is_key = lacks_equals(text, cursor, record%group)
          end if
 
-         if (.not. is_open) then
+         if (is_key) then
+            if (is_open) call close_entry(entry, record, complaints)
+            call open_entry(text, cursor, record, entry, complaints)
+            is_open = .true.
+            after_comma = .true.           ! a comma here leaves the first value empty
+         else if (.not. is_open) then
             lost%used = 0
             after_comma = .true.
-            start = cursor
-            call scan_value(text, file, cursor, lost, after_comma, complaints)
-            call complain(complaints, file, cursor, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
+            call scan_value(text, cursor, record, lost, after_comma, complaints)
+            call complain(complaints, record, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
                " where a key and '=' were expected")
          else if (c == '(') then
             call take_subscript(text, cursor, word)
-            call add_value(entry, '('//word//')', .false., .false.)
+            call add_value(entry, '('//word//')', .false.)
          else if (c == '=' .or. c == ')') then
-            call complain(complaints, file, cursor, cursor%line, '&'//record%group//': unexpected '//quoted(c)// &
-               ' after '//quoted(entry%key))
+            call complain(complaints, record, cursor%line, '&'//record%group//': unexpected '//quoted(c)//' after '// &
+               quoted(entry%key))
             cursor%at = cursor%at + 1
          else
-            call scan_value(text, file, cursor, entry, after_comma, complaints)
-            if (.not. after_comma) then
-               call drop_unit(text, cursor, entry, word)
-               if (word /= '') call complain(complaints, file, cursor, cursor%line, '&'//record%group//': '// &
-                  unit_message(entry, word))
-            end if
+            call scan_value(text, cursor, record, entry, after_comma, complaints)
+            if (after_comma) cycle
+            call drop_unit(text, cursor, entry, word)
+            if (word /= '') call complain(complaints, record, cursor%line, '&'//record%group//': '//unit_message(entry, word))
          end if
       end do
-      if (is_open) call close_entry(file, cursor, entry, record, complaints)
-
+      if (is_open) call close_entry(entry, record, complaints)
    end subroutine scan_record
 
    !> Takes a key, its subscript and the = sign.
-   subroutine open_entry(text, file, cursor, group, entry, complaints)
-      character(*), intent(in) :: text, file, group
+   subroutine open_entry(text, cursor, record, entry, complaints)
+      character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
-      type(entry_t), intent(inout) :: entry
+      type(record_t), intent(in) :: record
+      type(entry_t), intent(out) :: entry
       type(complaints_t), intent(inout) :: complaints
       character(:), allocatable :: subscript, word
       integer :: status
@@ -203,71 +188,62 @@ contains
       entry%line = cursor%line
       call take_word(text, cursor, word)
       entry%key = lower(word)
-      entry%first = 1
       call skip_blanks(text, cursor)
-      if (next_is('(')) then
+      if (next_character(text, cursor) == '(') then
          call take_subscript(text, cursor, subscript)
          status = 1
          if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
             read (subscript, *, iostat=status) entry%first
          if (status /= 0 .or. entry%first < 1) then
-            call complain(complaints, file, cursor, entry%line, '&'//group//': the subscript of '// &
-               quoted(entry%key)//' must be one positive whole number, found ('//subscript//')')
+            call complain_here(': the subscript of '//quoted(entry%key)//' must be one positive whole number, found ('// &
+               subscript//')')
             entry%first = 1
          end if
          call skip_blanks(text, cursor)
       end if
-      if (next_is(':')) then
-         call complain(complaints, file, cursor, entry%line, '&'//group//": expected = after "//quoted(entry%key)//', found :')
+      if (next_character(text, cursor) == ':') then
+         call complain_here(': expected = after '//quoted(entry%key)//', found :')
          cursor%at = cursor%at + 1
-         if (next_is('=')) cursor%at = cursor%at + 1
-      else if (next_is('=')) then
-         cursor%at = cursor%at + 1
-      else
-         call complain(complaints, file, cursor, entry%line, '&'//group//': the = after '//quoted(entry%key)//' is missing')
+      else if (next_character(text, cursor) /= '=') then
+         call complain_here(': the = after '//quoted(entry%key)//' is missing')
       end if
+      if (next_character(text, cursor) == '=') cursor%at = cursor%at + 1
 
    contains
 
-      !> Whether the next character is this one.
-      pure logical function next_is(c)
-         character, intent(in) :: c
-         next_is = .false.
-         if (cursor%at <= len(text)) next_is = text(cursor%at:cursor%at) == c
-      end function next_is
+      subroutine complain_here(what)
+         character(*), intent(in) :: what
+         call complain(complaints, record, entry%line, '&'//record%group//what)
+      end subroutine complain_here
 
    end subroutine open_entry
 
    !> Adds a complete entry to its record, unless its key was given before.
-   subroutine close_entry(file, cursor, entry, record, complaints)
-      character(*), intent(in) :: file
-      type(cursor_t), intent(in) :: cursor
-      type(entry_t), intent(inout) :: entry       !! empty afterwards
+   subroutine close_entry(entry, record, complaints)
+      type(entry_t), intent(in) :: entry
       type(record_t), intent(inout) :: record
       type(complaints_t), intent(inout) :: complaints
       integer :: k, before
 
-      if (entry%used == 0) then
-         call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)//' has no value')
-      end if
+      if (entry%used == 0) call complain(complaints, record, entry%line, '&'//record%group//': '//quoted(entry%key)// &
+         ' has no value')
       before = 0
       do k = 1, max(entry%used, 1)
          if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
       end do
       if (before > 0) then
-         call complain(complaints, file, cursor, entry%line, '&'//record%group//': '//quoted(entry%key)// &
+         call complain(complaints, record, entry%line, '&'//record%group//': '//quoted(entry%key)// &
             ' is given twice, first in line '//str(record%entries(before)%line))
-         entry%used = 0
-         if (allocated(entry%values)) deallocate (entry%values)
       else
          call add_entry(record, entry)
       end if
    end subroutine close_entry
 
    !> One value or comma. Two commas in a row, or n* alone, leave values empty.
-   subroutine scan_value(text, file, cursor, entry, after_comma, complaints)
-      character(*), intent(in) :: text, file
+   subroutine scan_value(text, cursor, record, entry, after_comma, complaints)
+      character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
+      type(record_t), intent(in) :: record     !! for messages
       type(entry_t), intent(inout) :: entry
       logical, intent(inout) :: after_comma    !! a comma here would end an empty value
       type(complaints_t), intent(inout) :: complaints
@@ -276,86 +252,80 @@ contains
       integer :: repeats, star, k
 
       if (text(cursor%at:cursor%at) == ',') then
-         if (after_comma) call add_value(entry, '', .false., .true.)
+         if (after_comma) call add_value(entry, '', .false.)
          after_comma = .true.
          cursor%at = cursor%at + 1
          return
       end if
       after_comma = .false.
       repeats = 1
-      is_string = is_quote(text(cursor%at:cursor%at))
+      is_string = scan(text(cursor%at:cursor%at), quotes) > 0
       if (is_string) then
          call take_string(word)
       else
          call take_anything(text, cursor, word)
          star = index(word, '*')
-         if (star > 1) then
-            if (verify(word(:star - 1), '0123456789') == 0) then
-               repeats = 0
-               if (star < 9) read (word(:star - 1), *) repeats
-               if (repeats < 1 .or. repeats > most_repeats) then
-                  call complain(complaints, file, cursor, cursor%line, 'the repeat count of '//quoted(word)// &
-                     ' must be 1 to '//str(most_repeats))
-                  repeats = 1
-               end if
-               word = word(star + 1:)
-               if (word == '' .and. cursor%at <= len(text)) then
-                  is_string = is_quote(text(cursor%at:cursor%at))
-                  if (is_string) call take_string(word)
-               end if
+         if (star > 1 .and. verify(word(:max(star, 1) - 1), '0123456789') == 0) then
+            repeats = 0
+            if (star < 9) read (word(:star - 1), *) repeats
+            if (repeats < 1 .or. repeats > most_repeats) then
+               call complain(complaints, record, cursor%line, 'the repeat count of '//quoted(word)//' must be 1 to '// &
+                  str(most_repeats))
+               repeats = 1
             end if
+            word = word(star + 1:)
+            is_string = word == '' .and. scan(next_character(text, cursor), quotes) > 0
+            if (is_string) call take_string(word)
          end if
       end if
       do k = 1, repeats
-         call add_value(entry, word, is_string, .not. is_string .and. word == '')
+         call add_value(entry, word, is_string)
       end do
 
    contains
 
-      !> Reads a string from its quote to the closing one, which must be on the same line.
+      !> Reads a string from its quote to the closing one, which must be on the same line; a doubled quote is one quote.
       subroutine take_string(content)
          character(:), allocatable, intent(out) :: content
          character :: quote
-         integer :: k, first, last, used
+         integer :: k, first, last, length
 
          quote = text(cursor%at:cursor%at)
          first = cursor%at + 1
-         last = first - 2 + scan(text(first:)//newline, newline//return)      ! of the line
-         allocate (character(last - first + 1) :: content)
-         used = 0
+         last = first - 2 + scan(text(first:), newline//return)      ! of the line
+         if (last < first - 1) last = len(text)
+         content = ''
          k = first
-         do while (k <= last)
-            if (text(k:k) == quote) then
-               k = k + 1
-               if (text(k:min(k, last)) /= quote) then
-                  cursor%at = k
-                  content = content(:used)
-                  return
-               end if
-            end if               ! a doubled quote is one quote
-            used = used + 1
-            content(used:used) = text(k:k)
+         do
+            length = index(text(k:last), quote) - 1
+            if (length < 0) exit
+            content = content//text(k:k + length - 1)
+            k = k + length + 1
+            if (text(k:min(k, last)) /= quote) then
+               cursor%at = k
+               return
+            end if
+            content = content//quote
             k = k + 1
          end do
-         call complain(complaints, file, cursor, cursor%line, 'the string '//quote//content(:used)// &
+         call complain(complaints, record, cursor%line, 'the string '//quote//content//text(k:last)// &
             ' has no closing quote on its line')
          ! continue after its first word: most strings are names, and the rest of the line is then read as intended
-         first = cursor%at + 1
-         cursor%at = first - 1 + scan(text(first:k - 1)//' ', ' ,/!'//tab)
+         cursor%at = first - 1 + scan(text(first:last)//' ', ' ,/!'//tab)
          content = text(first:cursor%at - 1)
       end subroutine take_string
 
    end subroutine scan_value
 
-   !> Reports a mistake in a line of the cursor's file.
-   subroutine complain(complaints, file, cursor, line, what)
+   !> Reports a mistake in a line of the file of a record.
+   subroutine complain(complaints, record, line, what)
       type(complaints_t), intent(inout) :: complaints
-      character(*), intent(in) :: file, what
-      type(cursor_t), intent(in) :: cursor      !! contains the number of the file
+      type(record_t), intent(in) :: record
       integer, intent(in) :: line
+      character(*), intent(in) :: what
       type(place_t) :: place
 
-      call place_in(file, cursor%source, line, place)
+      call place_in(record%file, record%source, line, place)
       call complaints%add(place, what)
    end subroutine complain
 

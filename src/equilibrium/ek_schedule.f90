@@ -4,9 +4,9 @@
 !> or the row number of a table. Each actuation of a case is a function of it.
 module ek_schedule
    use ek_kinds, only: wp
-   use ek_case, only: case_t, actuation_t, follows_tangent, follows_table
+   use ek_case, only: most_driven, case_t, actuation_t, follows_tangent, follows_table
    use ek_suspension, only: suspension_t, driver_row, load_number
-   use ek_state, only: demand_t, most_driven
+   use ek_state, only: demand_t
    implicit none(type, external)
    private
    public :: schedule_t, new_schedule, demand_at

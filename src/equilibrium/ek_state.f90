@@ -5,12 +5,11 @@ module ek_state
    use ek_turn, only: pose_t
    use ek_rotation, only: cross, rotate_quaternion, rotation_matrix, quaternion_product
    use ek_suspension, only: suspension_t, design_poses
+   use ek_case, only: most_driven
    implicit none(type, external)
    private
-   public :: state_t, demand_t, most_driven, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+   public :: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
    public :: demand_rate, motion_between
-
-   integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
 
    !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
    type :: state_t

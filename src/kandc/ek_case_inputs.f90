@@ -1,12 +1,11 @@
-!> Checks the tables and targets of a deck's cases and the heads of the results before any solution, and reports all
-!> errors together.
+!> Checks the targets of a deck's cases and the heads of the results before any solution, and reports all errors in them and
+!> in the tables, which were read with the deck, together.
 module ek_case_inputs
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, load_table_t, is_mountable
+   use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount
-   use ek_load_table, only: read_table, has_table, note_unread
    use ek_sweep_table, only: sweep_columns
    use ek_target, only: find_column
    use ek_table, only: name_length
@@ -16,16 +15,16 @@ module ek_case_inputs
 
 contains
 
-   !> Reads every table into its cases, finds the column of every target, compares all heads of the results.
+   !> Collects the mistakes of every table, finds the column of every target, compares all heads of the results.
    !>
    !> A message on a table gives the line in the file and the line of the case in the deck:
    !> `loads.csv:7: column 'fz_n': expected a number, found 'two'; in case 'bench' (front.nml:41)`.
    !> In a deck with other errors the cases are checked as far as possible.
    subroutine check_inputs(suspension, cases, error, is_whole)
       type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(inout) :: cases(:)              !! a case whose table cannot be read keeps the reason
+      type(case_t), intent(in) :: cases(:)
       type(error_t), allocatable, intent(out) :: error     !! exit_deck; exit_file if only files are at fault
-      logical, intent(in), optional :: is_whole            !! the suspension is complete; default .true.
+      logical, intent(in), optional :: is_whole            !! the suspension is complete; default .true., else tables alone
       type(message_list_t) :: mistakes
       integer :: k, unread
       logical :: has_model
@@ -35,55 +34,34 @@ contains
       unread = 0
       if (has_model) call compare_heads(suspension, cases, mistakes)
       do k = 1, size(cases)
-         call take_tables(suspension, has_model, cases, k, mistakes, unread)
+         call collect_table(cases, k, mistakes, unread)
          if (has_model) call look_up_target(suspension, cases(k), mistakes)
       end do
       if (mistakes%count() > 0) call fail(error, merge(exit_file, exit_deck, mistakes%count() == unread), mistakes%text())
    end subroutine check_inputs
 
-   !> Reads the table of case k for all cases that name it, unless an earlier case names the same one.
-   subroutine take_tables(suspension, has_model, cases, k, mistakes, unread)
-      type(suspension_t), intent(in) :: suspension
-      logical, intent(in) :: has_model
-      type(case_t), intent(inout) :: cases(:)
+   !> The mistakes in the table of case k, with all cases that name it, unless an earlier case names the same one.
+   subroutine collect_table(cases, k, mistakes, unread)
+      type(case_t), intent(in) :: cases(:)
       integer, intent(in) :: k
       type(message_list_t), intent(inout) :: mistakes
       integer, intent(inout) :: unread            !! files that cannot be read
-      type(error_t), allocatable :: error
-      type(load_table_t) :: table
-      type(message_list_t) :: found
       character(:), allocatable :: users
       integer :: j
 
-      if (.not. has_table(cases(k))) return
+      if (cases(k)%table%mistakes%count() == 0) return
       users = ''
       do j = 1, size(cases)
-         if (.not. has_table(cases(j))) cycle
          if (cases(j)%file /= cases(k)%file) cycle
          if (j < k) return
          if (users /= '') users = users//', '
          users = users//'in case '//quoted(cases(j)%name)//' ('//cases(j)%where//')'
       end do
-      if (has_model) then
-         call read_table(cases(k)%file, table, found, error, suspension)
-      else
-         call read_table(cases(k)%file, table, found, error)
-      end if
-      do j = k, size(cases)
-         if (.not. has_table(cases(j))) cycle
-         if (cases(j)%file /= cases(k)%file) cycle
-         cases(j)%table = table
-         if (allocated(error)) call note_unread(cases(j), error%message)
+      do j = 1, cases(k)%table%mistakes%count()
+         call mistakes%add(cases(k)%table%mistakes%line(j)//'; '//users)
       end do
-      if (allocated(error)) then
-         unread = unread + 1
-         call mistakes%add(error%message//'; '//users)
-         return
-      end if
-      do j = 1, found%count()
-         call mistakes%add(found%line(j)//'; '//users)
-      end do
-   end subroutine take_tables
+      if (allocated(cases(k)%table%fault)) unread = unread + 1
+   end subroutine collect_table
 
    !> Checks that the results of a case have the column of its target.
    subroutine look_up_target(suspension, case, mistakes)

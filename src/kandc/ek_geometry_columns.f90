@@ -11,10 +11,10 @@ module ek_geometry_columns
    use ek_element, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
-   use ek_wheel_side, only: is_axle, vertical_force
+   use ek_wheel_side, only: is_axle
    use ek_compliance, only: compliance_t
    use ek_characteristics, only: motion_ratio, quotient
-   use ek_attitude, only: attitude_t, static_toe, camber_rate
+   use ek_attitude, only: attitude_t, static_toe, camber_rate, vertical_force
    use ek_steer_angle, only: steer_of, steer_rate, turning_circle, ideal_outer_steer, outer_wheel, wall_to_wall
    use ek_steer_axis, only: locked_twist, axis_distances, ride_frequency
    implicit none(type, external)

@@ -17,8 +17,8 @@ module ek_kandc_columns
    use ek_suspension, only: suspension_t, driver_row
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t
-   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values, static_toe
-   use ek_wheel_side, only: is_axle, prefix_of, design_track, deck_frame, vertical_force
+   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values, static_toe, vertical_force
+   use ek_wheel_side, only: is_axle, prefix_of, design_track, deck_frame
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
    use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, response_t, wheel_characteristics, &
       axle_characteristics, motion_ratio, quotient, in_phase, anti_phase, load_held, height_held

@@ -1,15 +1,17 @@
 !> A load case: a load or a driven value goes from one value to another in increments.
 module ek_case
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    implicit none(type, external)
    private
    public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, method_names
-   public :: default_tolerance, most_increments
+   public :: default_tolerance, most_increments, most_driven
    public :: follow_names, follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
    integer, parameter :: most_increments = 1000000   !! a state needs about 3 kB of memory
+   integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
 
    integer, parameter :: follows_place = 1     !! share × swept value
@@ -33,11 +35,12 @@ module ek_case
       real(wp), allocatable :: values(:)      !! N, N m, m or rad
    end type table_column_t
 
-   !> A load table as it was read; no rows: not read, or its file cannot be read.
+   !> A load table as it was read with the deck; no rows: it has mistakes, or its file cannot be read.
    type :: load_table_t
       integer :: rows = 0
       type(table_column_t), allocatable :: columns(:)
-      character(:), allocatable :: fault      !! why its file cannot be read
+      type(message_list_t) :: mistakes        !! all of them, with their lines
+      character(:), allocatable :: fault      !! why its file cannot be read, for the message when the case is run
    end type load_table_t
 
    !> A case as given in the deck, SI. Without a `test` either `load` or `drive` is not empty.

@@ -3,11 +3,10 @@ module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
+   use ek_quantity, only: name_length
    implicit none(type, external)
    private
    public :: table_t, new_table, column_index, column, column_range, row_count, name_length
-
-   integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their endings
 
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg

@@ -6,9 +6,10 @@ module ek_text_table
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_file, only: read_whole
+   use ek_sheet, only: take_record
    implicit none(type, external)
    private
-   public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of, take_record
+   public :: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -163,45 +164,5 @@ contains
       end do
       if (.not. has_names) call fail(error, exit_file, path//': the line of column names is missing')
    end subroutine read_text_table
-
-   !> The cells of one record, which may span several lines. A quoted cell that is not closed ends with the text.
-   subroutine take_record(text, separator, at, line, fields, is_closed)
-      character(*), intent(in) :: text
-      character, intent(in) :: separator
-      integer, intent(inout) :: at, line          !! where the record begins, then where the next one does
-      type(message_list_t), intent(out) :: fields
-      logical, intent(out) :: is_closed
-      type(buffer_t) :: cell
-      logical :: is_quoted
-
-      is_quoted = .false.
-      do while (at <= len(text))
-         if (is_quoted) then
-            if (text(at:at) /= '"') then
-               call cell%add(text(at:at))
-               if (text(at:at) == line_end) line = line + 1
-            else if (text(at:min(at + 1, len(text))) == '""') then
-               call cell%add('"')
-               at = at + 1
-            else
-               is_quoted = .false.
-            end if
-         else if (text(at:at) == '"') then
-            is_quoted = .true.
-         else if (text(at:at) == separator) then
-            call fields%add(cell%text())
-            call cell%clear()
-         else if (text(at:at) == line_end) then
-            line = line + 1
-            at = at + 1
-            exit
-         else if (text(at:at) /= achar(13)) then
-            call cell%add(text(at:at))
-         end if
-         at = at + 1
-      end do
-      call fields%add(cell%text())
-      is_closed = .not. is_quoted
-   end subroutine take_record
 
 end module ek_text_table

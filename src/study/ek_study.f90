@@ -12,7 +12,8 @@ module ek_study
    use ek_complaint, only: place_t
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, most_values, &
-      did_you_mean, is_deck_group, names_of_groups, is_legal_name
+      did_you_mean, is_deck_group, names_of_groups
+   use ek_reserved_name, only: is_legal_name
    use ek_namelist, only: check_record
    use ek_deck, only: deck_t, read_deck
    use ek_draft, only: draft_t, complain, complain_of_all, choice, choose, has_key, where_of, line_of, text_of, &
@@ -106,17 +107,10 @@ contains
    !> Whether a file contains groups of a deck and none of a study.
    pure logical function is_deck(file)
       type(deck_t), intent(in) :: file
-      integer :: k, group
+      integer :: groups(file%used), k
 
-      is_deck = .false.
-      do k = 1, file%used
-         group = group_number(file%records(k)%group)
-         if (group > 0 .and. .not. is_deck_group(group)) then
-            is_deck = .false.
-            return
-         end if
-         is_deck = is_deck .or. group > 0
-      end do
+      groups = [(group_number(file%records(k)%group), k=1, file%used)]
+      is_deck = any(groups > 0) .and. all([(groups(k) == 0 .or. is_deck_group(groups(k)), k=1, file%used)])
    end function is_deck
 
    !> Checks a name, which appears in paths and must be unique among the column names.

@@ -11,7 +11,6 @@ module ek_subject
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_case_inputs, only: check_inputs
-   use ek_load_table, only: take_table
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_sweep_table, only: observer_t
@@ -68,11 +67,7 @@ contains
                'may have several states; a study needs a case with follow = ''factor''')
             return
          end if
-         if (subject%known%is_known) then
-            call take_table(subject%suspension, cases(k), error)
-         else
-            call check_inputs(subject%suspension, cases(k:k), error)
-         end if
+         call check_inputs(subject%suspension, cases(k:k), error, is_whole=.not. subject%known%is_known)
          if (allocated(error)) return
          subject%number = k
          subject%case = cases(k)

@@ -5,7 +5,7 @@
 module ek_trial
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t
+   use ek_error, only: error_t, fail, exit_deck, exit_file
    use ek_file, only: read_whole
    use ek_deck, only: deck_t, parse_deck
    use ek_reader, only: build_model
@@ -19,12 +19,11 @@ module ek_trial
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
    use ek_path, only: path_t, sweep
-   use ek_load_table, only: take_table
    use ek_rig, only: mount
    use ek_reading, only: state_of
    use ek_sweep_table, only: sweep_table
    use ek_table, only: table_t, new_table, column, column_index, row_count
-   use ek_wheel_side, only: vertical_force
+   use ek_attitude, only: vertical_force
    implicit none(type, external)
    private
    public :: trial_t, try, go_through, put_on_rig, values, elastic_energy, chassis_lift, wheel_force
@@ -89,7 +88,7 @@ contains
       if (.not. all(trial%path%is_reached)) trial%trouble = 'not all states were reached'
    end subroutine go_through
 
-   !> Puts a suspension on the rig for a case, whose table is read first, and keeps the case with its actuations.
+   !> Puts a suspension on the rig for a case, whose table has no mistakes, and keeps the case with its actuations.
    subroutine put_on_rig(suspension, case, error)
       type(suspension_t), intent(inout) :: suspension
       type(case_t), intent(inout) :: case
@@ -99,8 +98,11 @@ contains
 
       base = suspension
       given = case
-      call take_table(base, given, error)
-      if (.not. allocated(error)) call mount(base, given, suspension, case)
+      if (given%table%mistakes%count() > 0) then
+         call fail(error, merge(exit_file, exit_deck, allocated(given%table%fault)), given%table%mistakes%text())
+      else
+         call mount(base, given, suspension, case)
+      end if
    end subroutine put_on_rig
 
    !> A column; one value that is not a number, which equals nothing, when it is not there.

@@ -12,11 +12,11 @@ module ek_sheet
    use ek_letters, only: is_wide, with_line_ends, line_count, save_as_utf8
    use ek_file, only: read_whole
    use ek_decimal, only: get_decimal
-   use ek_table, only: name_length
-   use ek_text_table, only: take_record
+   use ek_buffer, only: buffer_t
+   use ek_quantity, only: name_length
    implicit none(type, external)
    private
-   public :: sheet_t, read_sheet, mistakes_of, head_place
+   public :: sheet_t, read_sheet, mistakes_of, head_place, take_record
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
    character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
@@ -301,5 +301,45 @@ contains
          sheet%untold = sheet%untold + 1
       end if
    end subroutine complain
+
+   !> The cells of one record, which may span several lines. A quoted cell that is not closed ends with the text.
+   subroutine take_record(text, separator, at, line, fields, is_closed)
+      character(*), intent(in) :: text
+      character, intent(in) :: separator
+      integer, intent(inout) :: at, line          !! where the record begins, then where the next one does
+      type(message_list_t), intent(out) :: fields
+      logical, intent(out) :: is_closed
+      type(buffer_t) :: cell
+      logical :: is_quoted
+
+      is_quoted = .false.
+      do while (at <= len(text))
+         if (is_quoted) then
+            if (text(at:at) /= '"') then
+               call cell%add(text(at:at))
+               if (text(at:at) == line_end) line = line + 1
+            else if (text(at:min(at + 1, len(text))) == '""') then
+               call cell%add('"')
+               at = at + 1
+            else
+               is_quoted = .false.
+            end if
+         else if (text(at:at) == '"') then
+            is_quoted = .true.
+         else if (text(at:at) == separator) then
+            call fields%add(cell%text())
+            call cell%clear()
+         else if (text(at:at) == line_end) then
+            line = line + 1
+            at = at + 1
+            exit
+         else if (text(at:at) /= achar(13)) then
+            call cell%add(text(at:at))
+         end if
+         at = at + 1
+      end do
+      call fields%add(cell%text())
+      is_closed = .not. is_quoted
+   end subroutine take_record
 
 end module ek_sheet
