@@ -27,7 +27,7 @@ module ek_diagnosis
    use ek_lapack, only: dsyev
    implicit none(type, external)
    private
-   public :: diagnosis_t, diagnose, softest_rate
+   public :: diagnosis_t, diagnose, softest_rate, scaled_parts
    public :: rank_tolerance, no_stiffness, rounding
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
@@ -86,19 +86,12 @@ contains
       logical, intent(in), optional :: wants_preload_held    !! also search motions held by preload only
       type(singular_values_t) :: parts
       real(wp), allocatable :: jacobian(:, :), tangent(:, :), material(:, :)
-      integer, allocatable :: rows(:)      ! the rigid rows: those without compliance
-      integer :: i, j
+      integer, allocatable :: rows(:)
 
-      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
-      allocate (jacobian(size(rows), kkt%nq), tangent(kkt%nq, kkt%nq))
       call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
       diagnosis%negative = kkt%negative
       call assemble(suspension, state, demand_t(), whole_tangent, kkt)
-      call scaled_stiffness(suspension, kkt, tangent)
-      do j = 1, kkt%nq
-         jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
-      end do
-
+      call scaled_parts(suspension, kkt, rows, jacobian, tangent)
       call decompose(jacobian, rank_tolerance, parts, wants_null_space=.true.)
       diagnosis%unknowns = kkt%nq
       diagnosis%constraints = size(rows)
@@ -113,21 +106,24 @@ contains
          diagnosis)
       if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
       if (.not. wants_preload_held) return
-      allocate (material, mold=tangent)
       call assemble(suspension, state, demand_t(), material_only, kkt)
-      call scaled_stiffness(suspension, kkt, material)
+      call scaled_parts(suspension, kkt, rows, jacobian, material)
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> The full scaled stiffness matrix of the last assembled system.
-   subroutine scaled_stiffness(suspension, kkt, stiffness)
+   !> The rigid rows (those without compliance), their scaled Φq, and the full scaled stiffness matrix, of the last assembled system.
+   subroutine scaled_parts(suspension, kkt, rows, jacobian, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
-      real(wp), intent(out) :: stiffness(:, :)
+      integer, allocatable, intent(out) :: rows(:)
+      real(wp), allocatable, intent(out) :: jacobian(:, :), stiffness(:, :)
       real(wp) :: gradient(kkt%nq)
       integer :: i, j
 
+      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
+      allocate (jacobian(size(rows), kkt%nq), stiffness(kkt%nq, kkt%nq))
       do j = 1, kkt%nq
+         jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
          do i = 1, kkt%nq
             stiffness(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
          end do
@@ -139,7 +135,7 @@ contains
             stiffness(:, j) = stiffness(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
          end do
       end do
-   end subroutine scaled_stiffness
+   end subroutine scaled_parts
 
    !> Names the joints of each left null vector of Φq.
    subroutine name_redundancies(suspension, basis, rows, diagnosis)

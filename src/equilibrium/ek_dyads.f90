@@ -16,11 +16,11 @@ module ek_dyads
    use ek_substitution, only: factorise_indefinite, substitute
    implicit none(type, external)
    private
-   public :: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes, correct, resist
+   public :: dyads_t, new_dyads, add_dyad, solve_columns, set_changes, correct, resist
 
    !> Gradients, N⁻¹ g, and the small matrix.
    type :: dyads_t
-      integer :: number = 0                 !! of the dyads
+      integer :: number = 0                 !! of the dyads; 0 removes them
       integer :: negative = -1              !! negative eigenvalues of N'; −1: N' is singular
       integer, allocatable :: at(:, :)      !! (2, dyad): unknowns before each of the two bodies; negative: the chassis
       real(wp), allocatable :: gradient(:, :)    !! (12, dyad): g
@@ -45,12 +45,6 @@ contains
       allocate (self%gradient(12, most), self%column(n, most), self%product(most, most), source=0.0_wp)
       allocate (self%change(most), self%root(most), self%small(most**2), self%part(most), source=0.0_wp)
    end function new_dyads
-
-   !> Removes all dyads.
-   pure subroutine clear(self)
-      type(dyads_t), intent(inout) :: self
-      self%number = 0
-   end subroutine clear
 
    !> Adds a dyad: the gradient of a measure of two bodies.
    pure subroutine add_dyad(self, body_i, body_j, gradient)
