@@ -45,7 +45,7 @@ module ek_branch
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
    real(wp), parameter :: fresh = 1.0e-2_wp        !! of the motion: factors from no further away give a good tangent
-   real(wp), parameter :: exact = 5.0e-4_wp        !! of the motion: a jump across a gap is more, unless the step is forty times wider
+   real(wp), parameter :: exact = 5.0e-4_wp        !! of the motion: a jump across a gap is more, unless the step is 40 times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
 
    !> What is known of a step from a to b.
@@ -68,7 +68,7 @@ module ek_branch
       logical :: was_uneven = .true.        !! |det N| changed much in the step to it
       logical :: has_tangent = .false.      !! tangent_a is that of the newest state
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
-      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
+      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
       type(orientation_t) :: orientation
       type(tangent_t) :: work
@@ -79,7 +79,7 @@ module ek_branch
       real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
       real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
       type(state_t) :: before, shifted
-      logical :: is_singular = .false.      !! the joints lose rank at the end of the step compared last, or so near that it says nothing
+      logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
       logical :: is_over = .false.          !! they are in another assembly there
       logical :: was_bent = .false.         !! the step compared last passes a corner of a law
       logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
@@ -378,7 +378,7 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`, or may, as its end is singular.
+   !> Whether the assembly of the joints changes, or may, as its end is singular, in a predicted step that was not compared.
    logical function is_overturning(self, suspension, predictor, demand_a, state_b, demand_b, kkt)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension

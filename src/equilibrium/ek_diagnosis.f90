@@ -111,7 +111,7 @@ contains
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> The rigid rows (those without compliance), their scaled Φq, and the full scaled stiffness matrix, of the last assembled system.
+   !> The rigid rows (those without compliance), their scaled Φq, and the full scaled stiffness, of the last assembled system.
    subroutine scaled_parts(suspension, kkt, rows, jacobian, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
