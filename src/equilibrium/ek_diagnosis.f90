@@ -216,8 +216,9 @@ contains
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
       real(wp), allocatable :: free(:, :)
+      character(:), allocatable :: text
       logical :: is_free(size(basis, 2)), is_found
-      integer :: k
+      integer :: k, others
 
       call modes(tangent, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise, is_found)
       if (.not. is_found) call diagnosis%failures%add(failed)
@@ -234,12 +235,12 @@ contains
             motion_words(suspension, state, kkt, motions(:, k)))
       end do
       k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest motion with a stiffness
-      if (k > 0) then
-         if (eigenvalue(k) < soft_stiffness) call diagnosis%warnings%add('very soft ('//str(eigenvalue(k), 2)// &
-            ' of the characteristic stiffness'//softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '// &
-            motion_words(suspension, state, kkt, motions(:, k))//others(count(eigenvalue > noise .and. &
-            eigenvalue < soft_stiffness) - 1))
-      end if
+      others = count(eigenvalue > noise .and. eigenvalue < soft_stiffness) - 1
+      if (others < 0) return
+      text = 'very soft ('//str(eigenvalue(k), 2)//' of the characteristic stiffness'// &
+         softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '//motion_words(suspension, state, kkt, motions(:, k))
+      if (others > 0) text = text//'; and '//plural(others, 'motion', 'motions')//' more'
+      call diagnosis%warnings%add(text)
    end subroutine name_mechanisms
 
    !> Lists the motions without material stiffness that are held by preloads.
@@ -362,14 +363,6 @@ contains
          text = ', '//str(maxval(kt)/stiffness, 2)//' times softer than '//element_label(element)//place(element%where)
       end associate
    end function softer_than
-
-   !> '; and 3 motions more'
-   pure function others(count) result(text)
-      integer, intent(in) :: count
-      character(:), allocatable :: text
-      text = ''
-      if (count > 0) text = '; and '//plural(count, 'motion', 'motions')//' more'
-   end function others
 
    !> Gauss–Jordan elimination with column pivoting: the same space, spanned by vectors with few nonzero parts, so
    !> that two independent defects are reported separately.

@@ -12,6 +12,7 @@
 !> new_dyads.
 module ek_dyads
    use ek_kinds, only: wp
+   use ek_block, only: add_gradient
    use ek_kkt, only: kkt_t, solve, count_inertia
    use ek_substitution, only: factorise_indefinite, substitute
    implicit none(type, external)
@@ -61,14 +62,11 @@ contains
    pure subroutine solve_columns(self, kkt)
       type(dyads_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt
-      integer :: j, k, at
+      integer :: j, k
 
       do k = 1, self%number
          kkt%rhs = 0.0_wp
-         at = self%at(1, k)
-         if (at >= 0) kkt%rhs(at + 1:at + 6) = self%gradient(1:6, k)
-         at = self%at(2, k)
-         if (at >= 0) kkt%rhs(at + 1:at + 6) = kkt%rhs(at + 1:at + 6) + self%gradient(7:12, k)
+         call add_gradient(1.0_wp, self%gradient(:, k), self%at(1, k), self%at(2, k), kkt%rhs)
          call solve(kkt)
          self%column(:, k) = kkt%rhs
          do j = 1, k
@@ -123,15 +121,10 @@ contains
       type(dyads_t), intent(in) :: self
       real(wp), intent(in) :: x(:)
       real(wp), intent(inout) :: rhs(:)
-      real(wp) :: pull
-      integer :: k, at
+      integer :: k
 
       do k = 1, self%number
-         pull = self%change(k)*along(self, k, x)
-         at = self%at(1, k)
-         if (at >= 0) rhs(at + 1:at + 6) = rhs(at + 1:at + 6) - pull*self%gradient(1:6, k)
-         at = self%at(2, k)
-         if (at >= 0) rhs(at + 1:at + 6) = rhs(at + 1:at + 6) - pull*self%gradient(7:12, k)
+         call add_gradient(-self%change(k)*along(self, k, x), self%gradient(:, k), self%at(1, k), self%at(2, k), rhs)
       end do
    end subroutine resist
 

@@ -15,7 +15,7 @@ module ek_kkt
    use ek_contract, only: are_checked, require
    use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
-   use ek_block, only: add_diagonal_block, add_block, s_matrix, rotated
+   use ek_block, only: add_diagonal_block, add_block, add_gradient, s_matrix, rotated
    use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
@@ -133,7 +133,7 @@ contains
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
       type(view_t) :: view
       type(element_view_t) :: element_view
-      real(wp) :: pull(12), value, force(3), moment(3), arm(3), block(3, 3)
+      real(wp) :: value, force(3), moment(3), arm(3), block(3, 3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
@@ -175,7 +175,7 @@ contains
             at_i = 6*(i - 1)
             at_j = 6*(j - 1)
             call look_element(element, poses(i), poses(j), element_view)
-            call resist(element_view%pull, at_i, at_j, rhs)
+            call add_gradient(-1.0_wp, element_view%pull, at_i, at_j, rhs)     ! the force ON the bodies is −dV/dz
             if (mode == whole_tangent) then
                call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
             else if (mode == material_only) then
@@ -195,8 +195,7 @@ contains
                call look(term%measure, poses(i), poses(j), view)
                value = value + term%coefficient*view%value
                gradients(:, t) = term%coefficient*view%gradient
-               pull = reaction(k)*gradients(:, t)
-               call resist(pull, at_i, at_j, rhs)
+               call add_gradient(-reaction(k), gradients(:, t), at_i, at_j, rhs)
                if (mode /= residual_only) then
                   if (i > 0) matrix(nq + k, at_i + 1:at_i + 6) = matrix(nq + k, at_i + 1:at_i + 6) + gradients(1:6, t)
                   if (j > 0) matrix(nq + k, at_j + 1:at_j + 6) = matrix(nq + k, at_j + 1:at_j + 6) + gradients(7:12, t)
@@ -261,15 +260,6 @@ contains
          if (demand%load(k) == load) load_factor = load_factor + demand%factor(k)
       end do
    end function load_factor
-
-   !> Subtracts a generalised force dV/dz from the right-hand side: the force ON the bodies is −dV/dz.
-   pure subroutine resist(pull, at_i, at_j, rhs)
-      real(wp), intent(in) :: pull(12)
-      integer, intent(in) :: at_i, at_j        !! negative: the chassis
-      real(wp), intent(inout) :: rhs(*)
-      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) - pull(1:6)
-      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) - pull(7:12)
-   end subroutine resist
 
    !> Scales the matrix and factorises it (Bunch–Kaufman); sets the inertia.
    !>

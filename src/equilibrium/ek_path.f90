@@ -11,7 +11,7 @@ module ek_path
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
-   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment, check_increment
+   use ek_recursion, only: start_recursion, recursive_increment, corrected_increment, check_increment
    use ek_branch, only: branch_t, new_branch, leave, note_crossing, most_crossings
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
@@ -59,7 +59,7 @@ module ek_path
       real(wp) :: here = 0.0_wp        !! its place, and its inputs; of the linear methods
       type(demand_t) :: demand
       type(schedule_t) :: schedule
-      type(carry_t) :: carry
+      real(wp), allocatable :: held(:)     !! of the recursion
       type(predictor_t) :: predictor
       type(branch_t) :: branch
       type(arc_t) :: arc
@@ -242,7 +242,7 @@ contains
       path%failure = failure_t()
       path%is_reached = .false.
       if (case%method == 'recursive') then
-         call start_recursion(suspension, self%state, kkt, self%carry)
+         call start_recursion(suspension, self%state, kkt, self%held)
       else
          call settle(suspension, case%tolerance, self%state, kkt, path%failure(1))
          self%negative = kkt%negative
@@ -334,7 +334,7 @@ contains
       call unpack_state(path%settled, self%state)
       self%here = self%schedule%rest
       call demand_at(self%schedule, self%here, self%demand)
-      if (case%method == 'recursive') call start_recursion(suspension, self%state, kkt, self%carry)
+      if (case%method == 'recursive') call start_recursion(suspension, self%state, kkt, self%held)
       call forget(self%predictor)
       call remember(self%predictor, self%here, path%settled)
       call leave(self%branch, self%negative)
@@ -379,7 +379,7 @@ contains
       end if
       call demand_at(self%schedule, value, next)
       if (case%method == 'recursive') then
-         call recursive_increment(suspension, self%demand, next, self%state, kkt, self%carry)
+         call recursive_increment(suspension, self%demand, next, self%state, kkt, self%held)
       else
          call corrected_increment(suspension, next, self%state, kkt)
       end if

@@ -93,10 +93,8 @@ contains
       end do
       do k = 1, suspension%constraints()
          scale(nq + k) = power_of_two(sqrt(stiffness))
-         select case (suspension%terms(suspension%rows(k)%first)%measure%kind)
-         case (axis_axis, rotation)
+         if (any(suspension%terms(suspension%rows(k)%first)%measure%kind == [axis_axis, rotation])) &
             scale(nq + k) = power_of_two(sqrt(stiffness)*length)
-         end select
       end do
    end subroutine scale_factors
 
