@@ -56,7 +56,7 @@ module ek_path
    !> The state that a walk has come to, and what the next increment needs.
    type :: walk_t
       type(state_t) :: state
-      real(wp) :: here = 0.0_wp        !! its place, and its inputs; of the linear methods
+      real(wp) :: here = 0.0_wp        !! value of the path coordinate, and inputs; of the linear methods
       type(demand_t) :: demand
       type(schedule_t) :: schedule
       real(wp), allocatable :: held(:)     !! of the recursion
