@@ -45,6 +45,7 @@ module ek_arc
 
    !> A segment of the path from a to b, the position of a probe on it, and work space.
    type :: arc_t
+      type(schedule_t) :: schedule
       real(wp) :: range = 1.0_wp                     !! range of swept values equivalent to the size of the model
       real(wp) :: size = 1.0_wp                      !! characteristic length, or the longest spring [m]
       real(wp) :: tolerance = 0.0_wp                 !! m
@@ -71,8 +72,9 @@ module ek_arc
 contains
 
    !> Allocates the work space for a model.
-   function new_arc(suspension, length, range, tolerance) result(self)
+   function new_arc(suspension, schedule, length, range, tolerance) result(self)
       type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: length         !! characteristic length from ek_scale [m]
       real(wp), intent(in) :: range          !! place, above 0
       real(wp), intent(in) :: tolerance      !! m
@@ -86,6 +88,7 @@ contains
       allocate (self%pivots(n), source=0)
       self%state = design_state(suspension)
       self%other = self%state
+      self%schedule = schedule
       self%range = range
       self%size = length
       do k = 1, size(suspension%elements)
@@ -98,10 +101,9 @@ contains
    end function new_arc
 
    !> Starts at an equilibrium on the path, in either direction.
-   subroutine begin(self, suspension, schedule, packed, place, upward, kkt, is_found)
+   subroutine begin(self, suspension, packed, place, upward, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       real(wp), contiguous, intent(in) :: packed(:)
       real(wp), intent(in) :: place
       logical, intent(in) :: upward              !! the swept value increases at first
@@ -117,17 +119,16 @@ contains
       self%place = place
       self%tangent_a = 0.0_wp
       self%tangent_a(kkt%n + 1) = merge(self%range, -self%range, upward)
-      call find_tangent(self, suspension, schedule, kkt, is_found)
+      call find_tangent(self, suspension, kkt, is_found)
       self%negative_a = kkt%negative
       self%tangent_a = self%tangent
       self%tangent_0 = self%tangent
    end subroutine begin
 
    !> Goes to the next segment.
-   subroutine advance(self, suspension, schedule, kkt, is_found)
+   subroutine advance(self, suspension, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found           !! .false.: the path ends at a
       real(wp) :: turn
@@ -140,8 +141,8 @@ contains
          self%negative_a = self%negative_b
       end if
       do
-         call probe(self, suspension, schedule, self%step, kkt, is_found)
-         if (is_found) call find_tangent(self, suspension, schedule, kkt, is_found)
+         call probe(self, suspension, self%step, kkt, is_found)
+         if (is_found) call find_tangent(self, suspension, kkt, is_found)
          if (is_found) then
             turn = acos(min(max(inner(self, kkt, self%tangent_a, self%tangent), -1.0_wp), 1.0_wp))
             is_found = turn <= most_turn
@@ -176,10 +177,9 @@ contains
 
    !> The equilibrium at a length beyond a, in self%state and self%place.
    !> Equation (K.18) of docs/theory/kkt.md.
-   subroutine probe(self, suspension, schedule, width, kkt, is_found)
+   subroutine probe(self, suspension, width, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: width              !! length along the tangent of a
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
@@ -195,10 +195,10 @@ contains
       longest = max(merge(20.0_wp, 1.0_wp, width <= corner_step)*width, self%tolerance/self%size)
       before = huge(before)
       do iteration = 1, most_iterations
-         call demand_at(schedule, self%place, demand)
+         call demand_at(self%schedule, self%place, demand)
          call assemble(suspension, self%state, demand, whole_tangent, kkt)
          self%residual = kkt%rhs
-         call solve_bordered(self, suspension, schedule, 0.0_wp, kkt, is_found)
+         call solve_bordered(self, suspension, 0.0_wp, kkt, is_found)
          if (.not. is_found) return
          length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          is_found = .false.
@@ -214,10 +214,9 @@ contains
    !> The unit tangent at self%state, in self%tangent; its sense is that of the tangent at a. N is factorised for its inertia.
    !>
    !> If N is only the symmetric part of the true matrix, the derivative of the residual along the tangent corrects it.
-   subroutine find_tangent(self, suspension, schedule, kkt, is_found)
+   subroutine find_tangent(self, suspension, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
       type(demand_t) :: demand
@@ -226,7 +225,7 @@ contains
       real(wp) :: length
       integer :: k
 
-      call demand_at(schedule, self%place, demand)
+      call demand_at(self%schedule, self%place, demand)
       self%residual = 0.0_wp
       self%tangent = 0.0_wp
       do k = 0, merge(0, most_refinements, self%is_symmetric)
@@ -237,7 +236,7 @@ contains
             self%residual = (self%residual - kkt%rhs)/(2.0_wp*small)
          end if
          call assemble(suspension, self%state, demand, whole_tangent, kkt)
-         call solve_bordered(self, suspension, schedule, merge(1.0_wp, 0.0_wp, k == 0), kkt, is_found)
+         call solve_bordered(self, suspension, merge(1.0_wp, 0.0_wp, k == 0), kkt, is_found)
          if (.not. is_found) return
          length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          self%tangent = self%tangent + self%rhs(:, 1)
@@ -260,7 +259,7 @@ contains
          place = self%place
          self%rhs(:, 1) = by*self%tangent
          call move_all(self, kkt, self%rhs(:, 1), self%other, place)
-         call demand_at(schedule, place, there)
+         call demand_at(self%schedule, place, there)
          call assemble(suspension, self%other, there, residual_only, kkt)
       end subroutine shifted_residual
 
@@ -269,10 +268,9 @@ contains
    !> Solves the bordered system for self%residual and the length `along`, with the matrix of the last assembly at
    !> self%state: self%rhs(:, 1) becomes [Δz Δλ Δs].
    !> Equation (K.19) of docs/theory/kkt.md.
-   subroutine solve_bordered(self, suspension, schedule, along, kkt, is_found)
+   subroutine solve_bordered(self, suspension, along, kkt, is_found)
       type(arc_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: along
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
@@ -280,8 +278,8 @@ contains
       type(demand_t) :: low, high
       integer :: i, j, n, info
 
-      call demand_at(schedule, self%place - part*self%range, low)
-      call demand_at(schedule, self%place + part*self%range, high)
+      call demand_at(self%schedule, self%place - part*self%range, low)
+      call demand_at(self%schedule, self%place + part*self%range, high)
       call assemble_rate(suspension, self%state, demand_rate(low, high, 2.0_wp*part*self%range), kkt)
       n = kkt%n
       do j = 1, n

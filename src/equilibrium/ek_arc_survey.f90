@@ -5,7 +5,7 @@ module ek_arc_survey
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_state, only: demand_t
-   use ek_schedule, only: schedule_t, demand_at
+   use ek_schedule, only: demand_at
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_arc, only: arc_t, begin, advance, probe, find_tangent, find_motion, inner
    implicit none(type, external)
@@ -42,10 +42,9 @@ module ek_arc_survey
 contains
 
    !> Follows the path from design until the swept value `far` is reached for the first time.
-   subroutine survey(arc, suspension, schedule, settled, near, far, kkt, found)
+   subroutine survey(arc, suspension, settled, near, far, kkt, found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       real(wp), contiguous, intent(in) :: settled(:)     !! packed state at swept value 0
       real(wp), intent(in) :: near, far                  !! places on one side of 0; near may be 0
       type(kkt_t), intent(inout) :: kkt
@@ -55,9 +54,9 @@ contains
       integer :: k
 
       is_past_near = .not. abs(near) > 0.0_wp
-      call begin(arc, suspension, schedule, settled, 0.0_wp, far > 0.0_wp, kkt, is_found)
+      call begin(arc, suspension, settled, 0.0_wp, far > 0.0_wp, kkt, is_found)
       do k = 1, most_steps
-         if (is_found) call advance(arc, suspension, schedule, kkt, is_found)
+         if (is_found) call advance(arc, suspension, kkt, is_found)
          found%far_length = arc%length
          found%last_place = arc%place_a
          if (.not. is_found) then
@@ -73,11 +72,11 @@ contains
          top = arc%width
          place = arc%place_b
          has_top = arc%tangent_a(kkt%n + 1)*arc%tangent_b(kkt%n + 1) < 0.0_wp
-         if (has_top) call find_limit(arc, suspension, schedule, kkt, top, place)
+         if (has_top) call find_limit(arc, suspension, kkt, top, place)
          ! a limit point of a load changes the inertia by one; any other change is a bifurcation
          if (arc%negative_a /= arc%negative_b .and. .not. has_top) then
             found%crossings = min(found%crossings + 1, most_limits)
-            call find_crossing(arc, suspension, schedule, kkt, found%crossing_place(found%crossings))
+            call find_crossing(arc, suspension, kkt, found%crossing_place(found%crossings))
          end if
          call look_between(0.0_wp, arc%place_a, top, place)
          if (found%ending == arrived) return
@@ -113,12 +112,12 @@ contains
 
          found%ending = gone_on
          if (.not. is_past_near .and. (place_low - near)*(place_high - near) <= 0.0_wp) then
-            call find_place(arc, suspension, schedule, kkt, near, low, place_low, high, place_high, width)
+            call find_place(arc, suspension, kkt, near, low, place_low, high, place_high, width)
             found%near_length = arc%length + width
             is_past_near = .true.
          end if
          if (.not. is_past_near .or. (place_low - far)*(place_high - far) > 0.0_wp) return
-         call find_place(arc, suspension, schedule, kkt, far, low, place_low, high, place_high, width)
+         call find_place(arc, suspension, kkt, far, low, place_low, high, place_high, width)
          found%far_length = arc%length + width
          found%last_place = far
          found%ending = arrived
@@ -156,10 +155,9 @@ contains
 
    !> The limit point on the current segment: the root of ds/dl.
    !> Equation (K.20) of docs/theory/kkt.md.
-   subroutine find_limit(arc, suspension, schedule, kkt, width, place)
+   subroutine find_limit(arc, suspension, kkt, width, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(inout) :: width       !! in: length of the segment; out: length to the limit point
       real(wp), intent(inout) :: place       !! in: at the end of the segment; out: at the limit point
@@ -177,8 +175,8 @@ contains
       side = 0
       do k = 1, most_probes
          x = low - f_low*((high - low)/(f_high - f_low))
-         call probe(arc, suspension, schedule, x, kkt, is_found)
-         if (is_found) call find_tangent(arc, suspension, schedule, kkt, is_found)
+         call probe(arc, suspension, x, kkt, is_found)
+         if (is_found) call find_tangent(arc, suspension, kkt, is_found)
          if (.not. is_found) return
          f = arc%tangent(kkt%n + 1)/arc%range
          slope = (f - f_before)/(x - before)
@@ -194,10 +192,9 @@ contains
    end subroutine find_limit
 
    !> The swept value on the current segment at which the inertia changes, by bisection.
-   subroutine find_crossing(arc, suspension, schedule, kkt, place)
+   subroutine find_crossing(arc, suspension, kkt, place)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: place
       integer, parameter :: most_probes = 20     ! 1e-6 of a step
@@ -211,8 +208,8 @@ contains
       place_high = arc%place_b
       do k = 1, most_probes
          width = 0.5_wp*(low + high)
-         call probe(arc, suspension, schedule, width, kkt, is_found)
-         if (is_found) call find_tangent(arc, suspension, schedule, kkt, is_found)
+         call probe(arc, suspension, width, kkt, is_found)
+         if (is_found) call find_tangent(arc, suspension, kkt, is_found)
          if (.not. is_found) exit
          if (kkt%negative == arc%negative_a) then
             low = width
@@ -226,10 +223,9 @@ contains
    end subroutine find_crossing
 
    !> Finds a swept value on a part of the current segment.
-   subroutine find_place(arc, suspension, schedule, kkt, goal, from, place_from, to, place_to, width)
+   subroutine find_place(arc, suspension, kkt, goal, from, place_from, to, place_to, width)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(in) :: goal
       real(wp), intent(in) :: from, place_from, to, place_to     !! lengths beyond a, and places, at both ends of the part
@@ -250,7 +246,7 @@ contains
       side = 0
       do k = 1, most_probes
          width = low - f_low*((high - low)/(f_high - f_low))
-         call probe(arc, suspension, schedule, width, kkt, is_found)
+         call probe(arc, suspension, width, kkt, is_found)
          if (.not. is_found) return
          f = (arc%place - goal)/arc%range
          if (abs(f) <= same .or. high - low <= spacing(high)) return
@@ -280,10 +276,9 @@ contains
    !> Goes to the state at a length from design, in arc%state and arc%place; its factors are in kkt.
    !>
    !> Call `begin` first; lengths must increase from call to call.
-   subroutine go_to(arc, suspension, schedule, length, kkt, is_found)
+   subroutine go_to(arc, suspension, length, kkt, is_found)
       type(arc_t), intent(inout) :: arc
       type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: length
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
@@ -291,11 +286,11 @@ contains
 
       is_found = .true.
       do while (is_found .and. arc%length + arc%width < length)
-         call advance(arc, suspension, schedule, kkt, is_found)
+         call advance(arc, suspension, kkt, is_found)
       end do
-      if (is_found) call probe(arc, suspension, schedule, length - arc%length, kkt, is_found)
+      if (is_found) call probe(arc, suspension, length - arc%length, kkt, is_found)
       if (.not. is_found) return
-      call demand_at(schedule, arc%place, demand)
+      call demand_at(arc%schedule, arc%place, demand)
       call assemble(suspension, arc%state, demand, whole_tangent, kkt)
       call factorise(kkt)
    end subroutine go_to

@@ -14,7 +14,7 @@ module ek_balance
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_measure, only: view_t, look
-   use ek_block, only: rotated
+   use ek_block, only: rotated, add_gradient
    use ek_element, only: axial_spring, element_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
@@ -175,7 +175,7 @@ contains
       type(view_t) :: view
       real(wp) :: slope(size(suspension%wheels), suspension%scalars)
       real(wp) :: change(suspension%scalars)         ! per spring; 0 for other elements
-      integer :: s, w, at
+      integer :: s, w
 
       if (kkt%is_singular) then
          call fail(error, exit_convergence, "balance = 'spring': the matrix is singular where the suspension settles")
@@ -187,10 +187,7 @@ contains
          associate (m => suspension%elements(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             kkt%rhs = 0.0_wp     ! a unit preload pushes the ends apart
-            at = 6*(m%body_i - 1)
-            if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(1:6)
-            at = 6*(m%body_j - 1)
-            if (at >= 0) kkt%rhs(at + 1:at + 6) = view%gradient(7:12)
+            call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), kkt%rhs)
          end associate
          call solve(kkt)
          do w = 1, size(height)
@@ -232,7 +229,7 @@ contains
       type(singular_values_t) :: carried, held
       real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), uncarried(:, :)
       real(wp), allocatable :: root(:), column(:)
-      integer :: b, k, s, at, t, nx, ny
+      integer :: b, k, s, t, nx, ny
 
       do s = 1, suspension%scalars
          if (is_free(suspension%elements(s))) suspension%elements(s)%preload = 0.0_wp
@@ -261,20 +258,14 @@ contains
          if (.not. is_free(suspension%elements(s))) cycle
          associate (m => suspension%elements(s)%measure)
             call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            at = 6*(m%body_i - 1)
-            if (at >= 0) free(at + 1:at + 6, s) = view%gradient(1:6)
-            at = 6*(m%body_j - 1)
-            if (at >= 0) free(at + 1:at + 6, s) = view%gradient(7:12)
+            call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, s))
          end associate
       end do
       do k = 1, kkt%nc
          if (.not. takes_part(suspension, k)) cycle
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
-            associate (m => suspension%terms(t)%measure, c => suspension%scalars + k)
-               at = 6*(m%body_i - 1)
-               if (at >= 0) free(at + 1:at + 6, c) = free(at + 1:at + 6, c) - kkt%gradients(1:6, t)
-               at = 6*(m%body_j - 1)
-               if (at >= 0) free(at + 1:at + 6, c) = free(at + 1:at + 6, c) - kkt%gradients(7:12, t)
+            associate (m => suspension%terms(t)%measure)
+               call add_gradient(-1.0_wp, kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, suspension%scalars + k))
             end associate
          end do
       end do

@@ -17,9 +17,11 @@ module ek_branch
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
-   use ek_tangent, only: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
+   use ek_newton, only: outcome_t
+   use ek_predictor, only: predictor_t, depth
+   use ek_tangent, only: tangent_t, new_tangent, find_tangent, largest_motion, body_motion, trapezoidal_rest, smooth, nothing
    use ek_chord, only: chord_t, new_chord, straighten, look_along_chord, at_a, at_b
-   use ek_factors, only: factors_t, new_factors, mark, forget, exchange
+   use ek_factors, only: factors_t, new_factors, mark, exchange
    use ek_orientation, only: orientation_t, new_orientation, compare_orientation
    implicit none(type, external)
    private
@@ -35,17 +37,15 @@ module ek_branch
 
    integer, parameter, public :: most_crossings = 8   !! largest number of bifurcations reported
 
-   real(wp), parameter :: smooth = 4.0e-3_wp       !! of the motion: allowed error of the trapezoidal rule
-   real(wp), parameter :: nothing = 1.0e-9_wp      !! m: ten times the error of Newton's method
-   real(wp), parameter :: bent = 5.0e-2_wp         !! likewise in the shortest steps
+   real(wp), parameter :: bent = 5.0e-2_wp         !! of the motion: allowed in the shortest steps
    real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
    real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
    real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
-   real(wp), parameter :: zero = 9.2_wp            !! likewise: less than 1e-4 of it is left
-   real(wp), parameter :: fresh = 1.0e-2_wp        !! likewise: factors from no further away give a good tangent
-   real(wp), parameter :: exact = 5.0e-4_wp        !! likewise: a jump across a gap exceeds it unless the step is forty times wider
+   real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
+   real(wp), parameter :: fresh = 1.0e-2_wp        !! of the motion: factors from no further away give a good tangent
+   real(wp), parameter :: exact = 5.0e-4_wp        !! of the motion: a jump across a gap is more, unless the step is 40 times wider
    real(wp), parameter, public :: long = 0.02_wp   !! of the characteristic length: a motion that may pass over a narrow gap
 
    !> What is known of a step from a to b.
@@ -68,7 +68,7 @@ module ek_branch
       logical :: was_uneven = .true.        !! |det N| changed much in the step to it
       logical :: has_tangent = .false.      !! tangent_a is that of the newest state
       real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
-      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, and from the state before to a [m, rad]
+      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
       type(orientation_t) :: orientation
       type(tangent_t) :: work
@@ -79,7 +79,7 @@ module ek_branch
       real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
       real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
       type(state_t) :: before, shifted
-      logical :: is_singular = .false.      !! the joints lose rank at the end of the step compared last, or so near that it says nothing
+      logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
       logical :: is_over = .false.          !! they are in another assembly there
       logical :: was_bent = .false.         !! the step compared last passes a corner of a law
       logical :: knows_end = .false.        !! tangent_b belongs to the state evaluated last
@@ -117,29 +117,28 @@ contains
       self%negative = negative
       self%has_tangent = .false.
       self%log_determinant = huge(1.0_wp)
-      call forget(self%factors)
+      call mark(self%factors, -1)
    end subroutine leave
 
    !> Compares both ends of a step. kkt must contain the factors of N at or near b.
    !>
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
    !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
-   subroutine compare(self, suspension, packed_a, demand_a, demand_b, width, packed_before, width_before, state_b, &
-      missed, log_determinant, kkt, verdict)
+   subroutine compare(self, suspension, predictor, demand_a, demand_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      real(wp), contiguous, intent(in) :: packed_a(:)        !! state a
+      type(predictor_t), intent(in) :: predictor             !! its newest state is a
       type(demand_t), intent(in) :: demand_a, demand_b
-      real(wp), intent(in) :: width                          !! h: place of b minus place of a
-      real(wp), contiguous, intent(in) :: packed_before(:)   !! the state before a
-      real(wp), intent(in) :: width_before                   !! place of a minus place of the state before; 0: there is none
+      real(wp), intent(in) :: place                          !! of b
       type(state_t), intent(in) :: state_b
-      real(wp), intent(in) :: log_determinant                !! ln |det N| at b
-      real(wp), intent(in) :: missed                         !! distance from b at which the factors were computed [m]
+      type(outcome_t), intent(in) :: outcome                 !! of the iteration to b
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: verdict
       type(step_t) :: step
+      real(wp) :: width
+      integer :: older
 
+      width = place - predictor%abscissa(predictor%newest)
       step%demand_a = demand_a
       step%demand_b = demand_b
       step%rate = demand_rate(demand_a, demand_b, width)
@@ -147,14 +146,16 @@ contains
       step%negative_b = kkt%negative
       self%factorisations = 0
       self%serial = kkt%factorisations
-      self%missed = missed
+      self%missed = outcome%missed
       self%is_over = .false.
       self%is_singular = .false.
-      call unpack_state(packed_a, self%before)
+      call unpack_state(predictor%packed(:, predictor%newest), self%before)
       call motion_between(self%before, state_b, self%motion)
-      self%width_before = width_before
-      if (abs(width_before) > 0.0_wp .and. .not. self%has_tangent) then
-         call unpack_state(packed_before, self%shifted)
+      older = modulo(predictor%newest - 2, depth) + 1
+      self%width_before = 0.0_wp
+      if (predictor%count > 1) self%width_before = predictor%abscissa(predictor%newest) - predictor%abscissa(older)
+      if (abs(self%width_before) > 0.0_wp .and. .not. self%has_tangent) then
+         call unpack_state(predictor%packed(:, older), self%shifted)
          call motion_between(self%shifted, self%before, self%motion_before)
       end if
       call find_tangent(self%work, suspension, state_b, demand_b, step%rate, kkt, self%tangent_b)
@@ -163,7 +164,8 @@ contains
       else
          step%rest = three_point_rest(self, kkt%nq, width, kkt%length)
          ! the step to a approximates its tangent
-         if (step%rest > smooth .and. abs(width_before) > 0.0_wp) self%tangent_a(:kkt%nq) = self%motion_before/width_before
+         if (step%rest > smooth .and. abs(self%width_before) > 0.0_wp) &
+            self%tangent_a(:kkt%nq) = self%motion_before/self%width_before
       end if
       step%is_explained = step%rest <= smooth
       if (.not. step%is_explained) call look_closer(self, step, suspension, state_b, kkt)
@@ -172,7 +174,7 @@ contains
          verdict = same_branch
          if (step%negative_b /= self%negative) then
             verdict = crossing
-         else if (step%rest > exact .or. is_uneven(self, log_determinant) .or. &
+         else if (step%rest > exact .or. is_uneven(self, outcome) .or. &
             largest_motion(self%motion, kkt%length) > long*kkt%length) then
             call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, self%is_over, &
                self%is_singular)
@@ -264,35 +266,34 @@ contains
    end subroutine decide
 
    !> Accepts the step: b becomes the newest state.
-   pure subroutine accept(self, negative, log_determinant, kkt, was_compared)
+   pure subroutine accept(self, outcome, kkt, was_compared)
       type(branch_t), intent(inout) :: self
-      integer, intent(in) :: negative            !! negative eigenvalues of N at b
-      real(wp), intent(in) :: log_determinant    !! ln |det N| at b
+      type(outcome_t), intent(in) :: outcome     !! of the iteration to b
       type(kkt_t), intent(in) :: kkt             !! the factors at or near b, unless it was compared
       logical, intent(in) :: was_compared
 
       if (.not. was_compared) self%serial = kkt%factorisations
       call mark(self%factors, self%serial)
-      self%was_uneven = abs(log_determinant - self%log_determinant) > even
-      self%log_determinant = log_determinant
-      self%negative = negative
+      self%was_uneven = abs(outcome%log_determinant - self%log_determinant) > even
+      self%log_determinant = outcome%log_determinant
+      self%negative = outcome%negative
       self%has_tangent = was_compared .and. self%knows_end
       if (self%has_tangent) self%tangent_a = self%tangent_b
    end subroutine accept
 
    !> Whether the joints may lose rank in a step: |det N|, which is proportional to det(Φq Φqᵀ), changes much in it or has changed
    !> much in the one before, as it does on the way to zero. Of a pair of states on either side of the zero it says nothing.
-   pure logical function is_uneven(self, log_determinant)
+   pure logical function is_uneven(self, outcome)
       type(branch_t), intent(in) :: self
-      real(wp), intent(in) :: log_determinant    !! ln |det N| at b
-      is_uneven = self%was_uneven .or. abs(log_determinant - self%log_determinant) > even
+      type(outcome_t), intent(in) :: outcome     !! of the iteration to b
+      is_uneven = self%was_uneven .or. abs(outcome%log_determinant - self%log_determinant) > even
    end function is_uneven
 
    !> Whether N is singular at b, in comparison with a.
-   pure logical function is_near_zero(self, log_determinant)
+   pure logical function is_near_zero(self, outcome)
       type(branch_t), intent(in) :: self
-      real(wp), intent(in) :: log_determinant    !! ln |det N| at b
-      is_near_zero = self%log_determinant < huge(1.0_wp) .and. log_determinant < self%log_determinant - zero
+      type(outcome_t), intent(in) :: outcome     !! of the iteration to b
+      is_near_zero = self%log_determinant < huge(1.0_wp) .and. outcome%log_determinant < self%log_determinant - zero
    end function is_near_zero
 
    !> Extrapolates from the newest state along its tangent.
@@ -320,29 +321,8 @@ contains
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
 
-   !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
-   !> Equation (K.14) of docs/theory/kkt.md.
-   pure real(wp) function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
-      real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
-      real(wp), intent(in) :: width, length
-      real(wp) :: twist(6), part
-      integer :: k
-
-      rest = 0.0_wp
-      do k = 1, size(motion), 6
-         twist = motion(k:k + 5) - 0.5_wp*width*(tangent_a(k:k + 5) + tangent_b(k:k + 5))
-         part = body_motion(twist, length)
-         if (.not. part < huge(rest)) part = huge(rest)
-         rest = max(rest, part)
-      end do
-      if (rest <= nothing*smooth) then
-         rest = 0.0_wp
-      else if (rest < huge(rest)) then
-         rest = rest/max(largest_motion(motion, length), nothing)
-      end if
-   end function trapezoidal_rest
-
-   !> The same for the parabola through the state before a, a and b: the difference of its slope at b from the tangent there.
+   !> The error of the parabola through the state before a, a and b: the difference of its slope at b from the tangent there;
+   !> a share of the motion.
    !> Equation (K.15) of docs/theory/kkt.md.
    pure real(wp) function three_point_rest(self, nq, width, length) result(rest)
       type(branch_t), intent(in) :: self
@@ -398,17 +378,17 @@ contains
       is_bend = rest <= bent*largest
    end function is_bend
 
-   !> Whether the assembly of the joints changes in a predicted step that was not passed to `compare`, or may, as its end is singular.
-   logical function is_overturning(self, suspension, packed_a, demand_a, state_b, demand_b, kkt)
+   !> Whether the assembly of the joints changes, or may, as its end is singular, in a predicted step that was not compared.
+   logical function is_overturning(self, suspension, predictor, demand_a, state_b, demand_b, kkt)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      real(wp), contiguous, intent(in) :: packed_a(:)
+      type(predictor_t), intent(in) :: predictor             !! its newest state is a
       type(demand_t), intent(in) :: demand_a, demand_b
       type(state_t), intent(in) :: state_b
       type(kkt_t), intent(inout) :: kkt
       logical :: is_singular
 
-      call unpack_state(packed_a, self%before)
+      call unpack_state(predictor%packed(:, predictor%newest), self%before)
       call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, is_overturning, &
          is_singular)
       is_overturning = is_overturning .or. is_singular

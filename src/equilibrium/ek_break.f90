@@ -9,7 +9,9 @@ module ek_break
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, design_state
    use ek_kkt, only: kkt_t, assemble, whole_tangent
-   use ek_lapack, only: dgesvd, dsyev
+   use ek_diagnosis, only: scaled_parts
+   use ek_singular_values, only: singular_values_t, decompose
+   use ek_lapack, only: dsyev
    implicit none(type, external)
    private
    public :: break_t, why_it_ends, no_reason, lock, limit_point, mechanism
@@ -70,52 +72,34 @@ contains
       real(wp), intent(out) :: closing, stiffness
       real(wp), intent(out) :: left_vector(:)       !! one element per row; 0 for rows with a stiffness
       real(wp), intent(out) :: motion(:)            !! scaled unknowns
-      real(wp) :: tangent(kkt%nq, kkt%nq), gradient(kkt%nq)
-      real(wp), allocatable :: jacobian(:, :), left(:, :), right(:, :), singular(:), reduced(:, :), value(:), work(:)
+      type(singular_values_t) :: parts
+      real(wp), allocatable :: jacobian(:, :), tangent(:, :), free(:, :), reduced(:, :), value(:), work(:)
       integer, allocatable :: rows(:)
-      integer :: i, j, m, n, info
+      integer :: i, m, n, info
 
-      n = kkt%nq
-      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
-      m = size(rows)
-      allocate (jacobian(m, n), left(m, m), right(n, n), singular(max(1, min(m, n))), work(10*(m + n) + 40*n))
       call assemble(suspension, state, demand, whole_tangent, kkt)
-      do j = 1, n
-         do i = 1, n
-            tangent(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
-         end do
-         jacobian(:, j) = kkt%matrix(n + rows, j)*kkt%scale(n + rows)*kkt%scale(j)
-      end do
-      do i = 1, kkt%nc       ! a driver with a stiffness is a spring
-         if (.not. suspension%rows(i)%compliance > 0.0_wp) cycle
-         gradient = kkt%matrix(n + i, :n)*kkt%scale(:n)
-         do j = 1, n
-            tangent(:, j) = tangent(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
-         end do
-      end do
+      call scaled_parts(suspension, kkt, rows, jacobian, tangent)
+      call decompose(jacobian, 0.0_wp, parts, wants_null_space=.true.)
       left_vector = 0.0_wp
       motion = 0.0_wp
       closing = 1.0_wp
       stiffness = 1.0_wp
-      right = 0.0_wp
-      do j = 1, n
-         right(j, j) = 1.0_wp
-      end do
+      m = size(rows)
+      n = kkt%nq - m
+      if (.not. parts%is_found .or. n < 0) return
       if (m > 0) then
-         call dgesvd('A', 'A', m, n, jacobian, m, singular, left, m, right, n, work, size(work), info)
-         if (info /= 0 .or. m > n) return
-         closing = singular(m)
-         left_vector(rows) = left(:, m)
-         right = transpose(right)
+         closing = parts%values(m)
+         left_vector(rows) = parts%left(:, m)
       end if
-      if (m >= n) return
-      reduced = matmul(transpose(right(:, m + 1:)), matmul(tangent, right(:, m + 1:)))
-      allocate (value(n - m))
-      call dsyev('V', 'L', n - m, reduced, n - m, value, work, size(work), info)
+      if (n == 0) return
+      free = parts%right(:, m + 1:)
+      reduced = matmul(transpose(free), matmul(tangent, free))
+      allocate (value(n), work(40*n))
+      call dsyev('V', 'L', n, reduced, n, value, work, size(work), info)
       if (info /= 0) return
       i = minloc(abs(value), dim=1)
       stiffness = value(i)
-      motion = matmul(right(:, m + 1:), reduced(:, i))
+      motion = matmul(free, reduced(:, i))
    end subroutine examine
 
 end module ek_break

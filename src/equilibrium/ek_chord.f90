@@ -20,7 +20,7 @@ module ek_chord
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t
    use ek_tangent, only: tangent_t, find_tangent
-   use ek_dyads, only: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes
+   use ek_dyads, only: dyads_t, new_dyads, add_dyad, solve_columns, set_changes
    implicit none(type, external)
    private
    public :: chord_t, new_chord, straighten, look_along_chord
@@ -58,38 +58,21 @@ contains
       type(chord_t) :: self
       integer :: laws
 
-      laws = count_laws(suspension)
-      allocate (self%place(laws), self%bent_law(laws))
-      allocate (self%value(2, laws), self%force(2, laws), self%own(2, laws), self%slope(3, laws), self%change(laws), source=0.0_wp)
-      self%bent_law = 0
-      if (laws == 0) return
-      self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
       call find_places(suspension, self%place)
+      laws = size(self%place)
+      allocate (self%bent_law(laws), source=0)
+      allocate (self%value(2, laws), self%force(2, laws), self%own(2, laws), self%slope(3, laws), self%change(laws), source=0.0_wp)
+      if (laws > 0) self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
    end function new_chord
 
-   !> The number of laws: of elements of one measure, and of components of bushings.
-   pure integer function count_laws(suspension) result(laws)
-      type(suspension_t), intent(in) :: suspension
-      integer :: k
-
-      laws = 0
-      do k = 1, size(suspension%elements)
-         associate (element => suspension%elements(k))
-            if (element%kind /= bushing_element) then
-               if (element%has_law) laws = laws + 1
-            else if (element%bushing%has_curves) then
-               laws = laws + count(element%bushing%laws%has_curve)
-            end if
-         end associate
-      end do
-   end function count_laws
-
-   !> Their elements and measures: a component of a bushing acts along an axis of its marker, or about it.
+   !> The laws of elements of one measure and of components of bushings; a component of a bushing acts along an axis of its
+   !> marker, or about it.
    pure subroutine find_places(suspension, place)
       type(suspension_t), intent(in) :: suspension
-      type(place_t), intent(out) :: place(:)
+      type(place_t), allocatable, intent(out) :: place(:)
       integer :: k, component, law
 
+      allocate (place(6*size(suspension%elements)))
       law = 0
       do k = 1, size(suspension%elements)
          associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
@@ -111,6 +94,7 @@ contains
             end do
          end associate
       end do
+      place = place(:law)
    end subroutine find_places
 
    !> Replaces every law by its chord between two states; `is_bent`: the slope of one changes between them.
@@ -176,7 +160,7 @@ contains
       type(view_t) :: view
       integer :: k, slope
 
-      call clear(self%dyads)
+      self%dyads%number = 0
       do k = 1, self%bends
          associate (measure => self%place(self%bent_law(k))%measure)
             call look(measure, state%poses(measure%body_i + 1), state%poses(measure%body_j + 1), view)

@@ -24,13 +24,13 @@ module ek_confirm
 
 contains
 
-   !> Checks states first, first + direction, …, last, and rejects those that are not on the path.
-   subroutine confirm(suspension, schedule, place, packed, first, last, direction, least, kkt, is_reached, failure)
+   !> Checks the states from first to last, outward from design, and rejects those that are not on the path.
+   subroutine confirm(suspension, schedule, place, packed, first, last, least, kkt, is_reached, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: place(:)               !! of each state
       real(wp), intent(in) :: packed(:, :)           !! (coordinate, state)
-      integer, intent(in) :: first, last, direction
+      integer, intent(in) :: first, last
       real(wp), intent(in) :: least                  !! shortest step [place]
       type(kkt_t), intent(inout) :: kkt
       logical, intent(inout) :: is_reached(:)
@@ -43,8 +43,9 @@ contains
       type(failure_t) :: lost
       real(wp) :: motion(kkt%nq)
       real(wp), allocatable :: settled(:)
-      integer :: k, sure, stride, iterations, end
+      integer :: k, sure, stride, iterations, end, direction
 
+      direction = sign(1, last - first)
       end = first - direction
       do k = first, last, direction
          if (.not. is_reached(k)) exit

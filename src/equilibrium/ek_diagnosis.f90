@@ -27,7 +27,7 @@ module ek_diagnosis
    use ek_lapack, only: dsyev
    implicit none(type, external)
    private
-   public :: diagnosis_t, diagnose, softest_rate
+   public :: diagnosis_t, diagnose, softest_rate, scaled_parts
    public :: rank_tolerance, no_stiffness, rounding
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
@@ -86,19 +86,12 @@ contains
       logical, intent(in), optional :: wants_preload_held    !! also search motions held by preload only
       type(singular_values_t) :: parts
       real(wp), allocatable :: jacobian(:, :), tangent(:, :), material(:, :)
-      integer, allocatable :: rows(:)      ! the rigid rows: those without compliance
-      integer :: i, j
+      integer, allocatable :: rows(:)
 
-      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
-      allocate (jacobian(size(rows), kkt%nq), tangent(kkt%nq, kkt%nq))
       call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
       diagnosis%negative = kkt%negative
       call assemble(suspension, state, demand_t(), whole_tangent, kkt)
-      call scaled_stiffness(suspension, kkt, tangent)
-      do j = 1, kkt%nq
-         jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
-      end do
-
+      call scaled_parts(suspension, kkt, rows, jacobian, tangent)
       call decompose(jacobian, rank_tolerance, parts, wants_null_space=.true.)
       diagnosis%unknowns = kkt%nq
       diagnosis%constraints = size(rows)
@@ -113,21 +106,24 @@ contains
          diagnosis)
       if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
       if (.not. wants_preload_held) return
-      allocate (material, mold=tangent)
       call assemble(suspension, state, demand_t(), material_only, kkt)
-      call scaled_stiffness(suspension, kkt, material)
+      call scaled_parts(suspension, kkt, rows, jacobian, material)
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
 
-   !> The full scaled stiffness matrix of the last assembled system.
-   subroutine scaled_stiffness(suspension, kkt, stiffness)
+   !> The rigid rows (those without compliance), their scaled Φq, and the full scaled stiffness, of the last assembled system.
+   subroutine scaled_parts(suspension, kkt, rows, jacobian, stiffness)
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
-      real(wp), intent(out) :: stiffness(:, :)
+      integer, allocatable, intent(out) :: rows(:)
+      real(wp), allocatable, intent(out) :: jacobian(:, :), stiffness(:, :)
       real(wp) :: gradient(kkt%nq)
       integer :: i, j
 
+      rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
+      allocate (jacobian(size(rows), kkt%nq), stiffness(kkt%nq, kkt%nq))
       do j = 1, kkt%nq
+         jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
          do i = 1, kkt%nq
             stiffness(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
          end do
@@ -139,7 +135,7 @@ contains
             stiffness(:, j) = stiffness(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
          end do
       end do
-   end subroutine scaled_stiffness
+   end subroutine scaled_parts
 
    !> Names the joints of each left null vector of Φq.
    subroutine name_redundancies(suspension, basis, rows, diagnosis)
@@ -220,8 +216,9 @@ contains
       type(diagnosis_t), intent(inout) :: diagnosis
       real(wp) :: motions(size(basis, 1), size(basis, 2)), eigenvalue(size(basis, 2)), noise(size(basis, 2))
       real(wp), allocatable :: free(:, :)
+      character(:), allocatable :: text
       logical :: is_free(size(basis, 2)), is_found
-      integer :: k
+      integer :: k, others
 
       call modes(tangent, basis, softest_rate(suspension, kkt), motions, eigenvalue, noise, is_found)
       if (.not. is_found) call diagnosis%failures%add(failed)
@@ -238,12 +235,12 @@ contains
             motion_words(suspension, state, kkt, motions(:, k)))
       end do
       k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest motion with a stiffness
-      if (k > 0) then
-         if (eigenvalue(k) < soft_stiffness) call diagnosis%warnings%add('very soft ('//str(eigenvalue(k), 2)// &
-            ' of the characteristic stiffness'//softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '// &
-            motion_words(suspension, state, kkt, motions(:, k))//others(count(eigenvalue > noise .and. &
-            eigenvalue < soft_stiffness) - 1))
-      end if
+      others = count(eigenvalue > noise .and. eigenvalue < soft_stiffness) - 1
+      if (others < 0) return
+      text = 'very soft ('//str(eigenvalue(k), 2)//' of the characteristic stiffness'// &
+         softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '//motion_words(suspension, state, kkt, motions(:, k))
+      if (others > 0) text = text//'; and '//plural(others, 'motion', 'motions')//' more'
+      call diagnosis%warnings%add(text)
    end subroutine name_mechanisms
 
    !> Lists the motions without material stiffness that are held by preloads.
@@ -366,14 +363,6 @@ contains
          text = ', '//str(maxval(kt)/stiffness, 2)//' times softer than '//element_label(element)//place(element%where)
       end associate
    end function softer_than
-
-   !> '; and 3 motions more'
-   pure function others(count) result(text)
-      integer, intent(in) :: count
-      character(:), allocatable :: text
-      text = ''
-      if (count > 0) text = '; and '//plural(count, 'motion', 'motions')//' more'
-   end function others
 
    !> Gauss–Jordan elimination with column pivoting: the same space, spanned by vectors with few nonzero parts, so
    !> that two independent defects are reported separately.

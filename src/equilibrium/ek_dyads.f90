@@ -12,16 +12,16 @@
 !> new_dyads.
 module ek_dyads
    use ek_kinds, only: wp
+   use ek_block, only: add_gradient
    use ek_kkt, only: kkt_t, solve, count_inertia
-   use ek_lapack, only: dsytrf
-   use ek_substitution, only: substitute
+   use ek_substitution, only: factorise_indefinite, substitute
    implicit none(type, external)
    private
-   public :: dyads_t, new_dyads, clear, add_dyad, solve_columns, set_changes, correct, resist
+   public :: dyads_t, new_dyads, add_dyad, solve_columns, set_changes, correct, resist
 
    !> Gradients, N⁻¹ g, and the small matrix.
    type :: dyads_t
-      integer :: number = 0                 !! of the dyads
+      integer :: number = 0                 !! of the dyads; 0 removes them
       integer :: negative = -1              !! negative eigenvalues of N'; −1: N' is singular
       integer, allocatable :: at(:, :)      !! (2, dyad): unknowns before each of the two bodies; negative: the chassis
       real(wp), allocatable :: gradient(:, :)    !! (12, dyad): g
@@ -30,7 +30,7 @@ module ek_dyads
       real(wp), allocatable :: change(:)    !! s
       real(wp), allocatable :: root(:)      !! √|s|
       real(wp), allocatable :: small(:)     !! W by columns, then its factors
-      real(wp), allocatable :: part(:), work(:)
+      real(wp), allocatable :: part(:)
       integer, allocatable :: pivots(:)
    end type dyads_t
 
@@ -44,14 +44,8 @@ contains
 
       allocate (self%at(2, most), self%pivots(most), source=0)
       allocate (self%gradient(12, most), self%column(n, most), self%product(most, most), source=0.0_wp)
-      allocate (self%change(most), self%root(most), self%small(most**2), self%part(most), self%work(64*max(most, 1)), source=0.0_wp)
+      allocate (self%change(most), self%root(most), self%small(most**2), self%part(most), source=0.0_wp)
    end function new_dyads
-
-   !> Removes all dyads.
-   pure subroutine clear(self)
-      type(dyads_t), intent(inout) :: self
-      self%number = 0
-   end subroutine clear
 
    !> Adds a dyad: the gradient of a measure of two bodies.
    pure subroutine add_dyad(self, body_i, body_j, gradient)
@@ -68,14 +62,11 @@ contains
    pure subroutine solve_columns(self, kkt)
       type(dyads_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt
-      integer :: j, k, at
+      integer :: j, k
 
       do k = 1, self%number
          kkt%rhs = 0.0_wp
-         at = self%at(1, k)
-         if (at >= 0) kkt%rhs(at + 1:at + 6) = self%gradient(1:6, k)
-         at = self%at(2, k)
-         if (at >= 0) kkt%rhs(at + 1:at + 6) = kkt%rhs(at + 1:at + 6) + self%gradient(7:12, k)
+         call add_gradient(1.0_wp, self%gradient(:, k), self%at(1, k), self%at(2, k), kkt%rhs)
          call solve(kkt)
          self%column(:, k) = kkt%rhs
          do j = 1, k
@@ -92,7 +83,8 @@ contains
       real(wp), intent(in) :: change(:)           !! s of each dyad
       integer, intent(in) :: negative             !! negative eigenvalues of N
       real(wp) :: ratio, log_determinant
-      integer :: k, n, info
+      integer :: k, n
+      logical :: is_singular
 
       n = self%number
       self%change(:n) = change(:n)
@@ -101,11 +93,11 @@ contains
          self%small((k - 1)*n + 1:k*n) = -self%root(:n)*self%product(:n, k)*self%root(k)
          self%small((k - 1)*n + k) = self%small((k - 1)*n + k) - sign(1.0_wp, change(k))
       end do
-      call dsytrf('L', n, self%small, max(n, 1), self%pivots, self%work, size(self%work), info)
+      call factorise_indefinite(n, self%small, self%pivots, is_singular)
       call count_inertia(n, self%small, self%pivots, self%negative, ratio, log_determinant)
       ! sign(1, +0) = 1: a dyad without a change counts in both and drops out
       self%negative = self%negative + negative - count(sign(1.0_wp, change(:n)) > 0.0_wp)
-      if (n > 0 .and. (info /= 0 .or. .not. ratio > 0.0_wp)) self%negative = -1
+      if (n > 0 .and. (is_singular .or. .not. ratio > 0.0_wp)) self%negative = -1
    end subroutine set_changes
 
    !> N⁻¹ x → N'⁻¹ x; N' must not be singular.
@@ -129,15 +121,10 @@ contains
       type(dyads_t), intent(in) :: self
       real(wp), intent(in) :: x(:)
       real(wp), intent(inout) :: rhs(:)
-      real(wp) :: pull
-      integer :: k, at
+      integer :: k
 
       do k = 1, self%number
-         pull = self%change(k)*along(self, k, x)
-         at = self%at(1, k)
-         if (at >= 0) rhs(at + 1:at + 6) = rhs(at + 1:at + 6) - pull*self%gradient(1:6, k)
-         at = self%at(2, k)
-         if (at >= 0) rhs(at + 1:at + 6) = rhs(at + 1:at + 6) - pull*self%gradient(7:12, k)
+         call add_gradient(-self%change(k)*along(self, k, x), self%gradient(:, k), self%at(1, k), self%at(2, k), rhs)
       end do
    end subroutine resist
 

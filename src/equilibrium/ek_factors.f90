@@ -6,7 +6,7 @@ module ek_factors
    use ek_kkt, only: kkt_t, nothing
    implicit none(type, external)
    private
-   public :: factors_t, new_factors, mark, forget, keep, exchange
+   public :: factors_t, new_factors, mark, keep, exchange
 
    !> Factors, and whose they are.
    type :: factors_t
@@ -32,19 +32,11 @@ contains
    !> The state has changed: its factors have this number, and are still in kkt_t.
    pure subroutine mark(self, serial)
       type(factors_t), intent(inout) :: self
-      integer, intent(in) :: serial         !! kkt%factorisations after them
+      integer, intent(in) :: serial         !! kkt%factorisations after them; −1: they are not known
 
       self%serial = serial
       self%is_kept = .false.
    end subroutine mark
-
-   !> The state has changed, and its factors are not known.
-   pure subroutine forget(self)
-      type(factors_t), intent(inout) :: self
-
-      self%serial = -1
-      self%is_kept = .false.
-   end subroutine forget
 
    !> Keeps the factors of the state, if they are those in kkt_t.
    pure subroutine keep(self, kkt)

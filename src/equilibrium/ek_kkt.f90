@@ -1,4 +1,4 @@
-!> The dense linear system of an increment: assembly, and factorisation by LAPACK.
+!> The linear system of an increment: assembly, and factorisation.
 !>
 !>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
 !>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           one step of Newton's method for f_ext = f_el + Φqᵀλ, Φ = c
@@ -15,15 +15,15 @@ module ek_kkt
    use ek_contract, only: are_checked, require
    use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
-   use ek_block, only: add_diagonal_block, add_block, s_matrix, rotated
+   use ek_block, only: add_diagonal_block, add_block, add_gradient, s_matrix, rotated
    use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
    use ek_scale, only: characteristic, scale_factors
-   use ek_lapack, only: dsytrf, dsycon
-   use ek_substitution, only: substitute
+   use ek_lapack, only: dsycon
+   use ek_substitution, only: factorise_indefinite, substitute
    implicit none(type, external)
    private
    public :: kkt_t, new_kkt, assemble, assemble_rate, factorise, solve, condition, wrench, load_factor, count_inertia
@@ -70,7 +70,7 @@ contains
       allocate (kkt%matrix(kkt%n, kkt%n), kkt%rhs(kkt%n), kkt%scale(kkt%n), kkt%values(kkt%nc), source=0.0_wp)
       allocate (kkt%gradients(12, size(suspension%terms)), kkt%imbalance(kkt%nq), source=0.0_wp)
       allocate (kkt%pivots(kkt%n), kkt%iwork(kkt%n), source=0)
-      allocate (kkt%work(64*max(kkt%n, 1)), source=0.0_wp)   ! 64 is LAPACK's block size of dsytrf
+      allocate (kkt%work(2*kkt%n), source=0.0_wp)
       call characteristic(suspension, kkt%length, kkt%stiffness)
       call scale_factors(suspension, kkt%length, kkt%stiffness, kkt%scale)
    end function new_kkt
@@ -133,7 +133,7 @@ contains
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
       type(view_t) :: view
       type(element_view_t) :: element_view
-      real(wp) :: pull(12), value, force(3), moment(3), arm(3), block(3, 3)
+      real(wp) :: value, force(3), moment(3), arm(3), block(3, 3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
@@ -175,7 +175,7 @@ contains
             at_i = 6*(i - 1)
             at_j = 6*(j - 1)
             call look_element(element, poses(i), poses(j), element_view)
-            call resist(element_view%pull, at_i, at_j, rhs)
+            call add_gradient(-1.0_wp, element_view%pull, at_i, at_j, rhs)     ! the force ON the bodies is −dV/dz
             if (mode == whole_tangent) then
                call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
             else if (mode == material_only) then
@@ -195,8 +195,7 @@ contains
                call look(term%measure, poses(i), poses(j), view)
                value = value + term%coefficient*view%value
                gradients(:, t) = term%coefficient*view%gradient
-               pull = reaction(k)*gradients(:, t)
-               call resist(pull, at_i, at_j, rhs)
+               call add_gradient(-reaction(k), gradients(:, t), at_i, at_j, rhs)
                if (mode /= residual_only) then
                   if (i > 0) matrix(nq + k, at_i + 1:at_i + 6) = matrix(nq + k, at_i + 1:at_i + 6) + gradients(1:6, t)
                   if (j > 0) matrix(nq + k, at_j + 1:at_j + 6) = matrix(nq + k, at_j + 1:at_j + 6) + gradients(7:12, t)
@@ -262,30 +261,20 @@ contains
       end do
    end function load_factor
 
-   !> Subtracts a generalised force dV/dz from the right-hand side: the force ON the bodies is −dV/dz.
-   pure subroutine resist(pull, at_i, at_j, rhs)
-      real(wp), intent(in) :: pull(12)
-      integer, intent(in) :: at_i, at_j        !! negative: the chassis
-      real(wp), intent(inout) :: rhs(*)
-      if (at_i >= 0) rhs(at_i + 1:at_i + 6) = rhs(at_i + 1:at_i + 6) - pull(1:6)
-      if (at_j >= 0) rhs(at_j + 1:at_j + 6) = rhs(at_j + 1:at_j + 6) - pull(7:12)
-   end subroutine resist
-
-   !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
+   !> Scales the matrix and factorises it (Bunch–Kaufman); sets the inertia.
    !>
    !> A zero pivot sets is_singular; the caller obtains its cause from the diagnosis.
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
-      integer :: info
 
       if (are_checked) call require(kkt%stage == assembled, 'factorise: no matrix was assembled')
       kkt%stage = factors
       kkt%factorisations = kkt%factorisations + 1
       call scale_lower(kkt%n, kkt%scale, kkt%matrix)
-      call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
+      call factorise_indefinite(kkt%n, kkt%matrix, kkt%pivots, kkt%is_singular)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)
-      kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
+      kkt%is_singular = kkt%is_singular .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
 
    !> Scales the lower triangle: D S D.

@@ -4,6 +4,7 @@
 !> its determinant is proportional to the square of that of Φq. No memory is allocated after new_orientation.
 module ek_orientation
    use ek_kinds, only: wp
+   use ek_block, only: add_gradient
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t, assemble, residual_only
@@ -119,17 +120,16 @@ contains
       type(orientation_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(in) :: kkt
-      real(wp), intent(inout) :: rows(:, :)      !! (unknown, row)
-      integer :: k, t, i, j
+      real(wp), contiguous, intent(inout) :: rows(:, :)      !! (unknown, row)
+      integer :: k, t
 
       rows = 0.0_wp
       do k = 1, size(self%held)
          associate (row => suspension%rows(self%held(k)))
             do t = row%first, row%first + row%terms - 1
-               i = 6*(suspension%terms(t)%measure%body_i - 1)
-               j = 6*(suspension%terms(t)%measure%body_j - 1)
-               if (i >= 0) rows(i + 1:i + 6, k) = rows(i + 1:i + 6, k) + kkt%gradients(1:6, t)
-               if (j >= 0) rows(j + 1:j + 6, k) = rows(j + 1:j + 6, k) + kkt%gradients(7:12, t)
+               associate (m => suspension%terms(t)%measure)
+                  call add_gradient(1.0_wp, kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), rows(:, k))
+               end associate
             end do
          end associate
          rows(:, k) = rows(:, k)*(kkt%scale(kkt%nq + self%held(k))*kkt%scale(:kkt%nq))

@@ -11,8 +11,7 @@ module ek_path
    use ek_schedule, only: schedule_t, new_schedule, demand_at
    use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
-   use ek_recursion, only: carry_t, start_recursion, recursive_increment, corrected_increment, &
-      check_increment
+   use ek_recursion, only: start_recursion, recursive_increment, corrected_increment, check_increment
    use ek_branch, only: branch_t, new_branch, leave, note_crossing, most_crossings
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
@@ -54,9 +53,25 @@ module ek_path
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
+   !> The state that a walk has come to, and what the next increment needs.
+   type :: walk_t
+      type(state_t) :: state
+      real(wp) :: here = 0.0_wp        !! value of the path coordinate, and inputs; of the linear methods
+      type(demand_t) :: demand
+      type(schedule_t) :: schedule
+      real(wp), allocatable :: held(:)     !! of the recursion
+      type(predictor_t) :: predictor
+      type(branch_t) :: branch
+      type(arc_t) :: arc
+      logical :: is_along_arc = .false.
+      integer :: negative = -1         !! negative eigenvalues of N under the constant loads; −1: not known
+      integer :: done = 0              !! states stored
+   end type walk_t
+
 contains
 
-   !> Sweeps a case; failures are returned in path%failure and never stop the program.
+   !> Sweeps a case; failures are returned in path%failure and never stop the program. States of a linear method that are not
+   !> on the path from design are rejected.
    subroutine sweep(suspension, case, path, kkt, progress)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -64,41 +79,18 @@ contains
       type(kkt_t), intent(inout) :: kkt                        !! of new_kkt
       procedure(progress_procedure), optional :: progress
 
+      integer, allocatable :: ends(:, :)
+      integer :: w
+
       call new_path(suspension, case, path)
       call walk(suspension, case, path, kkt, progress)
-      if (case%method /= 'equilibrium') call confirm_path(suspension, case, path, kkt)
+      if (case%method == 'equilibrium' .or. path%is_table) return      ! the rows of a table do not form one path
+      ends = ways(path)
+      do w = 1, size(ends, 2)
+         call confirm(suspension, new_schedule(suspension, case), path%value, path%packed, ends(1, w), ends(2, w), &
+            least_step*span(path), kkt, path%is_reached, path%failure(w))
+      end do
    end subroutine sweep
-
-   !> Rejects states of a linear method that are not on the path from design.
-   subroutine confirm_path(suspension, case, path, kkt)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(inout) :: path
-      type(kkt_t), intent(inout) :: kkt
-      real(wp) :: least
-
-      least = least_step*span(path)
-      if (path%is_table) return        ! its rows do not form one path
-      if (path%start > 0) then
-         call one_way(path%start, path%states, 1, path%failure(1))
-         call one_way(path%start, 1, -1, path%failure(2))
-      else if (abs(path%value(1)) < abs(path%value(path%states))) then
-         call one_way(1, path%states, 1, path%failure(1))
-      else
-         call one_way(path%states, 1, -1, path%failure(1))
-      end if
-
-   contains
-
-      subroutine one_way(first, last, direction, failure)
-         integer, intent(in) :: first, last, direction
-         type(failure_t), intent(inout) :: failure
-
-         call confirm(suspension, new_schedule(suspension, case), path%value, path%packed, first, last, direction, least, &
-            kkt, path%is_reached, failure)
-      end subroutine one_way
-
-   end subroutine confirm_path
 
    !> Sets the places of all states and allocates storage for them.
    !>
@@ -140,6 +132,18 @@ contains
       if (path%start == 0) path%value(n + 1) = case%to      ! not just nearly, as from + (to − from) is
    end subroutine new_path
 
+   !> The one or two ways of a sweep, outward from design: (first or last state, way).
+   pure function ways(path) result(ends)
+      type(path_t), intent(in) :: path
+      integer, allocatable :: ends(:, :)
+
+      if (path%start > 0) then
+         ends = reshape([path%start, path%states, path%start, 1], [2, 2])
+      else
+         ends = reshape(merge([1, path%states], [path%states, 1], abs(path%value(1)) < abs(path%value(path%states))), [2, 1])
+      end if
+   end function ways
+
    !> Follows the whole path of new_path.
    subroutine walk(suspension, case, path, kkt, progress)
       type(suspension_t), intent(in) :: suspension
@@ -147,163 +151,168 @@ contains
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
-      type(state_t) :: state
-      type(carry_t) :: carry
-      type(predictor_t) :: predictor
-      type(branch_t) :: branch
-      type(schedule_t) :: schedule
-      type(arc_t) :: arc
-      type(demand_t) :: demand
-      logical :: is_along_arc
-      real(wp) :: here                   ! the place of `state`
-      integer :: done, settled_negative
+      type(walk_t) :: self
+      integer, allocatable :: ends(:, :)
+      integer :: w
 
-      schedule = new_schedule(suspension, case)
-      here = 0.0_wp
-      call demand_at(schedule, here, demand)
-      predictor = new_predictor(size(path%settled))
-      branch = new_branch(suspension)
-      is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
-      if (is_along_arc) arc = new_arc(suspension, kkt%length, maxval(abs(path%value)), case%tolerance)
-      path%limits = 0
-      branch%least = least_step*span(path)
-      branch%width = crossing_step*span(path)
-      settled_negative = -1
-      state = design_state(suspension)
-      path%failure = failure_t()
-      path%is_reached = .false.
-      if (case%method == 'recursive') then
-         call start_recursion(suspension, state, kkt, carry)
-      else
-         call settle(suspension, case%tolerance, state, kkt, path%failure(1))
-         if (path%failure(1)%state > 0) return
-         settled_negative = kkt%negative
-      end if
-      call pack_state(state, path%settled)
-      path%is_settled = .true.
-      done = 0
+      call start(self, suspension, case, path, kkt)
+      if (.not. path%is_settled) return
       if (path%is_table) then
-         call walk_rows(path%failure(1))
-      else if (path%start > 0) then
-         call keep(path%start)
-         call walk_branch(path%start, path%states, 1, path%failure(1))
-         call walk_branch(path%start, 1, -1, path%failure(2))
-      else if (abs(path%value(1)) < abs(path%value(path%states))) then
-         call approach(1)
-         if (path%failure(1)%state == 0) call walk_branch(1, path%states, 1, path%failure(1))
+         call walk_rows()
       else
-         call approach(path%states)
-         if (path%failure(1)%state == 0) call walk_branch(path%states, 1, -1, path%failure(1))
+         if (path%start > 0) call keep(self, suspension, case, path%start, path, kkt, progress)
+         ends = ways(path)
+         do w = 1, size(ends, 2)
+            if (self%is_along_arc) then
+               call walk_arc(self, suspension, case, ends(1, w), ends(2, w), path, kkt, path%failure(w), progress)
+            else
+               call walk_way(ends(1, w), ends(2, w), path%failure(w))
+            end if
+         end do
       end if
-      path%crossings = branch%crossings
-      path%crossing_place = branch%crossing_place
+      path%crossings = self%branch%crossings
+      path%crossing_place = self%branch%crossing_place
 
    contains
 
-      !> Stores the current state as state k.
-      subroutine keep(k)
-         integer, intent(in) :: k
-         real(wp), parameter :: suspect = 1.0e-12_wp
-         real(wp) :: rcond
-
-         call pack_state(state, path%packed(:, k))
-         path%is_reached(k) = .true.
-         path%is_stable(k) = kkt%negative == kkt%nc
-         path%pivot_ratio(k) = kkt%pivot_ratio
-         if (kkt%pivot_ratio < suspect .and. case%method /= 'recursive') then
-            ! a small pivot may be one of a well-conditioned matrix
-            call condition(suspension, state, demand, kkt, rcond)
-            path%pivot_ratio(k) = max(path%pivot_ratio(k), rcond)
-         end if
-         done = done + 1
-         if (present(progress)) then
-            if (mod(done, 1000) == 0) call progress(done, path%states)
-         end if
-      end subroutine keep
-
-      !> Goes from design to the nearer end of a range that excludes design, in increments of the same size.
-      subroutine approach(k)
-         integer, intent(in) :: k
-         integer :: step, steps
-         real(wp) :: size_of_one
-
-         if (is_along_arc) return      ! walk_arc starts at design
-         size_of_one = abs(path%value(2) - path%value(1))
-         steps = max(1, nint(abs(path%value(k))/size_of_one))
-         call restart()
-         do step = 1, steps
-            call advance(path%value(k)*real(step, wp)/steps, k, path%failure(1))
-            if (path%failure(1)%state > 0) return
-         end do
-         call keep(k)
-      end subroutine approach
-
-      !> Goes from row to row of a table, and from design again after a row that did not converge; `lost` is the first of those.
-      subroutine walk_rows(lost)
-         type(failure_t), intent(inout) :: lost
+      !> Goes from row to row of a table, and from design again after a row that did not converge.
+      subroutine walk_rows()
          type(failure_t) :: failure
          integer :: k
 
-         call restart()
+         call restart(self, suspension, case, path, kkt)
          do k = 1, path%states
             failure = failure_t()
-            call advance(path%value(k), k, failure)
+            call advance(self, suspension, case, path%value(k), k, path, kkt, failure)
             if (failure%state == 0) then
-               call keep(k)
+               call keep(self, suspension, case, k, path, kkt, progress)
                cycle
             end if
-            if (lost%state == 0) lost = failure
-            branch%least = least_of_row
-            schedule%rest = nint(path%value(k))
-            call restart()
+            if (path%failure(1)%state == 0) path%failure(1) = failure
+            self%branch%least = least_of_row
+            self%schedule%rest = nint(path%value(k))
+            call restart(self, suspension, case, path, kkt)
          end do
       end subroutine walk_rows
 
-      !> Goes from state `first` (known) to state `last`.
-      subroutine walk_branch(first, last, direction, failure)
-         integer, intent(in) :: first, last, direction
+      !> Goes from state `first` to state `last`, and to the first from design, in increments of the same size, unless it is that.
+      subroutine walk_way(first, last, failure)
+         integer, intent(in) :: first, last
          type(failure_t), intent(inout) :: failure
-         integer :: k
+         integer :: k, steps, direction
 
-         if (is_along_arc) call walk_arc(first, last, direction, failure)
-         if (is_along_arc) return
+         direction = sign(1, last - first)
+         call restart(self, suspension, case, path, kkt)
          if (first == path%start) then
-            call restart()
-            call seed(first, -direction)
+            call seed(self%predictor, path, first, -direction)
+         else
+            steps = max(1, nint(abs(path%value(first))/abs(path%value(2) - path%value(1))))
+            do k = 1, steps
+               call advance(self, suspension, case, path%value(first)*real(k, wp)/steps, first, path, kkt, failure)
+               if (failure%state > 0) return
+            end do
+            call keep(self, suspension, case, first, path, kkt, progress)
          end if
          do k = first + direction, last, direction
-            call advance(path%value(k), k, failure)
+            call advance(self, suspension, case, path%value(k), k, path, kkt, failure)
             if (failure%state > 0) return
-            call keep(k)
+            call keep(self, suspension, case, k, path, kkt, progress)
          end do
-      end subroutine walk_branch
+      end subroutine walk_way
 
-      !> States `first` to `last` at equal distances along the path; the last is omitted if the path does not reach it.
-      subroutine walk_arc(first, last, direction, failure)
-         integer, intent(in) :: first, last, direction
-         type(failure_t), intent(inout) :: failure
-         type(survey_t) :: found
-         integer :: k, spent
-         logical :: is_found
+   end subroutine walk
 
-         if (first == last) return
-         call survey(arc, suspension, schedule, path%settled, path%value(first), path%value(last), kkt, found)
+   !> Allocates the work space and goes to equilibrium under the constant loads; path%is_settled: it was found.
+   subroutine start(self, suspension, case, path, kkt)
+      type(walk_t), intent(out) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+
+      self%schedule = new_schedule(suspension, case)
+      self%predictor = new_predictor(size(path%settled))
+      self%branch = new_branch(suspension)
+      self%is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
+      if (self%is_along_arc) self%arc = new_arc(suspension, self%schedule, kkt%length, maxval(abs(path%value)), case%tolerance)
+      self%branch%least = least_step*span(path)
+      self%branch%width = crossing_step*span(path)
+      self%state = design_state(suspension)
+      path%limits = 0
+      path%failure = failure_t()
+      path%is_reached = .false.
+      if (case%method == 'recursive') then
+         call start_recursion(suspension, self%state, kkt, self%held)
+      else
+         call settle(suspension, case%tolerance, self%state, kkt, path%failure(1))
+         self%negative = kkt%negative
+      end if
+      path%is_settled = path%failure(1)%state == 0
+      if (path%is_settled) call pack_state(self%state, path%settled)
+   end subroutine start
+
+   !> Stores the current state as state k.
+   subroutine keep(self, suspension, case, k, path, kkt, progress)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: k
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      procedure(progress_procedure), optional :: progress
+      real(wp), parameter :: suspect = 1.0e-12_wp
+      real(wp) :: rcond
+
+      call pack_state(self%state, path%packed(:, k))
+      path%is_reached(k) = .true.
+      path%is_stable(k) = kkt%negative == kkt%nc
+      path%pivot_ratio(k) = kkt%pivot_ratio
+      if (kkt%pivot_ratio < suspect .and. case%method /= 'recursive') then
+         ! a small pivot may be one of a well-conditioned matrix
+         call demand_at(self%schedule, path%value(k), self%demand)
+         call condition(suspension, self%state, self%demand, kkt, rcond)
+         path%pivot_ratio(k) = max(path%pivot_ratio(k), rcond)
+      end if
+      self%done = self%done + 1
+      if (present(progress)) then
+         if (mod(self%done, 1000) == 0) call progress(self%done, path%states)
+      end if
+   end subroutine keep
+
+   !> States `first` to `last` at equal distances along the path; the last is omitted if the path does not reach it.
+   subroutine walk_arc(self, suspension, case, first, last, path, kkt, failure, progress)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      integer, intent(in) :: first, last
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      type(failure_t), intent(inout) :: failure
+      procedure(progress_procedure), optional :: progress
+      type(survey_t) :: found
+      integer :: k, spent, direction
+      logical :: is_found
+
+      if (first == last) return
+      direction = sign(1, last - first)
+      associate (arc => self%arc)
+         call survey(arc, suspension, path%settled, path%value(first), path%value(last), kkt, found)
          call tell_limits(found, first, last, path%limits, path%limit_place, path%limit_state)
          do k = 1, found%crossings
-            call note_crossing(branch, found%crossing_place(k))
+            call note_crossing(self%branch, found%crossing_place(k))
          end do
-         call begin(arc, suspension, schedule, path%settled, 0.0_wp, path%value(last) > 0.0_wp, kkt, is_found)
+         call begin(arc, suspension, path%settled, 0.0_wp, path%value(last) > 0.0_wp, kkt, is_found)
          do k = first, last, direction
             if (k == path%start) cycle
             if (.not. is_found .or. (k == last .and. found%ending /= arrived)) exit
             spent = arc%factorisations
-            call go_to(arc, suspension, schedule, length_at(found, k, first, last), kkt, is_found)
+            call go_to(arc, suspension, length_at(found, k, first, last), kkt, is_found)
             if (.not. is_found) exit
-            state%poses(:) = arc%state%poses
-            state%reaction(:) = arc%state%reaction
+            self%state%poses(:) = arc%state%poses
+            self%state%reaction(:) = arc%state%reaction
             if (k /= first .and. k /= last) path%value(k) = arc%place     ! the ends are exact
             path%iterations(k) = arc%factorisations - spent + 1
-            call keep(k)
+            call keep(self, suspension, case, k, path, kkt, progress)
          end do
          if (k == last + direction) return
          failure%state = k
@@ -311,63 +320,74 @@ contains
          failure%value = found%last_place
          failure%reached = found%last_place
          failure%last = arc%packed_a
-      end subroutine walk_arc
+      end associate
+   end subroutine walk_arc
 
-      !> Returns to the settled state, where all inputs are zero.
-      subroutine restart()
-         call unpack_state(path%settled, state)
-         here = schedule%rest
-         call demand_at(schedule, here, demand)
-         if (case%method == 'recursive') call start_recursion(suspension, state, kkt, carry)
-         call forget(predictor)
-         call remember(predictor, here, path%settled)
-         call leave(branch, settled_negative)
-      end subroutine restart
+   !> Returns to the settled state, where all inputs are zero.
+   subroutine restart(self, suspension, case, path, kkt)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt
 
-      !> Uses the states of the other direction to predict the first states of this one.
-      subroutine seed(first, direction)
-         integer, intent(in) :: first, direction
-         integer :: k, last
+      call unpack_state(path%settled, self%state)
+      self%here = self%schedule%rest
+      call demand_at(self%schedule, self%here, self%demand)
+      if (case%method == 'recursive') call start_recursion(suspension, self%state, kkt, self%held)
+      call forget(self%predictor)
+      call remember(self%predictor, self%here, path%settled)
+      call leave(self%branch, self%negative)
+   end subroutine restart
 
-         call forget(predictor)
-         last = first
-         do k = 1, depth - 1
-            if (first + k*direction < 1 .or. first + k*direction > path%states) exit
-            if (.not. path%is_reached(first + k*direction)) exit
-            last = first + k*direction
-         end do
-         do k = last, first, -direction
-            call remember(predictor, path%value(k), path%packed(:, k))
-         end do
-      end subroutine seed
+   !> Uses the states of the other direction to predict the first states of this one.
+   pure subroutine seed(predictor, path, first, direction)
+      type(predictor_t), intent(inout) :: predictor
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: first, direction
+      integer :: k, last
 
-      !> One increment to `value` with the method of the case.
-      subroutine advance(value, k, failure)
-         real(wp), intent(in) :: value
-         integer, intent(in) :: k
-         type(failure_t), intent(inout) :: failure
-         type(demand_t) :: next
+      call forget(predictor)
+      last = first
+      do k = first, first + (depth - 1)*direction, direction
+         if (k < 1 .or. k > path%states) exit
+         if (.not. path%is_reached(k)) exit
+         last = k
+      end do
+      do k = last, first, -direction
+         call remember(predictor, path%value(k), path%packed(:, k))
+      end do
+   end subroutine seed
 
-         call demand_at(schedule, value, next)
-         select case (case%method)
-         case ('recursive')
-            call recursive_increment(suspension, demand, next, state, kkt, carry)
-            path%iterations(k) = 1
-            call check_increment(kkt, k, here, value, failure)
-         case ('corrected')
-            call corrected_increment(suspension, next, state, kkt)
-            path%iterations(k) = 1
-            call check_increment(kkt, k, here, value, failure)
-         case default
-            call reach(suspension, schedule, value, case%tolerance, predictor, branch, state, kkt, &
-               path%iterations(k), failure)
-            if (failure%state > 0) failure%state = k
-         end select
-         demand = next
-         here = value
-      end subroutine advance
+   !> One increment to `value`, of state k, with the method of the case.
+   subroutine advance(self, suspension, case, value, k, path, kkt, failure)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      real(wp), intent(in) :: value
+      integer, intent(in) :: k
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      type(failure_t), intent(inout) :: failure
+      type(demand_t) :: next
 
-   end subroutine walk
+      if (case%method == 'equilibrium') then
+         call reach(suspension, self%schedule, value, case%tolerance, self%predictor, self%branch, self%state, kkt, &
+            path%iterations(k), failure)
+         if (failure%state > 0) failure%state = k
+         return
+      end if
+      call demand_at(self%schedule, value, next)
+      if (case%method == 'recursive') then
+         call recursive_increment(suspension, self%demand, next, self%state, kkt, self%held)
+      else
+         call corrected_increment(suspension, next, self%state, kkt)
+      end if
+      path%iterations(k) = 1
+      call check_increment(kkt, k, self%here, value, failure)
+      self%demand = next
+      self%here = value
+   end subroutine advance
 
    !> The range of a path; for a table, 1 row [place].
    pure real(wp) function span(path)

@@ -7,7 +7,7 @@ module ek_reach
    use ek_schedule, only: schedule_t, demand_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge, depth
+   use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge
    use ek_factors, only: keep
    use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
       is_near_zero, long, tiny_step, same_branch, crossing, doubtful
@@ -37,25 +37,17 @@ module ek_reach
       real(wp), allocatable :: last(:)     !! packed state of the last equilibrium
    end type failure_t
 
+   !> A step from the newest stored state, a, to b.
+   type :: step_t
+      real(wp) :: place = 0.0_wp                 !! of b
+      type(demand_t) :: demand_a, demand_b
+      type(outcome_t) :: outcome                 !! of the iteration to b
+      integer :: verdict = doubtful              !! of ek_branch
+      logical :: was_compared = .false.
+      integer :: iterations = 0                  !! factorisations spent, in all attempts
+   end type step_t
+
 contains
-
-   !> Reaches equilibrium at a swept value of the path from the stored states, halving the step if needed.
-   !>
-   !> On failure `state` is the last equilibrium.
-   subroutine reach(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, iterations, failure)
-      type(suspension_t), intent(in) :: suspension
-      type(schedule_t), intent(in) :: schedule
-      real(wp), intent(in) :: goal               !! place
-      real(wp), intent(in) :: tolerance          !! m
-      type(predictor_t), intent(inout) :: predictor
-      type(branch_t), intent(inout) :: branch    !! branch of the newest stored state
-      type(state_t), intent(inout) :: state
-      type(kkt_t), intent(inout) :: kkt
-      integer, intent(out) :: iterations         !! factorisations spent
-      type(failure_t), intent(inout) :: failure
-
-      call follow(suspension, schedule, goal, .false., tolerance, predictor, branch, state, kkt, iterations, failure)
-   end subroutine reach
 
    !> Goes from design to equilibrium under the constant loads and preloads only.
    !>
@@ -69,6 +61,7 @@ contains
       type(failure_t), intent(inout) :: failure
       type(predictor_t) :: predictor
       type(branch_t) :: branch
+      type(schedule_t) :: schedule
       real(wp), parameter :: least_share = 1.0e-6_wp
       integer :: iterations
 
@@ -78,162 +71,174 @@ contains
       branch = new_branch(suspension)
       branch%least = least_share
       call store(predictor, 0.0_wp, state, .true.)
-      call follow(suspension, schedule_t(), 1.0_wp, .true., tolerance, predictor, branch, state, kkt, iterations, failure)
+      schedule%is_settling = .true.
+      call reach(suspension, schedule, 1.0_wp, tolerance, predictor, branch, state, kkt, iterations, failure)
    end subroutine settle
 
-   !> Goes from the newest stored state to the swept value `goal` of a path, in one step if the path allows it.
+   !> Goes from the newest stored state to equilibrium at the swept value `goal` of a path, in one step if the path allows it.
    !>
    !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
-   !> accepted step. A step shorter than branch%least means the end of the path.
-   subroutine follow(suspension, schedule, goal, is_settling, tolerance, predictor, branch, state, kkt, iterations, failure)
+   !> accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
+   subroutine reach(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
-      real(wp), intent(in) :: goal
-      logical, intent(in) :: is_settling         !! the swept value is the share of the imbalance; otherwise that of the schedule
+      real(wp), intent(in) :: goal               !! place
+      real(wp), intent(in) :: tolerance          !! m
+      type(predictor_t), intent(inout) :: predictor
+      type(branch_t), intent(inout) :: branch    !! branch of the newest stored state
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      integer, intent(out) :: iterations         !! factorisations spent
+      type(failure_t), intent(inout) :: failure
+      type(step_t) :: step
+      real(wp) :: here, width
+      integer :: points, attempt
+      real(wp) :: beyond      ! the nearest swept value known behind a bifurcation
+      logical :: is_there, knows_beyond, is_last_try
+
+      here = predictor%abscissa(predictor%newest)
+      call demand_at(schedule, here, step%demand_a)
+      knows_beyond = .false.
+      is_last_try = .false.
+      beyond = 0.0_wp
+      points = predictor%trusted
+      width = goal - here
+      do attempt = 1, most_attempts
+         step%place = here + width
+         if (abs(width) >= abs(goal - here)) step%place = goal
+         call find_end(suspension, schedule, points, branch%has_tangent, tolerance, predictor, branch, state, kkt, step)
+         call judge_end(suspension, tolerance, predictor, branch, state, kkt, step)
+         iterations = step%iterations
+         if (step%verdict == crossing) then
+            if (abs(step%place - here) > across(branch) .and. .not. is_last_try) then
+               knows_beyond = .true.
+               beyond = step%place
+            else
+               call note_crossing(branch, 0.5_wp*(here + step%place))
+               step%verdict = same_branch
+            end if
+         end if
+         if (step%verdict == same_branch) then
+            call accept(branch, step%outcome, kkt, step%was_compared)
+            call store(predictor, step%place, state, step%outcome%factorisations == 1)
+            ! no polynomial goes round a corner
+            if (step%was_compared .and. branch%was_bent) predictor%trusted = min(predictor%trusted, 2)
+            here = step%place
+            if (abs(goal - here) <= 0.0_wp) return
+            step%demand_a = step%demand_b
+            width = 2.0_wp*width
+            if (is_last_try) knows_beyond = .false.
+            is_last_try = .false.
+            cycle
+         end if
+         points = min(points, 2)     ! the prediction may itself be the cause
+         ! halves come to the same place again
+         width = merge(away, 0.5_wp, branch%is_singular)*(step%place - here)
+         if ((branch%is_singular .or. abs(width) < branch%least) .and. abs(goal - here) <= across(branch) &
+            .and. .not. schedule%is_settling) then
+            call step_over(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, step, is_there)
+            iterations = step%iterations
+            if (is_there) return
+         end if
+         if (abs(width) < branch%least) then
+            ! so near to a bifurcation the tangents say nothing: take the step across it that they explained last
+            if (is_last_try .or. .not. knows_beyond) exit
+            if ((beyond - here)*(goal - here) <= 0.0_wp .or. abs(beyond - here) > widest*branch%width) exit
+            is_last_try = .true.
+            width = beyond - here
+         end if
+      end do
+      call blame(suspension, predictor, step, state, kkt, failure)
+   end subroutine reach
+
+   !> Predicts the state at step%place, along the tangent or from earlier states, and iterates to equilibrium.
+   subroutine find_end(suspension, schedule, points, has_tangent, tolerance, predictor, branch, state, kkt, step)
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      integer, intent(in) :: points              !! earlier states that may be used
+      logical, intent(in) :: has_tangent         !! use it rather than two states
       real(wp), intent(in) :: tolerance
       type(predictor_t), intent(inout) :: predictor
       type(branch_t), intent(inout) :: branch
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
-      integer, intent(out) :: iterations
-      type(failure_t), intent(inout) :: failure
-      type(demand_t) :: here_demand, demand
-      type(outcome_t) :: outcome
-      real(wp) :: here, place, step
-      real(wp) :: before      ! place of the newest state minus that of the one before it
-      integer :: points, attempt, verdict, older
-      real(wp) :: beyond      ! the nearest swept value known behind a bifurcation
-      logical :: was_compared, here_is_goal, is_long, knows_beyond, is_last_try
+      type(step_t), intent(inout) :: step
 
+      call demand_at(schedule, step%place, step%demand_b)
+      if (has_tangent .and. min(points, predictor%count) <= 2) then
+         call unpack_state(predictor%packed(:, predictor%newest), state)
+         call go_along(branch, step%place - predictor%abscissa(predictor%newest), state)
+         call pack_state(state, predictor%guess)
+      else
+         call predict(predictor, step%place, points)
+         call unpack_state(predictor%guess, state)
+      end if
+      call keep(branch%factors, kkt)
+      call find_equilibrium(suspension, step%demand_b, tolerance, state, kkt, step%outcome)
+      step%iterations = step%iterations + step%outcome%factorisations
+   end subroutine find_end
+
+   !> Whether the end of a step is on the path: the prediction was close, or a comparison with the beginning says so.
+   subroutine judge_end(suspension, tolerance, predictor, branch, state, kkt, step)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: tolerance
+      type(predictor_t), intent(in) :: predictor
+      type(branch_t), intent(inout) :: branch
+      type(state_t), intent(in) :: state
+      type(kkt_t), intent(inout) :: kkt
+      type(step_t), intent(inout) :: step
+      logical :: is_long
+
+      step%verdict = doubtful
+      associate (outcome => step%outcome)
+         branch%is_singular = is_near_zero(branch, outcome) .or. (outcome%factorisations > quick .and. is_uneven(branch, outcome))
+         if (abs(step%place - predictor%abscissa(predictor%newest)) <= tiny_step*branch%least) branch%is_singular = .false.
+         if (branch%is_singular .or. .not. outcome%is_converged) return
+         step%verdict = same_branch
+         step%was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length, is_long)
+         is_long = is_long .or. is_uneven(branch, outcome)
+         if (is_long .and. .not. step%was_compared) step%was_compared = is_overturning(branch, suspension, predictor, &
+            step%demand_a, state, step%demand_b, kkt)
+         if (.not. step%was_compared) return
+         call compare(branch, suspension, predictor, step%demand_a, step%demand_b, step%place, state, outcome, kkt, step%verdict)
+         step%iterations = step%iterations + branch%factorisations
+         kkt%pivot_ratio = outcome%pivot_ratio
+      end associate
+   end subroutine judge_end
+
+   !> The goal itself is a bifurcation: N is singular there. The path is taken up again just behind it, and the state is what
+   !> lies between; the width is so small that the path is straight.
+   subroutine step_over(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, step, is_there)
+      type(suspension_t), intent(in) :: suspension
+      type(schedule_t), intent(in) :: schedule
+      real(wp), intent(in) :: goal, tolerance
+      type(predictor_t), intent(inout) :: predictor
+      type(branch_t), intent(inout) :: branch
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      type(step_t), intent(inout) :: step
+      logical, intent(out) :: is_there           !! otherwise nothing has changed
+      real(wp) :: here, share
+      integer :: older
+
+      is_there = .false.
       here = predictor%abscissa(predictor%newest)
-      call demand_of(here, here_demand)
-      iterations = 0
-      here_is_goal = .false.
-      knows_beyond = .false.
-      is_last_try = .false.
-      beyond = 0.0_wp
-      points = predictor%trusted
-      step = goal - here
-      do attempt = 1, most_attempts
-         place = here + step
-         if (abs(step) >= abs(goal - here)) place = goal
-         call demand_of(place, demand)
-         if (branch%has_tangent .and. min(points, predictor%count) <= 2) then
-            call unpack_state(predictor%packed(:, predictor%newest), state)
-            call go_along(branch, place - here, state)
-            call pack_state(state, predictor%guess)
-         else
-            call predict(predictor, place, points)
-            call unpack_state(predictor%guess, state)
-         end if
-         call keep(branch%factors, kkt)
-         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
-         iterations = iterations + outcome%factorisations
-         verdict = doubtful
-         branch%is_singular = is_near_zero(branch, outcome%log_determinant) .or. &
-            (outcome%factorisations > quick .and. is_uneven(branch, outcome%log_determinant))
-         if (abs(place - here) <= tiny_step*branch%least) branch%is_singular = .false.
-         if (outcome%is_converged .and. .not. branch%is_singular) then
-            verdict = same_branch
-            was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length, is_long)
-            is_long = is_long .or. is_uneven(branch, outcome%log_determinant)
-            if (is_long .and. .not. was_compared) was_compared = is_overturning(branch, suspension, &
-               predictor%packed(:, predictor%newest), here_demand, state, demand, kkt)
-            if (was_compared) then
-               older = modulo(predictor%newest - 2, depth) + 1
-               before = 0.0_wp
-               if (predictor%count > 1) before = here - predictor%abscissa(older)
-               call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
-                  predictor%packed(:, older), before, state, outcome%missed, outcome%log_determinant, kkt, verdict)
-               iterations = iterations + branch%factorisations
-               kkt%pivot_ratio = outcome%pivot_ratio
-               if (verdict == crossing) then
-                  if (abs(place - here) > across(branch) .and. .not. is_last_try) then
-                     verdict = doubtful
-                     knows_beyond = .true.
-                     beyond = place
-                  else
-                     call note_crossing(branch, 0.5_wp*(here + place))
-                     verdict = same_branch
-                  end if
-               end if
-            end if
-         end if
-         if (verdict == same_branch) then
-            call accept(branch, outcome%negative, outcome%log_determinant, kkt, was_compared)
-            call store(predictor, place, state, outcome%factorisations == 1)
-            ! no polynomial goes round a corner
-            if (was_compared .and. branch%was_bent) predictor%trusted = min(predictor%trusted, 2)
-            here = place
-            here_demand = demand
-            if (abs(goal - here) <= 0.0_wp) return
-            step = 2.0_wp*step
-            if (is_last_try) knows_beyond = .false.
-            is_last_try = .false.
-         else
-            points = min(points, 2)     ! the prediction may itself be the cause
-            step = 0.5_wp*(place - here)
-            ! halves come to the same place again
-            if (branch%is_singular) step = away*(place - here)
-            if ((branch%is_singular .or. abs(step) < branch%least) .and. abs(goal - here) <= across(branch) &
-               .and. .not. is_settling) call step_over()
-            if (here_is_goal) return
-            if (abs(step) < branch%least) then
-               ! so near to a bifurcation the tangents say nothing: take the step across it that they explained last
-               if (is_last_try .or. .not. knows_beyond) exit
-               if ((beyond - here)*(goal - here) <= 0.0_wp .or. abs(beyond - here) > widest*branch%width) exit
-               is_last_try = .true.
-               step = beyond - here
-            end if
-         end if
-      end do
-      call blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
-
-   contains
-
-      !> The goal itself is a bifurcation: N is singular there. The path is taken up again just behind it, and the state is what
-      !> lies between; the width is so small that the path is straight.
-      subroutine step_over()
-         real(wp) :: share
-
-         place = goal + sign(across(branch), goal - here)
-         call demand_of(place, demand)
-         call predict(predictor, place, 2)
-         call unpack_state(predictor%guess, state)
-         call keep(branch%factors, kkt)
-         call find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
-         iterations = iterations + outcome%factorisations
-         if (.not. outcome%is_converged) return
-         older = modulo(predictor%newest - 2, depth) + 1
-         before = 0.0_wp
-         if (predictor%count > 1) before = here - predictor%abscissa(older)
-         call compare(branch, suspension, predictor%packed(:, predictor%newest), here_demand, demand, place - here, &
-            predictor%packed(:, older), before, state, outcome%missed, outcome%log_determinant, kkt, verdict)
-         iterations = iterations + branch%factorisations
-         if (verdict == doubtful) return
-         if (verdict == crossing) call note_crossing(branch, goal)
-         call accept(branch, outcome%negative, outcome%log_determinant, kkt, .true.)
-         ! the next step begins behind the bifurcation: at it the joints may be on either side
-         older = predictor%newest
-         share = (goal - here)/(place - here)
-         call store(predictor, place, state, .false.)
-         predictor%guess = (1.0_wp - share)*predictor%packed(:, older) + share*predictor%packed(:, predictor%newest)
-         call unpack_state(predictor%guess, state)
-         here_is_goal = .true.
-      end subroutine step_over
-
-      subroutine demand_of(place, demand)
-         real(wp), intent(in) :: place
-         type(demand_t), intent(inout) :: demand
-
-         if (is_settling) then
-            demand%relief = 1.0_wp - place
-         else
-            call demand_at(schedule, place, demand)
-         end if
-      end subroutine demand_of
-
-   end subroutine follow
+      step%place = goal + sign(across(branch), goal - here)
+      call find_end(suspension, schedule, 2, .false., tolerance, predictor, branch, state, kkt, step)
+      if (.not. step%outcome%is_converged) return
+      call compare(branch, suspension, predictor, step%demand_a, step%demand_b, step%place, state, step%outcome, kkt, step%verdict)
+      step%iterations = step%iterations + branch%factorisations
+      if (step%verdict == doubtful) return
+      if (step%verdict == crossing) call note_crossing(branch, goal)
+      call accept(branch, step%outcome, kkt, .true.)
+      ! the next step begins behind the bifurcation: at it the joints may be on either side
+      older = predictor%newest
+      share = (goal - here)/(step%place - here)
+      call store(predictor, step%place, state, .false.)
+      predictor%guess = (1.0_wp - share)*predictor%packed(:, older) + share*predictor%packed(:, predictor%newest)
+      call unpack_state(predictor%guess, state)
+      is_there = .true.
+   end subroutine step_over
 
    !> Whether the prediction from earlier states was close and the inertia is unchanged: the path was smooth.
    logical function is_foreseen(predictor, state, negative, negative_before, tolerance, length, is_long)
@@ -285,12 +290,10 @@ contains
 
    !> Determines which body moved most in a failed attempt and which constraint is violated most; `state` is reset
    !> to the last equilibrium.
-   subroutine blame(suspension, predictor, demand, outcome, here, place, state, kkt, failure)
+   subroutine blame(suspension, predictor, step, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor
-      type(demand_t), intent(in) :: demand
-      type(outcome_t), intent(in) :: outcome
-      real(wp), intent(in) :: here, place        !! of the last equilibrium, and of the failed attempt
+      type(step_t), intent(in) :: step           !! the failed attempt
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
@@ -302,9 +305,9 @@ contains
       call unpack_state(predictor%packed(:, predictor%newest), before)
       failure%last = predictor%packed(:, predictor%newest)
       failure%state = 1
-      failure%value = place
-      failure%reached = here
-      failure%is_singular = outcome%is_singular
+      failure%value = step%place
+      failure%reached = predictor%abscissa(predictor%newest)
+      failure%is_singular = step%outcome%is_singular
       do k = 2, size(state%poses)
          moved = norm2(state%poses(k)%r - before%poses(k)%r) &
             + kkt%length*norm2(state%poses(k)%a - before%poses(k)%a)/sqrt(2.0_wp)
@@ -313,7 +316,7 @@ contains
             failure%body = k - 1
          end if
       end do
-      call assemble(suspension, state, demand, residual_only, kkt)
+      call assemble(suspension, state, step%demand_b, residual_only, kkt)
       do k = 1, kkt%nc
          if (abs(kkt%values(k)) > abs(failure%gap)) then
             failure%gap = kkt%values(k)

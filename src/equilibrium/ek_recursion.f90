@@ -2,18 +2,14 @@
 module ek_recursion
    use ek_kinds, only: wp
    use ek_vector, only: add_multiple
+   use ek_block, only: add_gradient
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t, demand_rate, move, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, material_only
    use ek_reach, only: failure_t
    implicit none(type, external)
    private
-   public :: carry_t, start_recursion, recursive_increment, corrected_increment, check_increment
-
-   !> The data that the recursion passes from increment to increment: Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹ [N, N m].
-   type :: carry_t
-      real(wp), allocatable :: pull(:)
-   end type carry_t
+   public :: start_recursion, recursive_increment, corrected_increment, check_increment
 
 contains
 
@@ -22,20 +18,20 @@ contains
    !> It is the λ of [K Φqᵀ; Φq 0][Δq; λ] = [f_ext − f_el; 0] at design; Δq vanishes if the preloads
    !> balance the constant loads.
    !> Equation (K.8) of docs/theory/kkt.md.
-   subroutine start_recursion(suspension, state, kkt, carry)
+   subroutine start_recursion(suspension, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
-      type(carry_t), intent(out) :: carry
+      real(wp), allocatable, intent(out) :: held(:)      !! Φq(qⁿ⁻¹)ᵀ λⁿ⁻¹ [N, N m]: passed from increment to increment
 
-      allocate (carry%pull(kkt%nq), source=0.0_wp)
+      allocate (held(kkt%nq), source=0.0_wp)
       state%reaction = 0.0_wp
       call assemble(suspension, state, demand_t(), material_only, kkt)
       call factorise(kkt)
       if (kkt%is_singular) return
       call solve(kkt)
       state%reaction(:) = kkt%rhs(kkt%nq + 1:)
-      call gather(suspension, kkt, state%reaction, carry%pull)
+      call gather(suspension, kkt, state%reaction, held)
    end subroutine start_recursion
 
    !> One increment of Kang (2005), eqs. (25)–(29), literally:
@@ -45,17 +41,17 @@ contains
    !> (C is not in the paper: 1/stiffness of a driver with a stiffness, zero otherwise)
    !> It never evaluates the elastic forces or Φ(q) in the new configuration; this is a property of the paper's formula.
    !> Equations (K.8), (K.9) of docs/theory/kkt.md.
-   pure subroutine recursive_increment(suspension, before, after, state, kkt, carry)
+   pure subroutine recursive_increment(suspension, before, after, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
       type(demand_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
-      type(carry_t), intent(inout) :: carry
+      real(wp), intent(inout) :: held(:)              !! of start_recursion
       integer :: k
 
       call assemble(suspension, state, before, material_only, kkt)
       call assemble_rate(suspension, state, demand_rate(before, after, 1.0_wp), kkt)
-      call add_multiple(kkt%nq, 1.0_wp, carry%pull, kkt%rhs)
+      call add_multiple(kkt%nq, 1.0_wp, held, kkt%rhs)
       do k = 1, kkt%nc
          kkt%rhs(kkt%nq + k) = kkt%rhs(kkt%nq + k) - suspension%rows(k)%compliance*state%reaction(k)
       end do
@@ -63,7 +59,7 @@ contains
       if (kkt%is_singular) return
       call solve(kkt)
       state%reaction(:) = kkt%rhs(kkt%nq + 1:)
-      call gather(suspension, kkt, state%reaction, carry%pull)
+      call gather(suspension, kkt, state%reaction, held)
       call move(state, kkt%rhs(:kkt%nq))
    end subroutine recursive_increment
 
@@ -92,15 +88,14 @@ contains
       type(kkt_t), intent(in) :: kkt
       real(wp), intent(in) :: reaction(:)
       real(wp), intent(inout) :: pull(:)
-      integer :: k, t, at
+      integer :: k, t
 
       pull = 0.0_wp
       do k = 1, size(suspension%rows)
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
-            at = 6*(suspension%terms(t)%measure%body_i - 1)
-            if (at >= 0) pull(at + 1:at + 6) = pull(at + 1:at + 6) + reaction(k)*kkt%gradients(1:6, t)
-            at = 6*(suspension%terms(t)%measure%body_j - 1)
-            if (at >= 0) pull(at + 1:at + 6) = pull(at + 1:at + 6) + reaction(k)*kkt%gradients(7:12, t)
+            associate (m => suspension%terms(t)%measure)
+               call add_gradient(reaction(k), kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), pull)
+            end associate
          end do
       end do
    end subroutine gather

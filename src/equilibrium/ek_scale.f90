@@ -6,7 +6,7 @@
 !> the size of the model. D is rounded to powers of two, which makes the scaling exact.
 module ek_scale
    use ek_kinds, only: wp
-   use ek_measure, only: axis_axis, rotation
+   use ek_measure, only: measure_t, axis_axis, rotation
    use ek_element, only: element_kinds, bushing_element
    use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
@@ -24,22 +24,16 @@ contains
       real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil spring if nothing is elastic
       real(wp) :: sum_log, least, rates(6)
       real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil spring, for a model without elastic elements
-      integer :: k, count, axis
+      integer :: k, count
 
       least = 1.0e-3_wp     ! a model whose points all coincide still needs a length: 1 mm
       length = 0.0_wp
       count = 0
       do k = 1, size(suspension%terms)
-         associate (m => suspension%terms(k)%measure)
-            if (m%body_i > 0) call include(m%arm_i)
-            if (m%body_j > 0) call include(m%arm_j)
-         end associate
+         call include_arms(suspension%terms(k)%measure)
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
-         associate (m => suspension%elements(k)%measure)
-            if (m%body_i > 0) call include(m%arm_i)
-            if (m%body_j > 0) call include(m%arm_j)
-         end associate
+         call include_arms(suspension%elements(k)%measure)
       end do
       length = max(length/max(count, 1), least)
 
@@ -50,40 +44,37 @@ contains
             if (.not. (element_kinds(kind)%carries .or. kind == bushing_element)) cycle
          end associate
          rates = design_stiffness(suspension%elements(k))
-         do axis = 1, 3
-            call include_rate(rates(axis))
-         end do
+         call include_rates(rates(1:3))
       end do
-      if (count == 0) call include_angles()
+      if (count == 0) then      ! torsion springs and rotational bushing rates only
+         do k = 1, size(suspension%elements)
+            rates = design_stiffness(suspension%elements(k))
+            call include_rates(rates(4:6)/length**2)
+         end do
+      end if
       stiffness = usual
       if (count > 0) stiffness = exp(sum_log/count)
 
    contains
 
-      !> The stiffness of a model with torsion springs and rotational bushing rates only.
-      subroutine include_angles()
-         integer :: k, axis
+      subroutine include_rates(rates)
+         real(wp), intent(in) :: rates(3)      !! N/m
+         integer :: axis
 
-         do k = 1, size(suspension%elements)
-            rates = design_stiffness(suspension%elements(k))
-            do axis = 4, 6
-               call include_rate(rates(axis)/length**2)
-            end do
+         do axis = 1, 3
+            if (rates(axis) <= 0.0_wp) cycle
+            sum_log = sum_log + log(rates(axis))
+            count = count + 1
          end do
-      end subroutine include_angles
+      end subroutine include_rates
 
-      subroutine include_rate(rate)
-         real(wp), intent(in) :: rate      !! N/m
-         if (rate <= 0.0_wp) return
-         sum_log = sum_log + log(rate)
-         count = count + 1
-      end subroutine include_rate
+      subroutine include_arms(measure)
+         type(measure_t), intent(in) :: measure
 
-      subroutine include(arm)
-         real(wp), intent(in) :: arm(3)
-         length = length + norm2(arm)
-         count = count + 1
-      end subroutine include
+         if (measure%body_i > 0) length = length + norm2(measure%arm_i)
+         if (measure%body_j > 0) length = length + norm2(measure%arm_j)
+         count = count + merge(1, 0, measure%body_i > 0) + merge(1, 0, measure%body_j > 0)
+      end subroutine include_arms
 
    end subroutine characteristic
 
@@ -102,10 +93,8 @@ contains
       end do
       do k = 1, suspension%constraints()
          scale(nq + k) = power_of_two(sqrt(stiffness))
-         select case (suspension%terms(suspension%rows(k)%first)%measure%kind)
-         case (axis_axis, rotation)
+         if (any(suspension%terms(suspension%rows(k)%first)%measure%kind == [axis_axis, rotation])) &
             scale(nq + k) = power_of_two(sqrt(stiffness)*length)
-         end select
       end do
    end subroutine scale_factors
 

@@ -14,6 +14,7 @@ module ek_schedule
    !> The actuations of a case, with their names resolved.
    type :: schedule_t
       integer :: loads = 0, rows = 0
+      logical :: is_settling = .false.  !! no case: the swept value is the share of the imbalance at design that acts
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
       integer :: load(most_driven) = 0, row(most_driven) = 0     !! their numbers in the suspension
       type(actuation_t), allocatable :: load_actuation(:), row_actuation(:)
@@ -66,17 +67,19 @@ contains
    pure subroutine demand_at(schedule, place, demand)
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: place
-      type(demand_t), intent(out) :: demand
+      type(demand_t), intent(inout) :: demand    !! what is beyond the number of loads and rows stays
       integer :: k
 
+      demand%relief = 0.0_wp
+      if (schedule%is_settling) demand%relief = 1.0_wp - place
       demand%loads = schedule%loads
-      demand%load = schedule%load
       do k = 1, schedule%loads
+         demand%load(k) = schedule%load(k)
          demand%factor(k) = value_at(schedule%load_actuation(k), place, schedule%rest)
       end do
       demand%rows = schedule%rows
-      demand%row = schedule%row
       do k = 1, schedule%rows
+         demand%row(k) = schedule%row(k)
          demand%change(k) = value_at(schedule%row_actuation(k), place, schedule%rest)
       end do
    end subroutine demand_at

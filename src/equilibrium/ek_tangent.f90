@@ -7,7 +7,10 @@ module ek_tangent
    use ek_dyads, only: dyads_t, correct, resist
    implicit none(type, external)
    private
-   public :: tangent_t, new_tangent, find_tangent, largest_motion, body_motion
+   public :: tangent_t, new_tangent, find_tangent, largest_motion, body_motion, trapezoidal_rest
+
+   real(wp), parameter, public :: smooth = 4.0e-3_wp      !! of the motion: allowed error of the trapezoidal rule
+   real(wp), parameter, public :: nothing = 1.0e-9_wp     !! m: ten times the error of Newton's method
 
    !> Work space, and what the loads do to the matrix.
    type :: tangent_t
@@ -51,6 +54,28 @@ contains
       real(wp), intent(in) :: twist(6), length
       body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
    end function body_motion
+
+   !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
+   !> Equation (K.14) of docs/theory/kkt.md.
+   pure real(wp) function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
+      real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
+      real(wp), intent(in) :: width, length
+      real(wp) :: twist(6), part
+      integer :: k
+
+      rest = 0.0_wp
+      do k = 1, size(motion), 6
+         twist = motion(k:k + 5) - 0.5_wp*width*(tangent_a(k:k + 5) + tangent_b(k:k + 5))
+         part = body_motion(twist, length)
+         if (.not. part < huge(rest)) part = huge(rest)
+         rest = max(rest, part)
+      end do
+      if (rest <= nothing*smooth) then
+         rest = 0.0_wp
+      else if (rest < huge(rest)) then
+         rest = rest/max(largest_motion(motion, length), nothing)
+      end if
+   end function trapezoidal_rest
 
    !> dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
    !>

@@ -7,10 +7,20 @@ module ek_block
    use ek_rotation, only: cross, skew
    implicit none(type, external)
    private
-   public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian
+   public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian, add_gradient
    public :: s_matrix, rotated, dyad, dyad_rest
 
 contains
+
+   !> y ← y + factor × gradient, that of a measure of two bodies, at their unknowns.
+   pure subroutine add_gradient(factor, gradient, at_i, at_j, y)
+      real(wp), intent(in) :: factor, gradient(12)
+      integer, intent(in) :: at_i, at_j
+      real(wp), intent(inout) :: y(*)
+
+      if (at_i >= 0) y(at_i + 1:at_i + 6) = y(at_i + 1:at_i + 6) + factor*gradient(1:6)
+      if (at_j >= 0) y(at_j + 1:at_j + 6) = y(at_j + 1:at_j + 6) + factor*gradient(7:12)
+   end subroutine add_gradient
 
    !> A v
    pure function rotated(a, v) result(w)
