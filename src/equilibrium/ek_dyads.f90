@@ -14,7 +14,8 @@ module ek_dyads
    use ek_kinds, only: wp
    use ek_block, only: add_gradient
    use ek_kkt, only: kkt_t, solve, count_inertia
-   use ek_substitution, only: factorise_indefinite, substitute
+   use ek_lapack, only: dsytrf
+   use ek_substitution, only: substitute
    implicit none(type, external)
    private
    public :: dyads_t, new_dyads, add_dyad, solve_columns, set_changes, correct, resist
@@ -30,7 +31,7 @@ module ek_dyads
       real(wp), allocatable :: change(:)    !! s
       real(wp), allocatable :: root(:)      !! √|s|
       real(wp), allocatable :: small(:)     !! W by columns, then its factors
-      real(wp), allocatable :: part(:)
+      real(wp), allocatable :: part(:), work(:)
       integer, allocatable :: pivots(:)
    end type dyads_t
 
@@ -44,7 +45,7 @@ contains
 
       allocate (self%at(2, most), self%pivots(most), source=0)
       allocate (self%gradient(12, most), self%column(n, most), self%product(most, most), source=0.0_wp)
-      allocate (self%change(most), self%root(most), self%small(most**2), self%part(most), source=0.0_wp)
+      allocate (self%change(most), self%root(most), self%small(most**2), self%part(most), self%work(64*max(most, 1)), source=0.0_wp)
    end function new_dyads
 
    !> Adds a dyad: the gradient of a measure of two bodies.
@@ -83,8 +84,7 @@ contains
       real(wp), intent(in) :: change(:)           !! s of each dyad
       integer, intent(in) :: negative             !! negative eigenvalues of N
       real(wp) :: ratio, log_determinant
-      integer :: k, n
-      logical :: is_singular
+      integer :: k, n, info
 
       n = self%number
       self%change(:n) = change(:n)
@@ -93,11 +93,11 @@ contains
          self%small((k - 1)*n + 1:k*n) = -self%root(:n)*self%product(:n, k)*self%root(k)
          self%small((k - 1)*n + k) = self%small((k - 1)*n + k) - sign(1.0_wp, change(k))
       end do
-      call factorise_indefinite(n, self%small, self%pivots, is_singular)
+      call dsytrf('L', n, self%small, max(n, 1), self%pivots, self%work, size(self%work), info)
       call count_inertia(n, self%small, self%pivots, self%negative, ratio, log_determinant)
       ! sign(1, +0) = 1: a dyad without a change counts in both and drops out
       self%negative = self%negative + negative - count(sign(1.0_wp, change(:n)) > 0.0_wp)
-      if (n > 0 .and. (is_singular .or. .not. ratio > 0.0_wp)) self%negative = -1
+      if (n > 0 .and. (info /= 0 .or. .not. ratio > 0.0_wp)) self%negative = -1
    end subroutine set_changes
 
    !> N⁻¹ x → N'⁻¹ x; N' must not be singular.

@@ -1,4 +1,4 @@
-!> The linear system of an increment: assembly, and factorisation.
+!> The dense linear system of an increment: assembly, and factorisation by LAPACK.
 !>
 !>     [ T  Φqᵀ ] [Δq]   [ f_ext − f_el − Φqᵀλ ]
 !>     [ Φq −C  ] [Δλ] = [ c − Φ(q) + Cλ       ]           one step of Newton's method for f_ext = f_el + Φqᵀλ, Φ = c
@@ -22,8 +22,8 @@ module ek_kkt
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, demand_t
    use ek_scale, only: characteristic, scale_factors
-   use ek_lapack, only: dsycon
-   use ek_substitution, only: factorise_indefinite, substitute
+   use ek_lapack, only: dsytrf, dsycon
+   use ek_substitution, only: substitute
    implicit none(type, external)
    private
    public :: kkt_t, new_kkt, assemble, assemble_rate, factorise, solve, condition, wrench, load_factor, count_inertia
@@ -70,7 +70,7 @@ contains
       allocate (kkt%matrix(kkt%n, kkt%n), kkt%rhs(kkt%n), kkt%scale(kkt%n), kkt%values(kkt%nc), source=0.0_wp)
       allocate (kkt%gradients(12, size(suspension%terms)), kkt%imbalance(kkt%nq), source=0.0_wp)
       allocate (kkt%pivots(kkt%n), kkt%iwork(kkt%n), source=0)
-      allocate (kkt%work(2*kkt%n), source=0.0_wp)
+      allocate (kkt%work(64*max(kkt%n, 1)), source=0.0_wp)   ! 64 is LAPACK's block size of dsytrf
       call characteristic(suspension, kkt%length, kkt%stiffness)
       call scale_factors(suspension, kkt%length, kkt%stiffness, kkt%scale)
    end function new_kkt
@@ -261,20 +261,21 @@ contains
       end do
    end function load_factor
 
-   !> Scales the matrix and factorises it (Bunch–Kaufman); sets the inertia.
+   !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
    !>
    !> A zero pivot sets is_singular; the caller obtains its cause from the diagnosis.
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
+      integer :: info
 
       if (are_checked) call require(kkt%stage == assembled, 'factorise: no matrix was assembled')
       kkt%stage = factors
       kkt%factorisations = kkt%factorisations + 1
       call scale_lower(kkt%n, kkt%scale, kkt%matrix)
-      call factorise_indefinite(kkt%n, kkt%matrix, kkt%pivots, kkt%is_singular)
+      call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)
-      kkt%is_singular = kkt%is_singular .or. .not. kkt%pivot_ratio > 0.0_wp
+      kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
 
    !> Scales the lower triangle: D S D.

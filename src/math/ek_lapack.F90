@@ -10,19 +10,33 @@ module ek_lapack
 #ifdef EK_TRAPS
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
-   use ek_lapack_routines, only: lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
+   use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
       lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, lapack_dgeqp3 => dgeqp3
 #else
-   use ek_lapack_routines, only: dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
 #endif
    implicit none(type, external)
    private
-   public :: dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
+   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
 
 #ifdef EK_TRAPS
 contains
 
-   !> Solution with the factors of dsysv, or of `factorise_indefinite`.
+   !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
+   pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, lda, lwork
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*)
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dsytrf
+
+   !> Solution with the factors of dsytrf.
    pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, nrhs, lda, ldb
@@ -36,7 +50,7 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrs
 
-   !> Reciprocal condition number (1-norm) from the same factors.
+   !> Reciprocal condition number (1-norm) from the factors of dsytrf.
    pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, lda

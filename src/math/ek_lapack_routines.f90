@@ -5,10 +5,22 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dgeqp3
+   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dgeqp3
 
    interface
-      !> Solution with the factors of dsysv, or of `factorise_indefinite`.
+      !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
+      pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: info
+      end subroutine dsytrf
+
+      !> Solution with the factors of dsytrf.
       pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
          import :: wp
          implicit none(type, external)
@@ -20,7 +32,7 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsytrs
 
-      !> Reciprocal condition number (1-norm) from the same factors.
+      !> Reciprocal condition number (1-norm) from the factors of dsytrf.
       pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
          import :: wp
          implicit none(type, external)
