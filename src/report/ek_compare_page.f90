@@ -127,11 +127,11 @@ contains
          u = test_number(results(r), results(1)%tests(test)%name)
          if (u > 0) own(r) = quantity_chart(results(r)%tests(u), quantity)
       end do
+      allocate (chart%traces(0))      ! gfortran 12 takes the bounds of an unallocated component for uninitialised
       do side = 1, size(own(1)%traces)
          chart = own(1)
          chart%test = test
-         deallocate (chart%traces)
-         allocate (chart%traces(0))
+         chart%traces = chart%traces(:0)
          associate (name => own(1)%traces(side)%title)
             if (len(name) > 0) then
                chart%name = chart%name//'_'//name

@@ -14,6 +14,7 @@ NR == FNR { lines[++count] = $0; next }
     if ($k == other[k]) continue
     if (row == 1 || tolower($k other[k]) ~ /[a-df-z]/) { differs = 1; exit }    # a heading, a text, or not a number
     gap = $k > other[k] ? $k - other[k] : other[k] - $k
+    if (head[k] == "iterations" && gap <= 1) continue
     if (gap > gaps[k]) gaps[k] = gap
   }
   for (k = 1; k <= NF; k++) {
