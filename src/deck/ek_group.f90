@@ -9,7 +9,7 @@ module ek_group
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single
    public :: key_t, keys, find_key, key_names, record_head, did_you_mean, unknown_key
-   public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group
+   public :: model_group, point_group, body_group, measure_group, joint_group, bushing_group, spring_group, spring_groups
    public :: wheel_group, load_group, case_group, study_group, factor_group, response_group, include_group, mirror_group
    public :: curve_group, damper_group, stop_group, torsion_group, axle_group, steering_group, mass_group
    public :: most_values, most_loads, is_legal_name, illegal_name
@@ -26,8 +26,8 @@ module ek_group
       'stop', 'torsion', 'axle', 'steering', 'mass']
 
    integer, parameter :: every_group = 0      !! in the table of keys
-   integer, parameter :: result_groups(7) = [measure_group, joint_group, bushing_group, spring_group, damper_group, &
-      stop_group, torsion_group]                                    ! their names make the names of columns
+   integer, parameter :: spring_groups(4) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
+   integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
 
    ! types of value

@@ -2,7 +2,7 @@
 module ek_reader_axle
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_element, only: is_of_angle
+   use ek_measure, only: is_of_angle
    use ek_record, only: element
    use ek_group, only: group_names, joint_group, measure_group
    use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, slot

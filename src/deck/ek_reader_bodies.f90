@@ -3,9 +3,9 @@ module ek_reader_bodies
    use ek_kinds, only: wp
    use ek_text, only: quoted
    use ek_twin, only: single, left_twin, right_twin
-   use ek_builder, only: add_body
+   use ek_suspension, only: body_t
    use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, hardpoint, off_left, off_right, in_plane
-   use ek_design_vector, only: add_mass, plane
+   use ek_design_vector, only: plane
    use ek_draft, only: draft_t, complain, where_of, has_key, text_of, number_of, slot, slots
    use ek_reference, only: find_point, find_body, new_vector, vector_at
    implicit none(type, external)
@@ -42,7 +42,7 @@ contains
    subroutine read_body(draft)
       type(draft_t), intent(inout) :: draft
       type(body_plan_t) :: plan
-      real(wp) :: mass
+      type(body_t) :: body
       logical :: is_found, has_centre
 
       call find_point(draft, 'origin', text_of(draft, 'origin'), plan%origin, is_found)
@@ -50,14 +50,13 @@ contains
       if (has_key(draft, 'mass') .neqv. has_key(draft, 'centre')) call complain(draft, &
          trim(merge('mass  ', 'centre', has_key(draft, 'mass'))), 'give mass and centre (of gravity) together')
       call slot(draft, 'mass', 1.0_wp, plan%mass)
-      mass = number_of(draft, 'mass', 0.0_wp)
+      body%name = text_of(draft, 'name')
+      body%where = where_of(draft)
+      body%has_origin = plan%origin > 0
+      body%mass = number_of(draft, 'mass', 0.0_wp)
+      draft%plan%prototype%bodies = [draft%plan%prototype%bodies, body]
       draft%plan%bodies = [draft%plan%bodies, plan]
       draft%cards(draft%k)%index = size(draft%plan%bodies)
-      if (plan%origin > 0) then
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), vector_at(draft, plan%origin), mass)
-      else
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), mass=mass)
-      end if
    end subroutine read_body
 
    !> &mass: a further mass of a body, in addition to that of &body.
@@ -72,8 +71,8 @@ contains
          call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
       if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
       call slot(draft, 'kg', 1.0_wp, plan%kg)
-      associate (body => draft%plan%prototype%bodies(plan%body))
-         call add_mass(number_of(draft, 'kg', 1.0_wp), vector_at(draft, plan%at), body%mass, body%centre)
+      associate (body => draft%plan%prototype%bodies(plan%body))      ! whether it has a weight
+         body%mass = body%mass + number_of(draft, 'kg', 1.0_wp)
       end associate
       draft%plan%masses = [draft%plan%masses, plan]
    end subroutine read_mass

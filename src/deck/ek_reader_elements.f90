@@ -4,9 +4,10 @@ module ek_reader_elements
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
    use ek_twin, only: right_twin
+   use ek_measure, only: measure_t
+   use ek_element, only: element_t, set_kind, bushing_element
    use ek_elastic, only: bushing_t
    use ek_suspension, only: load_t
-   use ek_builder, only: add_bushing, add_load
    use ek_blueprint, only: vector_t, bushing_plan_t, load_plan_t, chosen, chosen_right
    use ek_design_vector, only: marker_axes
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, slots
@@ -22,7 +23,7 @@ contains
    subroutine read_bushing(draft)
       type(draft_t), intent(inout) :: draft
       type(bushing_plan_t) :: plan
-      type(bushing_t) :: element
+      type(element_t) :: element
       logical :: has_bodies, is_found
       integer :: number(2)
 
@@ -30,7 +31,7 @@ contains
       call find_ends(draft, .true., plan%ends, is_found)
       if (.not. (has_key(draft, 'kt') .or. has_key(draft, 'kr') .or. has_key(draft, 'curve'))) &
          call complain(draft, '', "give 'kt', 'kr' or 'curve'")
-      call find_laws(draft, plan, element)
+      call find_laws(draft, plan, element%bushing)
       call find_axes(draft, plan)
       if (.not. draft%cards(draft%k)%is_good) return
 
@@ -42,9 +43,8 @@ contains
       end associate
       element%name = text_of(draft, 'name')
       element%where = where_of(draft)
-      element%body_i = number(1)
-      element%body_j = number(2)
-      call add_bushing(draft%plan%prototype, element)
+      call set_kind(element, bushing_element, measure_t(body_i=number(1), body_j=number(2)))
+      draft%plan%prototype%elements = [draft%plan%prototype%elements, element]
       draft%plan%bushings = [draft%plan%bushings, plan]
    end subroutine read_bushing
 
@@ -141,7 +141,7 @@ contains
       element%name = text_of(draft, 'name')
       element%where = where_of(draft)
       element%follows = switch_of(draft, 'follows', .false.)
-      call add_load(draft%plan%prototype, element)
+      draft%plan%prototype%loads = [draft%plan%prototype%loads, element]
       draft%plan%loads = [draft%plan%loads, plan]
    end subroutine read_load
 

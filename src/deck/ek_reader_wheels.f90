@@ -3,7 +3,6 @@ module ek_reader_wheels
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_suspension, only: wheel_t
-   use ek_builder, only: add_wheel
    use ek_blueprint, only: wheel_plan_t, vector_t, given
    use ek_group, only: word_length
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, numbers_of, slot, slots
@@ -60,7 +59,7 @@ contains
       call slot(draft, 'sprung_mass', 1.0_wp, plan%sprung_mass)
       this%name = text_of(draft, 'name')
       this%where = where_of(draft)
-      call add_wheel(draft%plan%prototype, this)
+      draft%plan%prototype%wheels = [draft%plan%prototype%wheels, this]
       draft%plan%wheels = [draft%plan%wheels, plan]
    end subroutine read_wheel
 

@@ -5,7 +5,7 @@ module ek_plausible_parts
    use ek_curve, only: curve_t
    use ek_law, only: law_t
    use ek_element, only: element_t, element_label, axial_spring, damper, stop_spring, torsion_spring, bushing_element
-   use ek_spring, only: spring_tension
+   use ek_element_force, only: spring_tension
    use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
@@ -32,7 +32,7 @@ contains
             case (damper)
                call judge(doubts, element%where, element_label(element), 'length at design', element%design_length)
                call judge(doubts, element%where, element_label(element), 'gas force', element%preload)
-               call judge(doubts, element%where, element_label(element), 'gas rate', element%rate)
+               call judge(doubts, element%where, element_label(element), 'gas rate', element%law%rate)
             case (stop_spring)
                call doubt_stop(element, doubts)
             case (torsion_spring)
@@ -60,12 +60,12 @@ contains
 
       thing = element_label(spring)
       if (spring%measure%kind == distance) call judge(doubts, spring%where, thing, 'length at design', spring%design_length)
-      if (spring%has_law) then
+      if (spring%law%has_curve) then
          call doubt_curve(spring%law, spring%where, thing, .false., doubts)
       else
-         call judge(doubts, spring%where, thing, 'spring rate', spring%rate)
-         if (spring%rate > 0.0_wp .and. spring%preload > felt) &
-            call judge(doubts, spring%where, thing, 'static compression', spring%preload/spring%rate)
+         call judge(doubts, spring%where, thing, 'spring rate', spring%law%rate)
+         if (spring%law%rate > 0.0_wp .and. spring%preload > felt) &
+            call judge(doubts, spring%where, thing, 'static compression', spring%preload/spring%law%rate)
       end if
       call spring_tension(spring, spring%design_length, tension, slope)
       if (tension > felt) call doubts%add(spring%where, 'tension', thing//': in tension at design, '// &
@@ -105,12 +105,12 @@ contains
       character(:), allocatable :: thing
 
       thing = element_label(spring)
-      if (spring%has_law) then
+      if (spring%law%has_curve) then
          call doubt_angular_curve(spring%law%curve, spring%where, thing, doubts)
       else if (min(spring%measure%body_i, spring%measure%body_j) > 0) then
-         call judge(doubts, spring%where, thing, 'torsion bar rate', spring%rate)
+         call judge(doubts, spring%where, thing, 'torsion bar rate', spring%law%rate)
       else
-         call judge(doubts, spring%where, thing, 'torsion spring rate', spring%rate)
+         call judge(doubts, spring%where, thing, 'torsion spring rate', spring%law%rate)
       end if
    end subroutine doubt_torsion
 

@@ -30,7 +30,7 @@ module ek_rig
    use ek_wheel_side, only: side_name, height_name, left_and_right, design_track
    use ek_measure, only: rotation, axis_axis
    use ek_suspension, only: suspension_t, load_t, driver_row
-   use ek_builder, only: add_travel_driver, add_height_driver, add_load
+   use ek_assembly, only: add_travel_driver, add_height_driver
    use ek_case, only: case_t, append_course, is_mountable, follows_place, follows_tangent, follows_table
    implicit none(type, external)
    private
@@ -273,7 +273,7 @@ contains
       load%force = force
       load%moment = moment
       load%is_case = .true.
-      call add_load(suspension, load)
+      suspension%loads = [suspension%loads, load]
       call append_course(this%courses, load%name, '', share, law, values)
    end subroutine add_wheel_load
 

@@ -13,7 +13,7 @@ module ek_suspension
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
-   public :: body_name, design_poses, driver_row, load_number
+   public :: allocate_lists, body_name, design_poses, driver_row, load_number
 
    !> A rigid body.
    type :: body_t
@@ -120,6 +120,20 @@ module ek_suspension
    end type suspension_t
 
 contains
+
+   !> A suspension without parts.
+   subroutine allocate_lists(self)
+      type(suspension_t), intent(inout) :: self
+      allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
+         self%wheels(0), self%readouts(0))
+      self%balance = 'none'
+      self%name = ''
+      self%title = ''
+      self%where = ''
+      self%axle%where = ''
+      self%steering%where = ''
+      self%steering%driver = ''
+   end subroutine allocate_lists
 
    !> The length of Δq.
    pure integer function unknowns(self)

@@ -6,6 +6,7 @@ module ek_part_shape
    use ek_units, only: pi
    use ek_block, only: rotated
    use ek_measure, only: measure_t, distance
+   use ek_joint, only: joint_table, rod_part, ball_part, hinge_part, slider_part
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides, &
@@ -90,18 +91,18 @@ contains
       do k = 1, size(suspension%joints)
          measure = first_measure(suspension, k)
          call ends_of(measure, state, a, b)
-         select case (suspension%joints(k)%kind)
-         case ('distance')
+         select case (joint_table(suspension%joints(k)%number)%part)
+         case (rod_part)
             call add_tube(scene, part_rod, a, b, rod_radius, merge(4, 6, plain))
             call add_end(measure%body_i, a)
             call add_end(measure%body_j, b)
-         case ('spherical', 'universal', 'constant_velocity')
+         case (ball_part)
             call add_ball(scene, part_ball, b, ball_radius, merge(4, 8, plain))
             if (measure%body_i*measure%body_j == 0) call add_end(0, b)
-         case ('revolute')
+         case (hinge_part)
             call revolute_axis(suspension, k, state, axis)
             call add_tube(scene, part_ball, b - 0.022_wp*axis, b + 0.022_wp*axis, 0.015_wp, merge(4, 8, plain))
-         case ('cylindrical', 'translational')
+         case (slider_part)
             ! rows: x·z and y·z first, so v of the first row is the axis, fixed in body j
             axis = rotated(state%poses(measure%body_j + 1)%a, measure%v)
             if (measure%body_i == 0 .or. measure%body_j == 0) then

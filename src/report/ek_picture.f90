@@ -5,6 +5,7 @@ module ek_picture
    use ek_kinds, only: wp
    use ek_text, only: spaced
    use ek_measure, only: distance
+   use ek_joint, only: joint_table, rod_part
    use ek_element, only: element_kinds, stop_shape, damper_shape
    use ek_suspension, only: suspension_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, carries_wheel, slides
@@ -54,7 +55,7 @@ contains
          end do
       end do
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%kind /= 'distance') cycle
+         if (joint_table(suspension%joints(k)%number)%part /= rod_part) cycle
          call ends_of(first_measure(suspension, k), state, line(:, 1), line(:, 2))
          call add_line(scene, kind, line)
       end do
@@ -133,7 +134,7 @@ contains
          end if
       end do
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%kind /= 'distance') cycle
+         if (joint_table(suspension%joints(k)%number)%part /= rod_part) cycle
          call ends_of(first_measure(suspension, k), state, a, b)
          at = 0.8_wp*a + 0.2_wp*b      ! away from the name of a wishbone or a carrier beside it
          call name_at(suspension%joints(k)%name)

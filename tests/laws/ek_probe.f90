@@ -5,7 +5,7 @@ module ek_probe
    use ek_kinds, only: wp
    use ek_rotation, only: quaternion_of_matrix
    use ek_suspension, only: suspension_t, load_t
-   use ek_builder, only: add_load, add_height_driver
+   use ek_parts, only: add_load, add_height_driver
    use ek_kkt, only: kkt_t, new_kkt
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_state, only: state_t, demand_t

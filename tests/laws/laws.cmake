@@ -4,6 +4,8 @@ set(ek_laws_dir ${CMAKE_CURRENT_LIST_DIR})
 add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_random.f90
   ${ek_laws_dir}/ek_differences.f90
+  ${ek_laws_dir}/ek_curve_integral.f90
+  ${ek_laws_dir}/ek_parts.f90
   ${ek_laws_dir}/ek_example.f90
   ${ek_laws_dir}/ek_axle.f90
   ${ek_laws_dir}/ek_reading.f90
