@@ -122,7 +122,7 @@ contains
    !> The same with explicit shapes, which the compiler turns into tight code.
    !> Equations (K.3), (K.4) of docs/theory/kkt.md.
    !> Equation (M.19) of docs/theory/measures.md.
-   !> Equation (R.14) of docs/theory/rotations.md.
+   !> Equation (R.13) of docs/theory/rotations.md.
    pure subroutine assemble_into(suspension, poses, reaction, demand, mode, nq, n, gradients, values, matrix, rhs)
       type(suspension_t), intent(in) :: suspension
       type(pose_t), intent(in) :: poses(0:*)     !! the chassis, then the bodies

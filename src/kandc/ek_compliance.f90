@@ -22,7 +22,7 @@
 !>
 !> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
 !> Equation (C.4) of docs/theory/compliance.md.
-!> Equation (R.8) of docs/theory/rotations.md.
+!> Equation (R.7) of docs/theory/rotations.md.
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

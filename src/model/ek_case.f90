@@ -84,19 +84,15 @@ contains
       real(wp), intent(in) :: share
       integer, intent(in) :: law
       real(wp), intent(in), optional :: values(:)      !! of follows_table, SI
-      type(course_t), allocatable :: more(:)
-      integer :: n
+      type(course_t) :: course
 
-      n = 0
-      if (allocated(courses)) n = size(courses)
-      allocate (more(n + 1))
-      if (n > 0) more(:n) = courses
-      more(n + 1)%load = load
-      more(n + 1)%drive = drive
-      more(n + 1)%share = share
-      more(n + 1)%law = law
-      if (present(values)) more(n + 1)%values = values
-      call move_alloc(more, courses)
+      course%load = load
+      course%drive = drive
+      course%share = share
+      course%law = law
+      if (present(values)) course%values = values
+      if (.not. allocated(courses)) allocate (courses(0))
+      courses = [courses, course]
    end subroutine append_course
 
 end module ek_case

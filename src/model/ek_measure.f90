@@ -168,9 +168,10 @@ contains
             m = (weight/view%value)*(identity3 - dyad(view%u, view%u))
             call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
          end if
+         if (at_j >= 0) call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
+         if (at_i < 0) return
          m = -s_matrix(view%a, u)
          call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
-         call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
       end select
    end subroutine add_measure_hessian
 

@@ -17,7 +17,7 @@ module ek_realise
    use ek_case, only: case_t
    use ek_completion, only: settle_design
    use ek_blueprint, only: blueprint_t, inward, number_at, triple_at
-   use ek_design_vector, only: find_vectors, marker_axes, spin_of, add_mass
+   use ek_design_vector, only: find_vectors, marker_axes, spin_of
    implicit none(type, external)
    private
    public :: new_design, realise, realise_cases
@@ -79,10 +79,11 @@ contains
             body%centre = suspension%vectors(:, this%centre)
          end associate
       end do
+      ! as weights are parallel, one mass at the common centre of gravity is equivalent: m = Σ m_k, centre = Σ m_k c_k / m
       do k = 1, size(plan%masses)
-         associate (this => plan%masses(k))
-            call add_mass(x(this%kg), suspension%vectors(:, this%at), suspension%bodies(this%body)%mass, &
-               suspension%bodies(this%body)%centre)
+         associate (body => suspension%bodies(plan%masses(k)%body), this => plan%masses(k))
+            body%centre = (body%mass*body%centre + x(this%kg)*suspension%vectors(:, this%at))/(body%mass + x(this%kg))
+            body%mass = body%mass + x(this%kg)
          end associate
       end do
    end subroutine place_bodies
@@ -187,6 +188,7 @@ contains
       real(wp), intent(in) :: x(:)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
+      real(wp) :: rates(6)
       integer :: k, c
 
       do k = 1, size(plan%bushings)
@@ -199,16 +201,13 @@ contains
             bushing%kr = triple_at(x, this%kr)
             bushing%preload_force = triple_at(x, this%preload_force)
             bushing%preload_moment = triple_at(x, this%preload_moment)
-            do c = 1, 3
-               if (this%curves(c) > 0) then
-                  call renew(plan, this%curves(c), x, plan%length_unit, plan%force_unit, bushing%laws(c)%curve, is_good)
-                  is_good = is_good .and. abs(bushing%kt(c)) <= 0.0_wp      ! a component has either a rate or a curve
-               end if
-               if (this%curves(c + 3) > 0) then
-                  call renew(plan, this%curves(c + 3), x, plan%angle_unit, plan%force_unit*plan%length_unit, &
-                     bushing%laws(c + 3)%curve, is_good)
-                  is_good = is_good .and. abs(bushing%kr(c)) <= 0.0_wp
-               end if
+            rates(1:3) = bushing%kt
+            rates(4:6) = bushing%kr
+            do c = 1, 6
+               if (this%curves(c) == 0) cycle
+               call renew(plan, this%curves(c), x, merge(plan%length_unit, plan%angle_unit, c <= 3), &
+                  plan%force_unit*merge(1.0_wp, plan%length_unit, c <= 3), bushing%laws(c)%curve, is_good)
+               is_good = is_good .and. abs(rates(c)) <= 0.0_wp      ! a component has either a rate or a curve
             end do
          end associate
       end do

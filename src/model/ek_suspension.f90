@@ -138,15 +138,13 @@ contains
    !> The length of Δq.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
-      unknowns = 0
-      if (allocated(self%bodies)) unknowns = 6*size(self%bodies)
+      unknowns = 6*size(self%bodies)
    end function unknowns
 
    !> The number of rows of Φ.
    pure integer function constraints(self)
       class(suspension_t), intent(in) :: self
-      constraints = 0
-      if (allocated(self%rows)) constraints = size(self%rows)
+      constraints = size(self%rows)
    end function constraints
 
    !> The design poses of bodies 0 … n, the chassis first.
