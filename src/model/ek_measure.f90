@@ -22,7 +22,7 @@
 module ek_measure
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
-   use ek_block, only: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian, s_matrix, rotated, dyad, dyad_rest
+   use ek_block, only: add_block, add_s_block, add_link_stiffness, add_gap_hessian, rotated, dyad, dyad_rest
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, add_turn_hessian
    implicit none(type, external)
    private
@@ -157,9 +157,8 @@ contains
       case (rotation)
          call add_turn_hessian(view%turn, u, none, view%frame, at_i, at_j, ld, matrix)
       case (axis_axis)
-         m = s_matrix(u, view%v)
-         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
-         call add_diagonal_block(m, at_j + 3, at_j, ld, matrix)
+         call add_s_block(u, view%v, at_i + 3, at_i, ld, matrix)
+         call add_s_block(u, view%v, at_j + 3, at_j, ld, matrix)
          if (at_i >= 0 .and. at_j >= 0) call add_block(dyad_rest(view%v, u), at_i + 3, at_j + 3, ld, matrix)
       case (body_gap)
          call add_gap_hessian(u, view%a, view%b, view%d, at_i, at_j, ld, matrix)
@@ -168,10 +167,9 @@ contains
             m = (weight/view%value)*(identity3 - dyad(view%u, view%u))
             call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
          end if
-         if (at_j >= 0) call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
-         if (at_i < 0) return
-         m = -s_matrix(view%a, u)
-         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
+         call add_s_block(view%b, u, at_j + 3, at_j, ld, matrix)
+         u = -u
+         call add_s_block(view%a, u, at_i + 3, at_i, ld, matrix)
       end select
    end subroutine add_measure_hessian
 
