@@ -8,7 +8,7 @@ module ek_reader_axle
    use ek_blueprint, only: wheel_plan_t, vector_t, given
    use ek_record, only: element
    use ek_group, only: joint_group, measure_group
-   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, numbers_of, &
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, numbers_of, &
       is_second, slot
    use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
    implicit none(type, external)
