@@ -7,7 +7,7 @@ module ek_group
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
-   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_words
+   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_words, spring_groups
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
@@ -19,8 +19,8 @@ module ek_group
       'stop', 'torsion', 'axle', 'steering', 'mass']
 
    integer, parameter :: every_group = 0      !! in the table of keys
-   integer, parameter :: result_groups(7) = [measure_group, joint_group, bushing_group, spring_group, damper_group, &
-      stop_group, torsion_group]                                    ! their names make the names of columns
+   integer, parameter :: spring_groups(4) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
+   integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
    integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
 
    ! types of value

@@ -10,7 +10,7 @@ module ek_reader
    use ek_complaint, only: place_t, single
    use ek_record, only: record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, case_group, &
+      measure_group, joint_group, bushing_group, spring_groups, case_group, &
       curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
       word_length, record_head, did_you_mean, has_results
    use ek_namelist, only: check_record
@@ -21,13 +21,12 @@ module ek_reader
    use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load
    use ek_reader_joints, only: read_measure, read_joint
-   use ek_reader_elements, only: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   use ek_reader_elements, only: read_curve, read_elastic, read_bushing
    use ek_reader_axle, only: read_wheel, read_axle, read_steering
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
-   use ek_suspension, only: suspension_t
-   use ek_builder, only: add_point, add_gravity
-   use ek_completion, only: allocate_lists
+   use ek_suspension, only: suspension_t, point_t
+   use ek_assembly, only: add_gravity
    use ek_blueprint, only: blueprint_t, new_blueprint
    use ek_realise, only: new_design, realise
    use ek_case, only: case_t
@@ -36,9 +35,8 @@ module ek_reader
    public :: design_t, read_design, build_model
 
    !> The order of reading: what others refer to comes first.
-   integer, parameter :: reading_order(16) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
-      joint_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, wheel_group, axle_group, &
-      steering_group, load_group]
+   integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
+      joint_group, bushing_group, spring_groups, wheel_group, axle_group, steering_group, load_group]
 
    !> A deck as a design space: realise(plan, x) is a suspension.
    type :: design_t
@@ -126,9 +124,6 @@ contains
       end do
       if (.not. any(draft%cards%group == model_group) .and. all(draft%cards%group > 0)) &
          call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
-      draft%plan%prototype%name = ''
-      draft%plan%prototype%title = ''
-      draft%plan%prototype%balance = 'none'
       do j = 1, size(reading_order)
          do k = 1, size(draft%records)
             if (draft%cards(k)%group /= reading_order(j)) cycle
@@ -174,14 +169,6 @@ contains
          call read_joint(draft)
       case (bushing_group)
          call read_bushing(draft)
-      case (spring_group)
-         call read_spring(draft)
-      case (damper_group)
-         call read_damper(draft)
-      case (stop_group)
-         call read_stop(draft)
-      case (torsion_group)
-         call read_torsion(draft)
       case (wheel_group)
          call read_wheel(draft)
       case (axle_group)
@@ -190,24 +177,29 @@ contains
          call read_steering(draft)
       case (load_group)
          call read_load(draft)
+      case default
+         call read_elastic(draft)
       end select
    end subroutine read_record
 
    !> The lists of the prototype that follow from the whole deck: points and weights.
    subroutine complete_prototype(draft)
       type(draft_t), intent(inout) :: draft
+      type(point_t) :: point
       integer :: k
 
       do k = 1, size(draft%records)
          draft%k = k
          associate (card => draft%cards(k))
             if (card%group /= point_group) cycle
-            call add_point(draft%plan%prototype, trim(card%name), where_of(draft), draft%vectors(:, card%index), card%is_used)
+            point%name = trim(card%name)
+            point%where = where_of(draft)
+            point%is_used = card%is_used
+            draft%plan%prototype%points = [draft%plan%prototype%points, point]
             draft%plan%points = [draft%plan%points, card%index]
          end associate
       end do
-      call add_gravity(draft%plan%prototype, draft%plan%prototype%gravity)
-      call allocate_lists(draft%plan%prototype)
+      call add_gravity(draft%plan%prototype)
    end subroutine complete_prototype
 
    !> Whether a file contains groups of a study and none of a deck.

@@ -3,13 +3,12 @@
 module ek_reader_axle
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
-   use ek_element, only: is_of_angle
+   use ek_measure, only: is_of_angle
    use ek_suspension, only: wheel_t
-   use ek_builder, only: add_wheel
    use ek_blueprint, only: wheel_plan_t, vector_t, given
    use ek_record, only: element
    use ek_group, only: joint_group, measure_group
-   use ek_draft, only: draft_t, complain, line_of, where_of, has_key, choice, text_of, numbers_of, &
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, numbers_of, &
       is_second, slot
    use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
    implicit none(type, external)
@@ -54,7 +53,7 @@ contains
       call slot(draft, 'sprung_mass', 1.0_wp, plan%sprung_mass)
       this%name = text_of(draft, 'name')
       this%where = where_of(draft)
-      call add_wheel(draft%plan%prototype, this)
+      draft%plan%prototype%wheels = [draft%plan%prototype%wheels, this]
       draft%plan%wheels = [draft%plan%wheels, plan]
    end subroutine read_wheel
 

@@ -2,10 +2,9 @@
 module ek_reader_bodies
    use ek_kinds, only: wp
    use ek_complaint, only: single, left_side, right_side
-   use ek_suspension, only: load_t
-   use ek_builder, only: add_body, add_load
+   use ek_suspension, only: body_t, load_t
    use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, hardpoint, off_left, off_right, in_plane
-   use ek_design_vector, only: add_mass, plane
+   use ek_design_vector, only: plane
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, slot
    use ek_reference, only: find_point, find_moving_body, new_vector
    implicit none(type, external)
@@ -42,7 +41,7 @@ contains
    subroutine read_body(draft)
       type(draft_t), intent(inout) :: draft
       type(body_plan_t) :: plan
-      real(wp) :: mass
+      type(body_t) :: body
       logical :: is_found, has_centre
 
       call find_point(draft, 'origin', text_of(draft, 'origin'), plan%origin, is_found)
@@ -50,14 +49,13 @@ contains
       if (has_key(draft, 'mass') .neqv. has_key(draft, 'centre')) call complain(draft, &
          trim(merge('mass  ', 'centre', has_key(draft, 'mass'))), 'give mass and centre (of gravity) together')
       call slot(draft, 'mass', 1.0_wp, plan%mass)
-      mass = number_of(draft, 'mass', 0.0_wp)
+      body%name = text_of(draft, 'name')
+      body%where = where_of(draft)
+      body%has_origin = plan%origin > 0
+      body%mass = number_of(draft, 'mass', 0.0_wp)
+      draft%plan%prototype%bodies = [draft%plan%prototype%bodies, body]
       draft%plan%bodies = [draft%plan%bodies, plan]
       draft%cards(draft%k)%index = size(draft%plan%bodies)
-      if (plan%origin > 0) then
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), draft%vectors(:, plan%origin), mass)
-      else
-         call add_body(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), mass=mass)
-      end if
    end subroutine read_body
 
    !> &mass: a further mass of a body, in addition to that of &body.
@@ -70,8 +68,8 @@ contains
       call find_point(draft, 'at', text_of(draft, 'at'), plan%at, has_place)
       if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
       call slot(draft, 'kg', 1.0_wp, plan%kg)
-      associate (body => draft%plan%prototype%bodies(plan%body))
-         call add_mass(number_of(draft, 'kg', 1.0_wp), draft%vectors(:, plan%at), body%mass, body%centre)
+      associate (body => draft%plan%prototype%bodies(plan%body))      ! whether it has a weight
+         body%mass = body%mass + number_of(draft, 'kg', 1.0_wp)
       end associate
       draft%plan%masses = [draft%plan%masses, plan]
    end subroutine read_mass
@@ -99,7 +97,7 @@ contains
       element%name = text_of(draft, 'name')
       element%where = where_of(draft)
       element%follows = switch_of(draft, 'follows', .false.)
-      call add_load(draft%plan%prototype, element)
+      draft%plan%prototype%loads = [draft%plan%prototype%loads, element]
       draft%plan%loads = [draft%plan%loads, plan]
    end subroutine read_load
 

@@ -6,22 +6,20 @@ module ek_reader_elements
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
    use ek_complaint, only: right_side
-   use ek_curve, only: curve_t, new_curve, scaled_curve, look_up_curve, curve_kinds, least_step
-   use ek_measure, only: measure_t, distance
-   use ek_element, only: new_damper, new_stop, new_torsion, new_measure_spring, is_of_angle, element_t
+   use ek_curve, only: curve_t, new_curve, look_up_curve, curve_kinds, least_step
+   use ek_measure, only: measure_t, distance, rotation, is_of_angle
+   use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element
    use ek_elastic, only: bushing_t
-   use ek_builder, only: add_element, add_bushing
    use ek_blueprint, only: element_plan_t, curve_plan_t, vector_t, bushing_plan_t, chosen, chosen_right
    use ek_design_vector, only: marker_axes
-   use ek_group, only: measure_group, word_length
+   use ek_group, only: measure_group, spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, numbers_of, &
       value_count, refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
-   public :: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   public :: read_curve, read_elastic, read_bushing
 
-   real(wp), parameter :: origin(3) = 0.0_wp           !! numbers of the prototype are set by `realise`
    real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
 contains
@@ -57,41 +55,44 @@ contains
       draft%plan%curves(size(draft%plan%curves)) = plan
    end subroutine read_curve
 
+   !> An elastic element of one measure.
+   subroutine read_elastic(draft)
+      type(draft_t), intent(inout) :: draft
+
+      select case (draft%cards(draft%k)%group)
+      case (spring_group)
+         call read_spring(draft)
+      case (damper_group)
+         call read_damper(draft)
+      case (stop_group)
+         call read_stop(draft)
+      case (torsion_group)
+         call read_torsion(draft)
+      end select
+   end subroutine read_elastic
+
    !> &spring: between two points, or on a measure.
    subroutine read_spring(draft)
       type(draft_t), intent(inout) :: draft
       type(element_plan_t) :: plan
       type(measure_t) :: measure
-      type(element_t) :: element
-      type(curve_t), allocatable :: law
-      integer :: bodies(2)
 
       plan%force_unit = draft%units%force
       plan%value_unit = draft%units%length
-      bodies = 0
-      measure%kind = distance
       if (has_key(draft, 'measure')) then
          call find_measure()
       else
          if (.not. has_key(draft, 'bodies')) call complain(draft, '', "'bodies' is missing (give bodies and at, or measure)")
          if (.not. has_key(draft, 'at')) call complain(draft, '', "'at' is missing (give bodies and at, or measure)")
-         call find_bodies(draft, bodies)
-         call find_ends(draft, .false., plan%ends)
+         call find_link(draft, plan, measure)
       end if
-      call find_law(draft, plan, law)
+      call find_law(draft, plan)
       if (has_key(draft, 'preload') .and. has_key(draft, 'free_length')) &
          call complain(draft, 'free_length', 'give either preload or free_length, not both')
       if (.not. draft%cards(draft%k)%is_good) return
       call slot(draft, 'free_length', draft%units%length, plan%free_length)
       if (plan%free_length == 0) call slot(draft, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
-
-      if (plan%readout == 0) then
-         measure%body_i = bodies(1)
-         measure%body_j = bodies(2)
-      end if
-      element = new_measure_spring(text_of(draft, 'name'), where_of(draft), measure, 0.0_wp, curve=law)
-      element%is_balanced = switch_of(draft, 'balance', .true.)
-      call add(draft, element, plan)
+      call add(draft, plan, merge(axial_spring, measure_spring, measure%kind == distance), measure)
 
    contains
 
@@ -120,48 +121,48 @@ contains
    subroutine read_damper(draft)
       type(draft_t), intent(inout) :: draft
       type(element_plan_t) :: plan
-      integer :: bodies(2)
+      type(measure_t) :: measure
 
-      call find_bodies(draft, bodies)
-      call find_ends(draft, .false., plan%ends)
+      call find_link(draft, plan, measure)
       if (.not. draft%cards(draft%k)%is_good) return
       call slot(draft, 'gas_rate', draft%units%force/draft%units%length, plan%rate, default=0.0_wp)
       call slot(draft, 'gas_force', draft%units%force, plan%preload, default=0.0_wp)
-      call add(draft, new_damper(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), origin, origin, 0.0_wp, 0.0_wp), &
-         plan)
+      call add(draft, plan, damper, measure)
    end subroutine read_damper
 
    !> &stop.
    subroutine read_stop(draft)
       type(draft_t), intent(inout) :: draft
       type(element_plan_t) :: plan
-      type(curve_t), allocatable :: law
+      type(measure_t) :: measure
+      type(curve_t) :: curve
       real(wp) :: force, slope
-      integer :: bodies(2), c
+      integer :: c
 
       plan%force_unit = draft%units%force
       plan%value_unit = draft%units%length
       call choice(draft, 'type', [character(7) :: 'bump', 'rebound'], c)
-      call find_bodies(draft, bodies)
-      call find_ends(draft, .false., plan%ends)
-      call find_law(draft, plan, law)
-      if (allocated(law)) then
-         call look_up_curve(law, 0.0_wp, force, slope)
+      call find_link(draft, plan, measure)
+      call find_law(draft, plan)
+      if (plan%curve > 0) then
+         associate (this => draft%plan%curves(plan%curve), x => draft%parameters%x)
+            curve = new_curve(x(this%x:this%x + this%points - 1), x(this%y:this%y + this%points - 1), this%kind)
+         end associate
+         call look_up_curve(curve, 0.0_wp, force, slope)
          if (abs(force) > 0.0_wp) call complain(draft, 'curve', 'curve '//quoted(text_of(draft, 'curve'))// &
-            ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force/plan%force_unit))
+            ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force))
       end if
       if (.not. draft%cards(draft%k)%is_good) return
       call slot(draft, 'clearance', draft%units%length, plan%clearance)
       call slot(draft, 'rounding', draft%units%length, plan%rounding, default=usual_rounding/draft%units%length)
-      call add(draft, new_stop(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), origin, origin, c == 1, &
-         0.0_wp, 1.0_wp, 0.0_wp, law), plan)
+      call add(draft, plan, stop_spring, measure)
+      if (c == 2) draft%plan%prototype%elements(draft%plan%prototype%scalars)%law%sign = 1.0_wp
    end subroutine read_stop
 
    !> &torsion: moment/angle about an axis fixed in the first body.
    subroutine read_torsion(draft)
       type(draft_t), intent(inout) :: draft
       type(element_plan_t) :: plan
-      type(curve_t), allocatable :: law
       logical :: has_axis, is_axis
       integer :: bodies(2)
 
@@ -170,19 +171,28 @@ contains
       call find_bodies(draft, bodies)
       call find_direction(draft, 'axis', 'axis_vector', plan%axis, has_axis, is_axis)
       if (.not. has_axis) call complain(draft, '', "give 'axis' or 'axis_vector'")
-      call find_law(draft, plan, law)
+      call find_law(draft, plan)
       if (.not. draft%cards(draft%k)%is_good) return
       call slot(draft, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
-      call add(draft, new_torsion(text_of(draft, 'name'), where_of(draft), bodies(1), bodies(2), draft%vectors(:, plan%axis), &
-         0.0_wp, 0.0_wp, law), plan)
+      call add(draft, plan, torsion_spring, measure_t(kind=rotation, body_i=bodies(1), body_j=bodies(2)))
    end subroutine read_torsion
 
-   !> Exactly one of rate and curve.
-   subroutine find_law(draft, plan, law)
+   !> The distance of two distinct points of two different bodies.
+   subroutine find_link(draft, plan, measure)
       type(draft_t), intent(inout) :: draft
       type(element_plan_t), intent(inout) :: plan
-      type(curve_t), allocatable, intent(out) :: law      !! unallocated without a curve: an absent argument
-      type(curve_t) :: curve       ! in deck units
+      type(measure_t), intent(out) :: measure
+      integer :: bodies(2)
+
+      call find_bodies(draft, bodies)
+      call find_ends(draft, .false., plan%ends)
+      measure = measure_t(kind=distance, body_i=bodies(1), body_j=bodies(2))
+   end subroutine find_link
+
+   !> Exactly one of rate and curve.
+   subroutine find_law(draft, plan)
+      type(draft_t), intent(inout) :: draft
+      type(element_plan_t), intent(inout) :: plan
 
       if (has_key(draft, 'rate') .and. has_key(draft, 'curve')) then
          call complain(draft, 'curve', 'give either rate or curve, not both')
@@ -191,21 +201,25 @@ contains
       end if
       call find_curve(draft, 'curve', text_of(draft, 'curve'), plan%curve)
       call slot(draft, 'rate', plan%force_unit/plan%value_unit, plan%rate)
-      if (plan%curve == 0) return
-      associate (this => draft%plan%curves(plan%curve), x => draft%parameters%x)
-         curve = new_curve(x(this%x:this%x + this%points - 1), x(this%y:this%y + this%points - 1), this%kind)
-         curve%name = this%name
-      end associate
-      allocate (law, source=scaled_curve(curve, plan%value_unit, plan%force_unit))
    end subroutine find_law
 
-   !> Adds an element to the prototype and its plan to the blueprint.
-   subroutine add(draft, element, plan)
+   !> Adds an element to the prototype, before all bushings, and its plan to the blueprint; `realise` sets the numbers.
+   subroutine add(draft, plan, kind, measure)
       type(draft_t), intent(inout) :: draft
-      type(element_t), intent(in) :: element
       type(element_plan_t), intent(in) :: plan
+      integer, intent(in) :: kind
+      type(measure_t), intent(in) :: measure
+      type(element_t) :: element
 
-      call add_element(draft%plan%prototype, element)
+      call set_kind(element, kind, measure)
+      element%law%has_curve = plan%curve > 0
+      element%is_balanced = switch_of(draft, 'balance', .true.)
+      element%name = text_of(draft, 'name')
+      element%where = where_of(draft)
+      associate (model => draft%plan%prototype)
+         model%elements = [model%elements(:model%scalars), element, model%elements(model%scalars + 1:)]
+         model%scalars = model%scalars + 1
+      end associate
       draft%plan%elements = [draft%plan%elements, plan]
    end subroutine add
 
@@ -213,14 +227,14 @@ contains
    subroutine read_bushing(draft)
       type(draft_t), intent(inout) :: draft
       type(bushing_plan_t) :: plan
-      type(bushing_t) :: element
+      type(element_t) :: element
       integer :: number(2)
 
       call find_bodies(draft, number)
       call find_ends(draft, .true., plan%ends)
       if (.not. (has_key(draft, 'kt') .or. has_key(draft, 'kr') .or. has_key(draft, 'curve'))) &
          call complain(draft, '', "give 'kt', 'kr' or 'curve'")
-      call find_laws(draft, plan, element)
+      call find_laws(draft, plan, element%bushing)
       call find_axes(draft, plan)
       if (.not. draft%cards(draft%k)%is_good) return
 
@@ -232,9 +246,8 @@ contains
       end associate
       element%name = text_of(draft, 'name')
       element%where = where_of(draft)
-      element%body_i = number(1)
-      element%body_j = number(2)
-      call add_bushing(draft%plan%prototype, element)
+      call set_kind(element, bushing_element, measure_t(body_i=number(1), body_j=number(2)))
+      draft%plan%prototype%elements = [draft%plan%prototype%elements, element]
       draft%plan%bushings = [draft%plan%bushings, plan]
    end subroutine read_bushing
 

@@ -3,15 +3,14 @@ module ek_reader_joints
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_rotation, only: angle_between
-   use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation
-   use ek_joint, only: joint_geometry_t, joint_kinds, needs_axis, needs_second_axis, axes_fit
-   use ek_element, only: is_of_angle
+   use ek_measure, only: axis_axis, body_gap, global_gap, distance, rotation, is_of_angle
+   use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_kinds, joint_table, joint_kind_t, axes_fit, max_terms, &
+      no_axis, one_or_two, two_axes, either_axis, right_angle, no_angle, not_opposed
    use ek_suspension, only: readout_t
-   use ek_builder, only: add_readout, add_joint, add_driver, add_coupler
+   use ek_assembly, only: append_joint
    use ek_blueprint, only: vector_t, readout_plan_t, joint_plan_t, across, upright
    use ek_group, only: measure_group, word_length, most_measures
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, numbers_of, value_count, &
-      refuse, slot
+   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, value_count, refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, check_apart, new_vector
    implicit none(type, external)
    private
@@ -69,7 +68,7 @@ contains
       readout%measure%body_j = number(2)
       draft%plan%readouts = [draft%plan%readouts, plan]
       draft%cards(draft%k)%index = size(draft%plan%readouts)
-      call add_readout(draft%plan%prototype, readout)
+      draft%plan%prototype%readouts = [draft%plan%prototype%readouts, readout]
    end subroutine read_measure
 
    !> &joint.
@@ -83,77 +82,72 @@ contains
          call find_bodies(draft, bodies)
          return
       end if
-      call check_keys(draft, trim(joint_kinds(number)))
+      call check_keys(draft, joint_table(number))
       select case (joint_kinds(number))
       case ('driver')
          call make_driver(draft)
       case ('coupler')
          call make_coupler(draft)
       case default
-         call make_joint(draft, trim(joint_kinds(number)))
+         call make_joint(draft, joint_table(number))
       end select
    end subroutine read_joint
 
    !> A joint that is defined by points and axes.
    subroutine make_joint(draft, kind)
       type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: kind
+      type(joint_kind_t), intent(in) :: kind
       type(joint_geometry_t) :: geometry
       type(joint_plan_t) :: plan
-      integer :: numbers(2)
+      type(term_t) :: terms(max_terms)
+      integer :: terms_of_row(max_terms), rows, numbers(2)
       logical :: has_bodies, has_points, has_u, has_v, is_u, is_v
 
       call find_bodies(draft, numbers, has_bodies)
       call find_ends(draft, .true., plan%ends, has_points)
-      select case (kind)
-      case ('distance')
-         call need_two_points(draft, plan%ends, has_points, 'a distance joint')
-      case ('in_plane', 'in_line')
-         continue
-      case default
-         if (value_count(draft, 'at') > 1) call complain(draft, 'at', 'at: a '//kind//' joint has one point, found two')
-      end select
+      if (kind%least_points == 2) then
+         call need_two_points(draft, plan%ends, has_points, 'a '//trim(kind%name)//' joint')
+      else if (kind%most_points == 1 .and. value_count(draft, 'at') > 1) then
+         call complain(draft, 'at', 'at: a '//trim(kind%name)//' joint has one point, found two')
+      end if
       call find_direction(draft, 'axis', 'axis_vector', plan%axes(1), has_u, is_u)
       call find_direction(draft, 'axis_2', 'axis_2_vector', plan%axes(2), has_v, is_v)
-      if (is_u .and. is_v) call check_axes(draft, kind, plan%axes)
+      if (is_u .and. is_v) call check_axes(draft, kind%angle, plan%axes)
       if (.not. draft%cards(draft%k)%is_good .or. .not. has_bodies) return
-      if (kind == 'universal') then
+      if (kind%axes == either_axis) then
          if (.not. has_v) call new_vector(draft, vector_t(kind=across, a=plan%axes(1)), plan%axes(2))
          if (.not. has_u) call new_vector(draft, vector_t(kind=across, a=plan%axes(2)), plan%axes(1))
       else
          plan%axes(1) = max(plan%axes(1), upright)
          if (.not. has_v) plan%axes(2) = plan%axes(1)
       end if
+      draft%plan%joints = [draft%plan%joints, plan]
       geometry%body_i = numbers(1)
       geometry%body_j = numbers(2)
-      geometry%point_i = draft%vectors(:, plan%ends(1))
-      geometry%point_j = draft%vectors(:, plan%ends(2))
-      geometry%axis_i = draft%vectors(:, plan%axes(1))
-      geometry%axis_j = draft%vectors(:, plan%axes(2))
-      draft%plan%joints = [draft%plan%joints, plan]
-      call add_joint(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), kind, geometry)
-      if (kind /= 'universal') return
-      associate (joint => draft%plan%prototype%joints(size(draft%plan%joints)))
-         if (.not. has_u) joint%chosen_axis = 1
-         if (.not. has_v) joint%chosen_axis = 2
+      call joint_terms(trim(kind%name), geometry, terms, terms_of_row, rows)      ! their numbers are set by `realise`
+      associate (model => draft%plan%prototype)
+         call append_joint(model, text_of(draft, 'name'), where_of(draft), trim(kind%name), &
+            terms(:sum(terms_of_row(:rows))), terms_of_row(:rows))
+         if (kind%axes == either_axis .and. .not. has_u) model%joints(size(model%joints))%chosen_axis = 1
+         if (kind%axes == either_axis .and. .not. has_v) model%joints(size(model%joints))%chosen_axis = 2
       end associate
    end subroutine make_joint
 
    !> Reports axes that do not suit the joint.
-   subroutine check_axes(draft, kind, axes)
+   subroutine check_axes(draft, needed, axes)
       type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: kind
+      integer, intent(in) :: needed        !! angle of joint_table
       integer, intent(in) :: axes(2)       !! vectors
       real(wp) :: angle
 
-      if (axes_fit(kind, draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))) return
+      if (axes_fit(needed, draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))) return
       angle = angle_between(draft%vectors(:, axes(1)), draft%vectors(:, axes(2)))
-      select case (kind)
-      case ('universal', 'perpendicular')
+      select case (needed)
+      case (right_angle)
          call complain(draft, '', 'axis and axis_2 must be at 90 deg to each other, found '//str(angle)//' deg')
-      case ('parallel')
+      case (no_angle)
          call complain(draft, '', 'axis and axis_2 must be parallel, found '//str(angle)//' deg between them')
-      case ('constant_velocity')
+      case (not_opposed)
          call complain(draft, '', 'axis and axis_2 point in opposite directions; reverse one of them')
       end select
    end subroutine check_axes
@@ -173,19 +167,15 @@ contains
       if (.not. draft%cards(draft%k)%is_good .or. readout == 0) return
       plan%readouts = [readout]
       plan%units = [place_unit]
-      if (.not. has_key(draft, 'stiffness')) then
-         call refuse(draft, ['balance'], 'only a driver with a stiffness takes this key')
-         call add_driver(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), readout)
-      else
+      if (.not. has_key(draft, 'stiffness')) call refuse(draft, ['balance'], 'only a driver with a stiffness takes this key')
+      associate (model => draft%plan%prototype)
          reaction_unit = draft%units%force
-         if (is_of_angle(draft%plan%prototype%readouts(readout)%measure%kind)) reaction_unit = reaction_unit*draft%units%length
+         if (is_of_angle(model%readouts(readout)%measure%kind)) reaction_unit = reaction_unit*draft%units%length
          call slot(draft, 'stiffness', reaction_unit, plan%stiffness)
-         call add_driver(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), readout, 1.0_wp)
-         associate (joint => draft%plan%prototype%joints(size(draft%plan%prototype%joints)))
-            joint%says_balance = has_key(draft, 'balance')
-            joint%is_balanced = switch_of(draft, 'balance', .true.)
-         end associate
-      end if
+         call append_measures(draft, 'driver', plan%readouts)
+         model%joints(size(model%joints))%says_balance = has_key(draft, 'balance')
+         model%joints(size(model%joints))%is_balanced = switch_of(draft, 'balance', .true.)
+      end associate
       draft%plan%joints = [draft%plan%joints, plan]
    end subroutine make_driver
 
@@ -211,45 +201,54 @@ contains
       plan%units = draft%cards(found(:given))%factor
       call slot(draft, 'ratios', 1.0_wp, first, count=given)
       plan%ratios = [(first + j - 1, j=1, given)]
-      call add_coupler(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), plan%readouts, &
-         numbers_of(draft, 'ratios', given))
+      call append_measures(draft, 'coupler', plan%readouts)
       draft%plan%joints = [draft%plan%joints, plan]
    end subroutine make_coupler
+
+   !> Adds a joint of one row, a term per measure.
+   subroutine append_measures(draft, kind, readouts)
+      type(draft_t), intent(inout) :: draft
+      character(*), intent(in) :: kind
+      integer, intent(in) :: readouts(:)
+      type(term_t) :: terms(size(readouts))
+
+      terms%measure = draft%plan%prototype%readouts(readouts)%measure
+      call append_joint(draft%plan%prototype, text_of(draft, 'name'), where_of(draft), kind, terms, [size(terms)])
+   end subroutine append_measures
 
    !> Checks which keys a type of joint requires and which it does not take.
    subroutine check_keys(draft, kind)
       type(draft_t), intent(inout) :: draft
-      character(*), intent(in) :: kind
+      type(joint_kind_t), intent(in) :: kind
       character(*), parameter :: joint_keys(11) = [character(13) :: 'bodies', 'at', 'axis', 'axis_vector', 'axis_2', &
          'axis_2_vector', 'measure', 'measures', 'ratios', 'stiffness', 'balance']
-      logical :: is_geometric, has_axis, has_second
-      logical :: may(11), must(11)
+      character(:), allocatable :: a_joint
+      logical :: has_axis, has_second, may(11), must(11)
       integer :: j
 
-      is_geometric = kind /= 'driver' .and. kind /= 'coupler'
-      may(1:2) = is_geometric
-      may(3:4) = needs_axis(kind)
-      may(5:6) = needs_second_axis(kind) .or. kind == 'parallel'
-      may([7, 10, 11]) = kind == 'driver'
-      may(8:9) = kind == 'coupler'
+      a_joint = 'a '//trim(kind%name)//' joint'
+      may(1:2) = .not. kind%is_of_measures
+      may(3:4) = kind%axes /= no_axis
+      may(5:6) = kind%axes >= one_or_two
+      may([7, 10, 11]) = kind%name == 'driver'
+      may(8:9) = kind%name == 'coupler'
       must = may
-      must(2) = is_geometric .and. kind /= 'parallel' .and. kind /= 'perpendicular'
+      must(2) = kind%least_points > 0
       must([3, 4, 5, 6, 10, 11]) = .false.
       do j = 1, size(joint_keys)
-         if (.not. may(j)) call refuse(draft, joint_keys(j:j), 'a '//kind//' joint does not take this key')
+         if (.not. may(j)) call refuse(draft, joint_keys(j:j), a_joint//' does not take this key')
          if (must(j) .and. .not. has_key(draft, trim(joint_keys(j)))) &
             call complain(draft, '', quoted(joint_keys(j))//' is missing')
       end do
       has_axis = has_key(draft, 'axis') .or. has_key(draft, 'axis_vector')
       has_second = has_key(draft, 'axis_2') .or. has_key(draft, 'axis_2_vector')
-      if (kind == 'universal') then
+      if (kind%axes == either_axis) then
          if (.not. (has_axis .or. has_second)) call complain(draft, '', &
-            "a universal joint needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
+            a_joint//" needs 'axis' or 'axis_2' (the other one is then chosen perpendicular to it)")
          return
       end if
-      if (needs_axis(kind) .and. .not. has_axis) call complain(draft, '', "a "//kind//" joint needs 'axis' or 'axis_vector'")
-      if (needs_second_axis(kind) .and. .not. has_second) &
-         call complain(draft, '', "a "//kind//" joint needs 'axis_2' or 'axis_2_vector'")
+      if (kind%axes /= no_axis .and. .not. has_axis) call complain(draft, '', a_joint//" needs 'axis' or 'axis_vector'")
+      if (kind%axes == two_axes .and. .not. has_second) call complain(draft, '', a_joint//" needs 'axis_2' or 'axis_2_vector'")
    end subroutine check_keys
 
    !> Checks that two distinct points are given.

@@ -4,7 +4,6 @@
 module ek_reference
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted
-   use ek_rotation, only: unit_vector
    use ek_complaint, only: has_side, single, left_side
    use ek_record, only: element, own_name
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length

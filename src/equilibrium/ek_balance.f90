@@ -314,12 +314,13 @@ contains
       integer :: at
 
       column = 0.0_wp
-      associate (bushing => suspension%elements(suspension%scalars + b)%bushing)
+      associate (bushing => suspension%elements(suspension%scalars + b)%bushing, &
+         measure => suspension%elements(suspension%scalars + b)%measure)
          axis = bushing%axes(:, merge(k, k - 3, k <= 3))
-         at = 6*(bushing%body_j - 1)
-         if (at >= 0) call put(at, bushing%arm_j, 1.0_wp)
-         at = 6*(bushing%body_i - 1)
-         if (at >= 0) call put(at, bushing%arm_i + bushing%gap0, -1.0_wp)
+         at = 6*(measure%body_j - 1)
+         if (at >= 0) call put(at, measure%arm_j, 1.0_wp)
+         at = 6*(measure%body_i - 1)
+         if (at >= 0) call put(at, measure%arm_i + bushing%gap0, -1.0_wp)
       end associate
 
    contains

@@ -77,7 +77,7 @@ contains
       do k = 1, size(suspension%elements)
          associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
             if (element%kind /= bushing_element) then
-               if (.not. element%has_law) cycle
+               if (.not. (element%law%has_curve .or. element%law%is_one_sided)) cycle
                law = law + 1
                place(law) = place_t(element=k, measure=element%measure)
                cycle
@@ -88,8 +88,9 @@ contains
                law = law + 1
                place(law)%element = k
                place(law)%component = component
-               place(law)%measure = measure_t(kind=merge(body_gap, rotation, component <= 3), body_i=bushing%body_i, &
-                  body_j=bushing%body_j, arm_i=bushing%arm_i, arm_j=bushing%arm_j, u=bushing%axes(:, 1 + mod(component - 1, 3)))
+               place(law)%measure = element%measure
+               place(law)%measure%kind = merge(body_gap, rotation, component <= 3)
+               place(law)%measure%u = bushing%axes(:, 1 + mod(component - 1, 3))
                if (component <= 3) place(law)%offset = dot_product(bushing%axes(:, component), bushing%gap0)
             end do
          end associate

@@ -15,7 +15,7 @@ module ek_kkt
    use ek_contract, only: are_checked, require
    use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
-   use ek_block, only: add_diagonal_block, add_block, add_gradient, s_matrix, rotated
+   use ek_block, only: add_block, add_gradient, add_s_block, rotated
    use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
@@ -122,7 +122,7 @@ contains
    !> The same with explicit shapes, which the compiler turns into tight code.
    !> Equations (K.3), (K.4) of docs/theory/kkt.md.
    !> Equation (M.19) of docs/theory/measures.md.
-   !> Equation (R.14) of docs/theory/rotations.md.
+   !> Equation (R.13) of docs/theory/rotations.md.
    pure subroutine assemble_into(suspension, poses, reaction, demand, mode, nq, n, gradients, values, matrix, rhs)
       type(suspension_t), intent(in) :: suspension
       type(pose_t), intent(in) :: poses(0:*)     !! the chassis, then the bodies
@@ -162,8 +162,8 @@ contains
                block = 0.5_wp*skew(force)
                call add_block(block, at_j, at_j + 3, n, matrix)
             else
-               block = -s_matrix(arm, force)
-               call add_diagonal_block(block, at_j + 3, at_j, n, matrix)
+               arm = -arm
+               call add_s_block(arm, force, at_j + 3, at_j, n, matrix)
             end if
          end if
       end do

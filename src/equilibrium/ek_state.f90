@@ -43,7 +43,7 @@ contains
    end function demand_rate
 
    !> The motion of every body between two states: Δr of its reference point, and its rotation vector, global axes.
-   !> Equation (R.7) of docs/theory/rotations.md.
+   !> Equation (R.6) of docs/theory/rotations.md.
    pure subroutine motion_between(a, b, motion)
       type(state_t), intent(in) :: a, b
       real(wp), contiguous, intent(out) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
@@ -115,7 +115,7 @@ contains
    end subroutine unpack_state
 
    !> r ← r + Δr, A ← exp(Δπ̃) A (Kang 2005, eq. 4) for every body.
-   !> Equation (R.6) of docs/theory/rotations.md.
+   !> Equation (R.5) of docs/theory/rotations.md.
    pure subroutine move(state, step)
       type(state_t), intent(inout) :: state
       real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]
@@ -138,7 +138,7 @@ contains
    !>
    !> Agrees with `move` to first order. In contrast to `move`, the result does not depend on the reference
    !> point of the body: a twist and its exponential belong to the body, not to a point.
-   !> Equations (R.9), (R.13) of docs/theory/rotations.md.
+   !> Equations (R.8), (R.12) of docs/theory/rotations.md.
    pure subroutine move_as_screw(state, step)
       type(state_t), intent(inout) :: state
       real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]

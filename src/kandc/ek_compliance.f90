@@ -25,7 +25,7 @@
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
 !> Equation (C.4) of docs/theory/compliance.md.
-!> Equation (R.8) of docs/theory/rotations.md.
+!> Equation (R.7) of docs/theory/rotations.md.
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp

@@ -52,7 +52,7 @@ contains
                if (element%law%has_curve) &
                   call extend(reach(1, k), element%law, measure_value(element%measure, pose_i, pose_j), s)
                if (.not. b%has_curves) cycle
-               call look_bushing(b, pose_i, pose_j, view)
+               call look_bushing(b, element%measure, pose_i, pose_j, view)
                do c = 1, 3
                   if (b%laws(c)%has_curve) &
                      call extend(reach(c, k), b%laws(c), dot_product(b%axes(:, c), view%gap), s)
@@ -71,7 +71,7 @@ contains
                is_told = is_told .or. further(reach(c, s), reach(c, k), s < k)
             end do
             associate (element => suspension%elements(k))
-               if (element%has_law) then
+               if (element%law%has_curve) then
                   curve = element%law%curve
                else
                   curve = element%bushing%laws(c)%curve

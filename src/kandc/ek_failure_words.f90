@@ -5,7 +5,7 @@ module ek_failure_words
    use ek_text, only: str, quoted, plural
    use ek_measure, only: measure_value
    use ek_element, only: stop_spring, element_label
-   use ek_spring, only: spring_tension
+   use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t, scales_loads
    use ek_state, only: state_t, demand_t, design_state, unpack_state

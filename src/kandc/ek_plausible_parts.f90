@@ -4,7 +4,7 @@ module ek_plausible_parts
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t
    use ek_element, only: element_t, element_label, axial_spring, damper, stop_spring, torsion_spring, bushing_element
-   use ek_spring, only: spring_tension
+   use ek_element_force, only: spring_tension
    use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number
    use ek_rig_test, only: rig_test_t, rig_test, moves_heights
@@ -33,16 +33,16 @@ contains
             case (damper)
                call doubts%judge('length at design', element%design_length)
                call doubts%judge('gas force', element%preload)
-               call doubts%judge('gas rate', element%rate)
+               call doubts%judge('gas rate', element%law%rate)
             case (stop_spring)
                call doubt_stop(element, doubts)
             case (torsion_spring)
-               if (element%has_law) then
+               if (element%law%has_curve) then
                   call doubt_curve(element%law%curve, element, .true., doubts)
                else if (min(element%measure%body_i, element%measure%body_j) > 0) then
-                  call doubts%judge('torsion bar rate', element%rate)
+                  call doubts%judge('torsion bar rate', element%law%rate)
                else
-                  call doubts%judge('torsion spring rate', element%rate)
+                  call doubts%judge('torsion spring rate', element%law%rate)
                end if
             case (bushing_element)
                call doubt_bushing(element, doubts)
@@ -66,11 +66,12 @@ contains
       real(wp) :: tension, slope
 
       if (spring%measure%kind == distance) call doubts%judge('length at design', spring%design_length)
-      if (spring%has_law) then
+      if (spring%law%has_curve) then
          call doubt_curve(spring%law%curve, spring, .false., doubts)
       else
-         call doubts%judge('spring rate', spring%rate)
-         if (spring%rate > 0.0_wp .and. spring%preload > felt) call doubts%judge('static compression', spring%preload/spring%rate)
+         call doubts%judge('spring rate', spring%law%rate)
+         if (spring%law%rate > 0.0_wp .and. spring%preload > felt) &
+            call doubts%judge('static compression', spring%preload/spring%law%rate)
       end if
       call spring_tension(spring, spring%design_length, tension, slope)
       if (tension > felt) call doubts%add('tension', 'in tension at design, '//doubts%speak(force, tension)// &

@@ -19,7 +19,7 @@ module ek_rig
    use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table
    use ek_wheel_side, only: side_name, left_and_right, design_track
    use ek_measure, only: measure_t, global_gap, rotation, axis_axis
-   use ek_joint, only: joint_t, row_t, term_t
+   use ek_joint, only: joint_t, row_t, term_t, joint_kinds
    use ek_suspension, only: suspension_t, load_t, driver_row
    use ek_case, only: case_t, actuation_t, append_actuation, is_mountable, follows_place, follows_tangent, follows_table
    implicit none(type, external)
@@ -276,6 +276,7 @@ contains
       joint%name = name
       joint%where = where
       joint%kind = 'driver'
+      joint%number = findloc(joint_kinds, 'driver', dim=1)
       joint%body_j = suspension%wheels(wheels(1))%body
       joint%first_row = size(suspension%rows) + size(rig%rows) + 1
       joint%rows = 1

@@ -12,7 +12,7 @@ module ek_state_columns
    use ek_rotation, only: cross
    use ek_law, only: deflection
    use ek_element, only: element_kinds, is_of_angle
-   use ek_spring, only: spring_tension
+   use ek_element_force, only: spring_tension
    use ek_elastic, only: bushing_view_t, look_bushing, bushing_load
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
@@ -123,7 +123,7 @@ contains
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
          associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
-            call look_bushing(bushing, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            call look_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
             row(at + 1:at + 3) = matmul(view%gap, bushing%axes)/millimetre
             row(at + 4:at + 6) = matmul(view%turn%theta, bushing%axes)/degree
             call bushing_load(bushing, view, force, moment)

@@ -15,7 +15,7 @@ module ek_curve
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, scaled_curve, look_up_curve, curve_integral, curve_kinds, slopes_between, has_points, least_step
+   public :: curve_t, new_curve, look_up_curve, curve_kinds, slopes_between, has_points, least_step
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
 
@@ -26,7 +26,6 @@ module ek_curve
       character(:), allocatable :: name            !! for messages; may be unallocated
       real(wp), allocatable :: breaks(:)           !! x of the n points, increasing
       real(wp), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
-      real(wp), allocatable :: areas(:)            !! ∫ from the first point to each of the n
       real(wp) :: end_value = 0.0_wp               !! y of the last point
       real(wp) :: end_slope = 0.0_wp               !! slope beyond it
    end type curve_t
@@ -34,9 +33,10 @@ module ek_curve
 contains
 
    !> The curve through points; x must increase strictly, at least two (checked by the reader).
-   pure function new_curve(x, y, kind) result(curve)
+   pure function new_curve(x, y, kind, x_unit, y_unit) result(curve)
       real(wp), intent(in) :: x(:), y(:)
       character(*), intent(in) :: kind         !! one of curve_kinds
+      real(wp), intent(in), optional :: x_unit, y_unit   !! by which the curve is multiplied, both above 0
       type(curve_t) :: curve
       real(wp) :: left(size(x) - 1), right(size(x) - 1), chord(size(x) - 1), slope(size(x)), h
       integer :: k, n
@@ -56,39 +56,27 @@ contains
          left = chord
          right = chord
       end select
-      allocate (curve%breaks(n), curve%coefficients(4, n - 1), curve%areas(n))
+      allocate (curve%breaks(n), curve%coefficients(4, n - 1))
       curve%breaks = x
-      curve%areas(1) = 0.0_wp
       do k = 1, n - 1
          h = x(k + 1) - x(k)
          curve%coefficients(1, k) = y(k)
          curve%coefficients(2, k) = left(k)
          curve%coefficients(3, k) = (3.0_wp*chord(k) - 2.0_wp*left(k) - right(k))/h
          curve%coefficients(4, k) = (left(k) + right(k) - 2.0_wp*chord(k))/h**2
-         curve%areas(k + 1) = curve%areas(k) + piece_area(curve%coefficients(:, k), h)
       end do
       curve%end_value = y(n)
       curve%end_slope = right(n - 1)
+      if (.not. present(x_unit)) return
+      curve%breaks = x*x_unit
+      do k = 1, 4
+         curve%coefficients(k, :) = curve%coefficients(k, :)*(y_unit/x_unit**(k - 1))
+      end do
+      curve%end_value = y(n)*y_unit
+      curve%end_slope = right(n - 1)*(y_unit/x_unit)
    end function new_curve
 
-   !> The same curve in other units: x is multiplied by x_unit and y by y_unit, both above 0.
-   pure function scaled_curve(curve, x_unit, y_unit) result(scaled)
-      type(curve_t), intent(in) :: curve
-      real(wp), intent(in) :: x_unit, y_unit
-      type(curve_t) :: scaled
-      integer :: k
-
-      scaled = curve
-      scaled%breaks = curve%breaks*x_unit
-      do k = 1, 4
-         scaled%coefficients(k, :) = curve%coefficients(k, :)*(y_unit/x_unit**(k - 1))
-      end do
-      scaled%areas = curve%areas*(x_unit*y_unit)
-      scaled%end_value = curve%end_value*y_unit
-      scaled%end_slope = curve%end_slope*(y_unit/x_unit)
-   end function scaled_curve
-
-   !> Whether a curve was made from these points and units by `new_curve` and `scaled_curve`.
+   !> Whether a curve was made from these points and units by `new_curve`.
    pure logical function has_points(curve, x, y, x_unit, y_unit)
       type(curve_t), intent(in) :: curve
       real(wp), intent(in) :: x(:), y(:)
@@ -129,33 +117,13 @@ contains
          value = curve%coefficients(1, 1) + slope*t
          return
       end if
-      k = piece_of(curve%breaks, x)
+      k = count(curve%breaks(:n - 1) <= x)
       t = x - curve%breaks(k)
       associate (c => curve%coefficients(:, k))
          value = c(1) + t*(c(2) + t*(c(3) + t*c(4)))
          slope = c(2) + t*(2.0_wp*c(3) + t*(3.0_wp*c(4)))
       end associate
    end subroutine look_up_curve
-
-   !> ∫ y dx from the first point to x: an energy, up to a constant.
-   pure real(wp) function curve_integral(curve, x) result(area)
-      type(curve_t), intent(in) :: curve
-      real(wp), intent(in) :: x
-      real(wp) :: t
-      integer :: k, n
-
-      n = size(curve%breaks)
-      if (x >= curve%breaks(n)) then
-         t = x - curve%breaks(n)
-         area = curve%areas(n) + t*(curve%end_value + 0.5_wp*curve%end_slope*t)
-      else if (x < curve%breaks(1)) then
-         t = x - curve%breaks(1)
-         area = t*(curve%coefficients(1, 1) + 0.5_wp*curve%coefficients(2, 1)*t)
-      else
-         k = piece_of(curve%breaks, x)
-         area = curve%areas(k) + piece_area(curve%coefficients(:, k), x - curve%breaks(k))
-      end if
-   end function curve_integral
 
    !> The least and the largest slope between two places.
    pure subroutine slopes_between(curve, from, to, least, most)
@@ -191,29 +159,6 @@ contains
          most = max(most, maxval(slope))
       end do
    end subroutine slopes_between
-
-   !> The piece k with x_k ≤ x < x_{k+1}, by bisection; x lies between the first point and the last.
-   pure integer function piece_of(breaks, x) result(low)
-      real(wp), intent(in) :: breaks(:), x
-      integer :: high, middle
-
-      low = 1
-      high = size(breaks)
-      do while (high - low > 1)
-         middle = (low + high)/2
-         if (x < breaks(middle)) then
-            high = middle
-         else
-            low = middle
-         end if
-      end do
-   end function piece_of
-
-   !> ∫ y dx of a piece from its start over a length t.
-   pure real(wp) function piece_area(c, t) result(area)
-      real(wp), intent(in) :: c(4), t
-      area = t*(c(1) + t*(c(2)/2 + t*(c(3)/3 + t*(c(4)/4))))
-   end function piece_area
 
    !> Akima (1970), eqs. 1, 8 and 9: d = (|m4 − m3| m2 + |m2 − m1| m3)/(|m4 − m3| + |m2 − m1|), m1 … m4 the two chords
    !> on either side; if both differences vanish, the mean of m2 and m3. Two chords are extrapolated beyond each end.

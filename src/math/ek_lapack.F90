@@ -11,13 +11,13 @@ module ek_lapack
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
-      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, lapack_dgeqp3 => dgeqp3
+      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dgeqp3
+   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd
 
 #ifdef EK_TRAPS
 contains
@@ -122,19 +122,6 @@ contains
       call lapack_dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgesvd
-
-   !> QR with column pivoting: reveals the rank.
-   pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
-      integer, intent(in) :: m, n, lda, lwork
-      real(wp), intent(inout) :: a(lda, *)
-      integer, intent(inout) :: jpvt(*)
-      real(wp), intent(out) :: tau(*), work(*)
-      integer, intent(out) :: info
-
-      call ieee_set_halting_mode(ieee_usual, .false.)
-      call lapack_dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
-      call ieee_set_flag(ieee_usual, .false.)
-   end subroutine dgeqp3
 #endif
 
 end module ek_lapack

@@ -5,7 +5,7 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dgeqp3
+   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd
 
    interface
       !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
@@ -94,17 +94,6 @@ module ek_lapack_routines
          real(wp), intent(out) :: work(*)
          integer, intent(out) :: info
       end subroutine dgesvd
-
-      !> QR with column pivoting: reveals the rank.
-      pure subroutine dgeqp3(m, n, a, lda, jpvt, tau, work, lwork, info)
-         import :: wp
-         implicit none(type, external)
-         integer, intent(in) :: m, n, lda, lwork
-         real(wp), intent(inout) :: a(lda, *)
-         integer, intent(inout) :: jpvt(*)
-         real(wp), intent(out) :: tau(*), work(*)
-         integer, intent(out) :: info
-      end subroutine dgeqp3
    end interface
 
 end module ek_lapack_routines

@@ -9,7 +9,7 @@ module ek_rotation
    private
    public :: cross, skew, unit_vector, perpendicular, angle_between
    public :: quaternion_product, quaternion_of_vector, rotation_matrix, rotate_quaternion
-   public :: matrix_of_vector, quaternion_of_matrix, identity3
+   public :: identity3
 
    real(wp), parameter :: identity3(3, 3) = &
       reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
@@ -72,7 +72,7 @@ contains
    end function quaternion_product
 
    !> Quaternion of the rotation vector v [rad]; exact for any length.
-   !> Equation (R.2) of docs/theory/rotations.md.
+   !> Equations (R.1), (R.2) of docs/theory/rotations.md.
    pure function quaternion_of_vector(v) result(q)
       real(wp), intent(in) :: v(3)
       real(wp) :: q(4), square, half
@@ -91,7 +91,7 @@ contains
 
    !> exp(ṽ) applied on the left of q, then normalised, so that rounding does not accumulate
    !> over any number of increments.
-   !> Equation (R.6) of docs/theory/rotations.md.
+   !> Equation (R.5) of docs/theory/rotations.md.
    pure function rotate_quaternion(v, q) result(turned)
       real(wp), intent(in) :: v(3)     !! rotation vector, global axes [rad]
       real(wp), intent(in) :: q(4)
@@ -115,34 +115,5 @@ contains
       a(2, 1) = xy + wz; a(2, 2) = 1.0_wp - xx - zz; a(2, 3) = yz - wx
       a(3, 1) = xz - wy; a(3, 2) = yz + wx; a(3, 3) = 1.0_wp - xx - yy
    end function rotation_matrix
-
-   !> exp(ṽ)
-   !> Equation (R.1) of docs/theory/rotations.md.
-   pure function matrix_of_vector(v) result(a)
-      real(wp), intent(in) :: v(3)
-      real(wp) :: a(3, 3)
-      a = rotation_matrix(quaternion_of_vector(v))
-   end function matrix_of_vector
-
-   !> Unit quaternion of a rotation matrix (Shepperd: divide by the largest component).
-   !> Equation (R.5) of docs/theory/rotations.md.
-   pure function quaternion_of_matrix(a) result(q)
-      real(wp), intent(in) :: a(3, 3)
-      real(wp) :: q(4), trace, pick(4)
-
-      trace = a(1, 1) + a(2, 2) + a(3, 3)
-      pick = [trace, a(1, 1), a(2, 2), a(3, 3)]
-      select case (maxloc(pick, dim=1))
-      case (1)
-         q = [1.0_wp + trace, a(3, 2) - a(2, 3), a(1, 3) - a(3, 1), a(2, 1) - a(1, 2)]
-      case (2)
-         q = [a(3, 2) - a(2, 3), 1.0_wp + 2*a(1, 1) - trace, a(1, 2) + a(2, 1), a(3, 1) + a(1, 3)]
-      case (3)
-         q = [a(1, 3) - a(3, 1), a(1, 2) + a(2, 1), 1.0_wp + 2*a(2, 2) - trace, a(2, 3) + a(3, 2)]
-      case default
-         q = [a(2, 1) - a(1, 2), a(3, 1) + a(1, 3), a(2, 3) + a(3, 2), 1.0_wp + 2*a(3, 3) - trace]
-      end select
-      q = q/norm2(q)
-   end function quaternion_of_matrix
 
 end module ek_rotation

@@ -8,7 +8,7 @@ module ek_block
    implicit none(type, external)
    private
    public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian, add_gradient
-   public :: s_matrix, rotated, dyad, dyad_rest
+   public :: add_s_block, rotated, dyad, dyad_rest
 
 contains
 
@@ -31,20 +31,31 @@ contains
       w(3) = a(3, 1)*v(1) + a(3, 2)*v(2) + a(3, 3)*v(3)
    end function rotated
 
-   !> S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I
+   !> Adds S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I to a diagonal block; no action if the body has no unknowns.
    !> Equation (M.2) of docs/theory/measures.md.
-   pure function s_matrix(p, g) result(s)
+   pure subroutine add_s_block(p, g, at, body_at, ld, matrix)
       real(wp), intent(in) :: p(3), g(3)
-      real(wp) :: s(3, 3), x, y, z
+      integer, intent(in) :: at, body_at, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: x, y, z, xy, xz, yz
 
-      x = p(1)*g(1); y = p(2)*g(2); z = p(3)*g(3)
-      s(1, 1) = -y - z
-      s(2, 2) = -x - z
-      s(3, 3) = -x - y
-      s(2, 1) = 0.5_wp*(p(1)*g(2) + p(2)*g(1)); s(1, 2) = s(2, 1)
-      s(3, 1) = 0.5_wp*(p(1)*g(3) + p(3)*g(1)); s(1, 3) = s(3, 1)
-      s(3, 2) = 0.5_wp*(p(2)*g(3) + p(3)*g(2)); s(2, 3) = s(3, 2)
-   end function s_matrix
+      if (body_at < 0) return
+      x = p(1)*g(1)
+      y = p(2)*g(2)
+      z = p(3)*g(3)
+      matrix(at + 1, at + 1) = matrix(at + 1, at + 1) - (y + z)
+      matrix(at + 2, at + 2) = matrix(at + 2, at + 2) - (x + z)
+      matrix(at + 3, at + 3) = matrix(at + 3, at + 3) - (x + y)
+      xy = 0.5_wp*(p(1)*g(2) + p(2)*g(1))
+      matrix(at + 2, at + 1) = matrix(at + 2, at + 1) + xy
+      matrix(at + 1, at + 2) = matrix(at + 1, at + 2) + xy
+      xz = 0.5_wp*(p(1)*g(3) + p(3)*g(1))
+      matrix(at + 3, at + 1) = matrix(at + 3, at + 1) + xz
+      matrix(at + 1, at + 3) = matrix(at + 1, at + 3) + xz
+      yz = 0.5_wp*(p(2)*g(3) + p(3)*g(2))
+      matrix(at + 3, at + 2) = matrix(at + 3, at + 2) + yz
+      matrix(at + 2, at + 3) = matrix(at + 2, at + 3) + yz
+   end subroutine add_s_block
 
    !> Adds Jᵀ M J, J = [−I, ã, I, −b̃]: a symmetric stiffness M between two points.
    !> Equation (M.7) of docs/theory/measures.md.
@@ -103,10 +114,10 @@ contains
       real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: arm(3), block(3, 3)
 
-      call add_diagonal_block(s_matrix(b, f), at_j + 3, at_j, ld, matrix)
+      call add_s_block(b, f, at_j + 3, at_j, ld, matrix)
       if (at_i < 0) return
       arm = a + d
-      call add_diagonal_block(s_matrix(arm, f), at_i + 3, at_i, ld, matrix)
+      call add_s_block(arm, f, at_i + 3, at_i, ld, matrix)
       block = -skew(f)
       call add_block(block, at_i + 3, at_i, ld, matrix)
       if (at_j < 0) return

@@ -7,13 +7,13 @@
 !> 0 as the number of a parameter means that the deck does not give it, and 0 as the number of a vector that there is none.
 module ek_blueprint
    use ek_kinds, only: wp
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, allocate_lists
    implicit none(type, external)
    private
    public :: blueprint_t, vector_t, body_plan_t, mass_plan_t, readout_plan_t, joint_plan_t, element_plan_t, bushing_plan_t
    public :: wheel_plan_t, load_plan_t, curve_plan_t, case_plan_t
    public :: hardpoint, along, given, fixed, chosen, chosen_right, across
-   public :: new_blueprint, add_vector, inward, number_at
+   public :: new_blueprint, add_vector, inward, number_at, triple_at
 
    ! kinds of vector
    integer, parameter :: fixed = 0         !! `value`
@@ -129,6 +129,7 @@ contains
       type(blueprint_t), intent(out) :: self
       integer :: number
 
+      call allocate_lists(self%prototype)
       allocate (self%points(0), self%vectors(0), self%bodies(0), self%masses(0), self%readouts(0), self%joints(0))
       allocate (self%elements(0), self%bushings(0), self%wheels(0), self%loads(0), self%curves(0), self%cases(0))
       call add_vector(self, vector_t(value=[0.0_wp, 0.0_wp, 1.0_wp]), number)
@@ -153,13 +154,23 @@ contains
       if (self%is_iso) turned(1:2) = -vector(1:2)
    end function inward
 
-   !> Parameter k, or the default if the deck does not give it.
+   !> Parameter k; if the deck does not give it, the default, usually 0.
    pure real(wp) function number_at(x, k, default) result(value)
       real(wp), intent(in) :: x(:)
       integer, intent(in) :: k             !! 0: not given
-      real(wp), intent(in) :: default
-      value = default
+      real(wp), intent(in), optional :: default
+      value = 0.0_wp
+      if (present(default)) value = default
       if (k > 0) value = x(k)
    end function number_at
+
+   !> Three numbers from parameter k; 0 if the deck does not give them.
+   pure function triple_at(x, k) result(values)
+      real(wp), intent(in) :: x(:)
+      integer, intent(in) :: k             !! 0: not given
+      real(wp) :: values(3)
+      values = 0.0_wp
+      if (k > 0) values = x(k:k + 2)
+   end function triple_at
 
 end module ek_blueprint

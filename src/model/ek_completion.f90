@@ -1,28 +1,20 @@
-!> Completes a suspension after all parts have been added (ek_builder): reference points, arms, design values.
+!> Completes a suspension whose parts are at their design points: reference points, arms, design values.
 module ek_completion
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_turn, only: pose_t
-   use ek_measure, only: measure_t, measure_value, axis_axis, rotation
-   use ek_element, only: measure_spring, bushing_element, is_of_angle, set_measure_design
+   use ek_measure, only: measure_t, measure_value, is_of_angle, distance
+   use ek_element, only: bushing_element, set_design_value
    use ek_elastic, only: set_bushing_axes
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: complete, settle_design, allocate_lists
+   public :: settle_design
 
 contains
 
    !> Sets the reference points, converts design points to arms, and computes design values: the targets of the rows and
-   !> the design values of the readouts. Call it once, after the last add; it cannot fail.
-   subroutine complete(self)
-      type(suspension_t), intent(inout) :: self
-
-      call allocate_lists(self)
-      call settle_design(self)
-   end subroutine complete
-
-   !> The same when all lists are allocated, and all positions are design points again. Allocates nothing.
+   !> the design values of readouts and elements. Cannot fail; allocates nothing.
    pure subroutine settle_design(self)
       type(suspension_t), intent(inout) :: self
       integer :: k, t
@@ -37,13 +29,10 @@ contains
          call subtract_origins(self, self%readouts(k)%measure)
       end do
       do k = 1, size(self%elements)
-         if (.not. is_of_angle(self%elements(k)%measure%kind)) call subtract_origins(self, self%elements(k)%measure)
-         if (self%elements(k)%kind /= bushing_element) cycle
-         associate (b => self%elements(k)%bushing, m => self%elements(k)%measure)
-            b%gap0 = b%arm_j - b%arm_i
-            b%arm_i = m%arm_i
-            b%arm_j = m%arm_j
-            call set_bushing_axes(b)
+         associate (element => self%elements(k), measure => self%elements(k)%measure)
+            if (element%kind == bushing_element) element%bushing%gap0 = measure%arm_j - measure%arm_i
+            if (measure%kind == distance) call set_design_value(element, norm2(measure%arm_j - measure%arm_i))
+            if (.not. is_of_angle(measure%kind)) call subtract_origins(self, measure)
          end associate
       end do
       do k = 1, size(self%joints)
@@ -73,14 +62,15 @@ contains
          end do
       end do
       do k = 1, size(self%readouts)
-         associate (m => self%readouts(k)%measure)
-            self%readouts(k)%design_value = design_value(self, m)
-         end associate
+         self%readouts(k)%design_value = design_value(self, self%readouts(k)%measure)
       end do
       do k = 1, size(self%elements)
-         if (self%elements(k)%kind /= measure_spring) cycle
-         associate (m => self%elements(k)%measure)
-            call set_measure_design(self%elements(k), design_value(self, m))
+         associate (element => self%elements(k))
+            if (element%kind == bushing_element) then
+               call set_bushing_axes(element%bushing)
+            else if (element%measure%kind /= distance) then
+               call set_design_value(element, design_value(self, element%measure))
+            end if
          end associate
       end do
    end subroutine settle_design
@@ -99,20 +89,18 @@ contains
    !> Sets the reference point of each body that has none: the mean of its attachment points.
    pure subroutine settle_origins(self)
       type(suspension_t), intent(inout) :: self
-      integer :: k, t
+      integer :: k, first, last
 
       do k = 1, size(self%bodies)
          self%bodies(k)%attached = 0
          if (.not. self%bodies(k)%has_origin) self%bodies(k)%origin = 0.0_wp
       end do
       do k = 1, size(self%joints)
-         t = self%rows(self%joints(k)%first_row)%first
-         select case (self%joints(k)%kind)
-         case ('parallel', 'perpendicular', 'driver', 'coupler')
-            ! angles have no point: they do not locate a body
-            if (any(self%terms(t)%measure%kind == [axis_axis, rotation])) cycle
-         end select
-         call include_points(self, self%terms(t)%measure)
+         first = self%rows(self%joints(k)%first_row)%first
+         last = first
+         if (.not. self%joints(k)%is_of_measures) last = first + self%joints(k)%rows - 1
+         if (all(is_of_angle(self%terms(first:last)%measure%kind))) cycle      ! angles do not locate a body
+         call include_points(self, self%terms(first)%measure)
       end do
       do k = 1, size(self%elements)
          if (.not. is_of_angle(self%elements(k)%measure%kind)) call include_points(self, self%elements(k)%measure)
@@ -160,25 +148,5 @@ contains
       origin = 0.0_wp
       if (body > 0) origin = self%bodies(body)%origin
    end function origin_of
-
-   !> Allocates components that were never added, as empty.
-   pure subroutine allocate_lists(self)
-      type(suspension_t), intent(inout) :: self
-      if (.not. allocated(self%bodies)) allocate (self%bodies(0))
-      if (.not. allocated(self%points)) allocate (self%points(0))
-      if (.not. allocated(self%joints)) allocate (self%joints(0))
-      if (.not. allocated(self%rows)) allocate (self%rows(0))
-      if (.not. allocated(self%terms)) allocate (self%terms(0))
-      if (.not. allocated(self%elements)) allocate (self%elements(0))
-      if (.not. allocated(self%loads)) allocate (self%loads(0))
-      if (.not. allocated(self%wheels)) allocate (self%wheels(0))
-      if (.not. allocated(self%readouts)) allocate (self%readouts(0))
-      if (.not. allocated(self%balance)) self%balance = 'none'
-      if (.not. allocated(self%title)) self%title = ''
-      if (.not. allocated(self%where)) self%where = ''
-      if (.not. allocated(self%axle%where)) self%axle%where = ''
-      if (.not. allocated(self%steering%where)) self%steering%where = ''
-      if (.not. allocated(self%steering%driver)) self%steering%driver = ''
-   end subroutine allocate_lists
 
 end module ek_completion

@@ -7,7 +7,7 @@ module ek_design_vector
       off_left, off_right, in_plane
    implicit none(type, external)
    private
-   public :: find_vectors, marker_axes, spin_of, add_mass, plane
+   public :: find_vectors, marker_axes, spin_of, plane
 
    real(wp), parameter :: plane = 1.0e-9_wp           !! m: a point closer to y = 0 exists once on a mirrored axle
    real(wp), parameter :: least_angle = 0.01_wp       !! deg between x and z of a marker, below which x is undefined
@@ -123,16 +123,5 @@ contains
          wheel%camber = camber
       end if
    end subroutine spin_of
-
-   !> Adds a mass to that of a body. As their weights are parallel, one mass at the common centre of gravity is equivalent:
-   !>
-   !>     m = Σ m_k        centre = Σ m_k c_k / m        [kg, m]
-   pure subroutine add_mass(kg, place, mass, centre)
-      real(wp), intent(in) :: kg, place(3)          !! kg, m
-      real(wp), intent(inout) :: mass, centre(3)    !! kg, m
-
-      centre = (mass*centre + kg*place)/(mass + kg)
-      mass = mass + kg
-   end subroutine add_mass
 
 end module ek_design_vector

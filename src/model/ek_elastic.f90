@@ -9,6 +9,7 @@
 module ek_elastic
    use ek_kinds, only: wp
    use ek_law, only: law_t, look_up_law
+   use ek_measure, only: measure_t
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
    use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
    use ek_rotation, only: cross, identity3
@@ -17,23 +18,20 @@ module ek_elastic
    public :: bushing_t, bushing_view_t, set_bushing_axes
    public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
-   !> A six-axis bushing from marker I on body i to marker J on body j. The markers are parallel
-   !> at design. If two points are given they may be apart; the design gap causes no force.
+   !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
+   !> at two points; the design gap causes no force. What every evaluation reads comes first.
    type :: bushing_t
-      character(:), allocatable :: name, where
-      integer :: body_i = 0, body_j = 0
-      real(wp) :: arm_i(3) = 0.0_wp, arm_j(3) = 0.0_wp   !! markers from the reference points [m]
+      ! set by set_bushing_axes: the same law in the axes of body i
+      real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
+      real(wp) :: force0(3) = 0.0_wp, moment0(3) = 0.0_wp
+      real(wp) :: gap0(3) = 0.0_wp           !! design gap, axes of body i [m]
+      logical :: has_curves = .false.
       real(wp) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
       real(wp) :: kt(3) = 0.0_wp             !! N/m along the marker axes
       real(wp) :: kr(3) = 0.0_wp             !! N m/rad about the marker axes
       real(wp) :: preload_force(3) = 0.0_wp  !! on body j at design, marker axes [N]
       real(wp) :: preload_moment(3) = 0.0_wp !! on body j at design, marker axes [N m]
-      ! set by set_bushing_axes: the same law in the axes of body i
-      real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
-      real(wp) :: force0(3) = 0.0_wp, moment0(3) = 0.0_wp
-      real(wp) :: gap0(3) = 0.0_wp           !! design gap, axes of body i [m]
       ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
-      logical :: has_curves = .false.
       type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve keeps its rate
    end type bushing_t
 
@@ -45,7 +43,7 @@ module ek_elastic
       real(wp) :: force(3) = 0.0_wp      !! dV/dd, global [N]
       real(wp) :: moment(3) = 0.0_wp     !! dV/dθ, axes of body i [N m]
       type(turn_t) :: turn
-      ! only with curves: the slopes at this deflection, in the axes of body i
+      ! the rates, or the slopes of curves at this deflection, in the axes of body i
       real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
    end type bushing_view_t
 
@@ -76,16 +74,17 @@ contains
       end do
    end function in_body
 
-   !> Gap, rotation, and the force and moment of the law.
+   !> Gap, rotation, force and moment of the law, and its slopes.
    !> Equation (M.15) of docs/theory/measures.md.
-   pure subroutine look_bushing(bushing, pose_i, pose_j, view)
+   pure subroutine look_bushing(bushing, measure, pose_i, pose_j, view)
       type(bushing_t), intent(in) :: bushing
+      type(measure_t), intent(in) :: measure            !! of the element: arms of the markers
       type(pose_t), intent(in) :: pose_i, pose_j
       type(bushing_view_t), intent(inout) :: view
-      real(wp) :: a(3), b(3), d(3), force(3)
+      real(wp) :: a(3), b(3), d(3), force(3), load(6), slope(6)
 
-      a = rotated(pose_i%a, bushing%arm_i)
-      b = rotated(pose_j%a, bushing%arm_j)
+      a = rotated(pose_i%a, measure%arm_i)
+      b = rotated(pose_j%a, measure%arm_j)
       d = (pose_j%r - pose_i%r) + (b - a)
       view%frame = pose_i%a
       view%a = a
@@ -96,47 +95,42 @@ contains
       view%gap(3) = dot_product(pose_i%a(:, 3), d) - bushing%gap0(3)
       call relative_turn(pose_i, pose_j, view%turn)
       if (bushing%has_curves) then
-         call look_curves(bushing, view)
-         return
+         call look_components(bushing, view%gap, view%turn%theta, load, slope)
+         force = rotated(bushing%axes, load(1:3))
+         view%moment = rotated(bushing%axes, load(4:6))
+         view%stiffness_t = in_body(bushing%axes, slope(1:3))
+         view%stiffness_r = in_body(bushing%axes, slope(4:6))
+      else
+         force = rotated(bushing%stiffness_t, view%gap) - bushing%force0
+         view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
+         view%stiffness_t = bushing%stiffness_t
+         view%stiffness_r = bushing%stiffness_r
       end if
-      force = rotated(bushing%stiffness_t, view%gap) - bushing%force0
       view%force = rotated(pose_i%a, force)
-      view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
    end subroutine look_bushing
 
-   !> Force, moment and slopes of a bushing with curves, evaluated per component in marker axes.
-   pure subroutine look_curves(bushing, view)
+   !> dV/d(component) minus the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
+   pure subroutine look_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
-      type(bushing_view_t), intent(inout) :: view
-      real(wp) :: force(3), moment(3), slope_t(3), slope_r(3)
-
-      call look_components(bushing, view, force, moment, slope_t, slope_r)
-      view%force = rotated(view%frame, rotated(bushing%axes, force))
-      view%moment = rotated(bushing%axes, moment)
-      view%stiffness_t = in_body(bushing%axes, slope_t)
-      view%stiffness_r = in_body(bushing%axes, slope_r)
-   end subroutine look_curves
-
-   !> dV/d(component) in marker axes, minus the preload; and the slopes.
-   pure subroutine look_components(bushing, view, force, moment, slope_t, slope_r)
-      type(bushing_t), intent(in) :: bushing
-      type(bushing_view_t), intent(in) :: view
-      real(wp), intent(out) :: force(3), moment(3), slope_t(3), slope_r(3)   !! N, N m, N/m, N m/rad
-      real(wp) :: deflection
+      real(wp), intent(in) :: gap(3), theta(3)          !! axes of body i
+      real(wp), intent(out) :: load(6), slope(6)
+      real(wp) :: deflection(6)
       integer :: k
 
-      slope_t = bushing%kt
-      slope_r = bushing%kr
+      slope(1:3) = bushing%kt
+      slope(4:6) = bushing%kr
       do k = 1, 3
-         deflection = dot_product(bushing%axes(:, k), view%gap)
-         force(k) = slope_t(k)*deflection
-         if (bushing%laws(k)%has_curve) call look_up_law(bushing%laws(k), deflection, force(k), slope_t(k))
-         deflection = dot_product(bushing%axes(:, k), view%turn%theta)
-         moment(k) = slope_r(k)*deflection
-         if (bushing%laws(k + 3)%has_curve) call look_up_law(bushing%laws(k + 3), deflection, moment(k), slope_r(k))
+         deflection(k) = dot_product(bushing%axes(:, k), gap)
+         deflection(k + 3) = dot_product(bushing%axes(:, k), theta)
       end do
-      force = force - bushing%preload_force
-      moment = moment - bushing%preload_moment
+      load = slope*deflection
+      if (bushing%has_curves) then
+         do k = 1, 6
+            if (bushing%laws(k)%has_curve) call look_up_law(bushing%laws(k), deflection(k), load(k), slope(k))
+         end do
+      end if
+      load(1:3) = load(1:3) - bushing%preload_force
+      load(4:6) = load(4:6) - bushing%preload_moment
    end subroutine look_components
 
    !> Force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N, N m].
@@ -146,33 +140,20 @@ contains
       type(bushing_t), intent(in) :: bushing
       type(bushing_view_t), intent(in) :: view      !! of look_bushing
       real(wp), intent(out) :: force(3), moment(3)
-      real(wp) :: slope(3), slope_r(3)
-      integer :: k
+      real(wp) :: load(6), slope(6)
 
-      if (bushing%has_curves) then
-         call look_components(bushing, view, force, moment, slope, slope_r)
-         force = -force
-         moment = -moment
-         return
-      end if
-      do k = 1, 3
-         force(k) = bushing%preload_force(k) - bushing%kt(k)*dot_product(bushing%axes(:, k), view%gap)
-         moment(k) = bushing%preload_moment(k) - bushing%kr(k)*dot_product(bushing%axes(:, k), view%turn%theta)
-      end do
+      call look_components(bushing, view%gap, view%turn%theta, load, slope)
+      force = -load(1:3)
+      moment = -load(4:6)
    end subroutine bushing_load
 
    !> The six rates at design, marker axes; for curves, their slopes [N/m, N m/rad].
    pure function design_rates(bushing) result(rates)
       type(bushing_t), intent(in) :: bushing
-      real(wp) :: rates(6), force
-      integer :: k
+      real(wp) :: rates(6), load(6)
+      real(wp), parameter :: none(3) = 0.0_wp
 
-      rates(1:3) = bushing%kt
-      rates(4:6) = bushing%kr
-      if (.not. bushing%has_curves) return
-      do k = 1, 6
-         if (bushing%laws(k)%has_curve) call look_up_law(bushing%laws(k), 0.0_wp, force, rates(k))
-      end do
+      call look_components(bushing, none, none, load, rates)
    end function design_rates
 
    !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
@@ -191,22 +172,7 @@ contains
 
    !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
    !> Equation (M.17) of docs/theory/measures.md.
-   pure subroutine add_bushing_tangent(bushing, view, at_i, at_j, ld, matrix)
-      type(bushing_t), intent(in) :: bushing
-      type(bushing_view_t), intent(in) :: view
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-
-      if (bushing%has_curves) then
-         call add_tangent(view%stiffness_t, view%stiffness_r, view, at_i, at_j, ld, matrix)
-      else
-         call add_tangent(bushing%stiffness_t, bushing%stiffness_r, view, at_i, at_j, ld, matrix)
-      end if
-   end subroutine add_bushing_tangent
-
-   !> The same, with stiffnesses in the axes of body i.
-   pure subroutine add_tangent(stiffness_t, stiffness_r, view, at_i, at_j, ld, matrix)
-      real(wp), intent(in) :: stiffness_t(3, 3), stiffness_r(3, 3)
+   pure subroutine add_bushing_tangent(view, at_i, at_j, ld, matrix)
       type(bushing_view_t), intent(in) :: view
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
@@ -214,11 +180,11 @@ contains
       integer :: k, l
 
       arm = view%a + view%d
-      call add_link_stiffness(in_world(view%frame, stiffness_t, at_i), arm, view%b, at_i, at_j, ld, matrix)
+      call add_link_stiffness(in_world(view%frame, view%stiffness_t, at_i), arm, view%b, at_i, at_j, ld, matrix)
       call add_gap_hessian(view%force, view%a, view%b, view%d, at_i, at_j, ld, matrix)
       g = turn_jacobian(view%turn)
       do k = 1, 3
-         kg(:, k) = rotated(stiffness_r, g(:, k))
+         kg(:, k) = rotated(view%stiffness_r, g(:, k))
       end do
       do k = 1, 3
          do l = k, 3
@@ -227,40 +193,25 @@ contains
          end do
       end do
       call add_turn_hessian(view%turn, view%moment, inner, view%frame, at_i, at_j, ld, matrix)
-   end subroutine add_tangent
+   end subroutine add_bushing_tangent
 
    !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], for u = each of the three
    !> marker axes. Forces do not enter, and the rotation of the marker frame itself (u×d) is neglected.
    !> Equation (M.18) of docs/theory/measures.md.
-   pure subroutine add_bushing_material(bushing, view, at_i, at_j, ld, matrix)
-      type(bushing_t), intent(in) :: bushing
-      type(bushing_view_t), intent(in) :: view
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-
-      if (bushing%has_curves) then
-         call add_material(view%stiffness_t, view%stiffness_r, view, at_i, at_j, ld, matrix)
-      else
-         call add_material(bushing%stiffness_t, bushing%stiffness_r, view, at_i, at_j, ld, matrix)
-      end if
-   end subroutine add_bushing_material
-
-   !> The same, with stiffnesses in the axes of body i.
-   pure subroutine add_material(stiffness_t, stiffness_r, view, at_i, at_j, ld, matrix)
-      real(wp), intent(in) :: stiffness_t(3, 3), stiffness_r(3, 3)
+   pure subroutine add_bushing_material(view, at_i, at_j, ld, matrix)
       type(bushing_view_t), intent(in) :: view
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: k(3, 3)
 
-      call add_link_stiffness(in_world(view%frame, stiffness_t, at_i), view%a, view%b, at_i, at_j, ld, matrix)
-      k = in_world(view%frame, stiffness_r, at_i)
+      call add_link_stiffness(in_world(view%frame, view%stiffness_t, at_i), view%a, view%b, at_i, at_j, ld, matrix)
+      k = in_world(view%frame, view%stiffness_r, at_i)
       call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
       call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
       if (at_i < 0 .or. at_j < 0) return
       k = -k
       call add_block(k, at_i + 3, at_j + 3, ld, matrix)
-   end subroutine add_material
+   end subroutine add_bushing_material
 
    !> A K Aᵀ; the chassis (at_i < 0) never rotates.
    pure function in_world(a, k, at_i) result(world)

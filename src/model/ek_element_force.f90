@@ -4,14 +4,15 @@
 module ek_element_force
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
-   use ek_measure, only: view_t, look, add_measure_hessian, distance, rotation
+   use ek_measure, only: view_t, look, add_measure_hessian, is_of_angle, distance, global_gap
+   use ek_block, only: add_link_stiffness, add_diagonal_block, add_block, dyad
+   use ek_law, only: look_up_law
    use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, design_rates
-   use ek_element, only: element_t, bushing_element, is_of_angle
-   use ek_spring, only: spring_tension, add_spring_tangent, add_spring_material, add_torsion_tangent, add_torsion_material, &
-      add_measure_material
+   use ek_element, only: element_t, bushing_element
    implicit none(type, external)
    private
    public :: element_view_t, look_element, add_element_tangent, add_element_material, design_stiffness
+   public :: spring_tension, add_spring_tangent, add_spring_material
 
    !> An element at one pair of poses.
    type :: element_view_t
@@ -31,7 +32,7 @@ contains
       type(element_view_t), intent(inout) :: view       !! only the components that this kind needs are set
 
       if (element%kind == bushing_element) then
-         call look_bushing(element%bushing, pose_i, pose_j, view%bushing)
+         call look_bushing(element%bushing, element%measure, pose_i, pose_j, view%bushing)
          view%pull = bushing_pull(view%bushing)
       else
          call look(element%measure, pose_i, pose_j, view%measure)
@@ -39,6 +40,18 @@ contains
          view%pull = view%tension*view%measure%gradient
       end if
    end subroutine look_element
+
+   !> Tension at a value of the measure, and its slope; for a torsion spring, the moment at an angle.
+   !> Equation (M.14) of docs/theory/measures.md.
+   pure subroutine spring_tension(spring, value, tension, slope)
+      type(element_t), intent(in) :: spring
+      real(wp), intent(in) :: value     !! m, rad, -
+      real(wp), intent(out) :: tension  !! N, pulls the ends together; N m, reduces the angle
+      real(wp), intent(out) :: slope    !! N/m, N m/rad
+
+      call look_up_law(spring%law, value, tension, slope)
+      tension = tension - spring%preload
+   end subroutine spring_tension
 
    !> Adds d²V/dz²: the material part, and force × Hessian.
    pure subroutine add_element_tangent(element, view, at_i, at_j, ld, matrix)
@@ -48,18 +61,10 @@ contains
       real(wp), intent(inout) :: matrix(ld, *)
 
       if (element%kind == bushing_element) then
-         call add_bushing_tangent(element%bushing, view%bushing, at_i, at_j, ld, matrix)
-         return
+         call add_bushing_tangent(view%bushing, at_i, at_j, ld, matrix)
+      else
+         call add_spring_tangent(element%measure%kind, view%measure, view%tension, view%slope, at_i, at_j, ld, matrix)
       end if
-      select case (element%measure%kind)
-      case (distance)
-         call add_spring_tangent(view%measure, view%tension, view%slope, at_i, at_j, ld, matrix)
-      case (rotation)
-         call add_torsion_tangent(view%measure, view%tension, view%slope, at_i, at_j, ld, matrix)
-      case default
-         call add_measure_material(view%measure, view%slope, at_i, at_j, ld, matrix)
-         call add_measure_hessian(element%measure%kind, view%measure, view%tension, at_i, at_j, ld, matrix)
-      end select
    end subroutine add_element_tangent
 
    !> Adds the material part alone, −(19) of the paper.
@@ -70,18 +75,65 @@ contains
       real(wp), intent(inout) :: matrix(ld, *)
 
       if (element%kind == bushing_element) then
-         call add_bushing_material(element%bushing, view%bushing, at_i, at_j, ld, matrix)
+         call add_bushing_material(view%bushing, at_i, at_j, ld, matrix)
+      else
+         call add_spring_material(element%measure%kind, view%measure, view%slope, at_i, at_j, ld, matrix)
+      end if
+   end subroutine add_element_material
+
+   !> Adds slope g gᵀ + tension × Hessian of the measure, g its gradient. Of a distance: Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and
+   !> the arm terms, which are those of a gap along e.
+   !> Equation (M.13) of docs/theory/measures.md.
+   pure subroutine add_spring_tangent(kind, view, tension, slope, at_i, at_j, ld, matrix)
+      integer, intent(in) :: kind                       !! of the measure
+      type(view_t), intent(in) :: view
+      real(wp), intent(in) :: tension, slope
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: m(3, 3), across
+      integer :: k
+
+      if (kind /= distance) then
+         call add_spring_material(kind, view, slope, at_i, at_j, ld, matrix)
+         call add_measure_hessian(kind, view, tension, at_i, at_j, ld, matrix)
          return
       end if
-      select case (element%measure%kind)
-      case (distance)
-         call add_spring_material(view%measure, view%slope, at_i, at_j, ld, matrix)
-      case (rotation)
-         call add_torsion_material(view%measure, view%slope, at_i, at_j, ld, matrix)
-      case default
-         call add_measure_material(view%measure, view%slope, at_i, at_j, ld, matrix)
-      end select
-   end subroutine add_element_material
+      across = tension/view%value
+      do k = 1, 3
+         m(:, k) = ((slope - across)*view%u(k))*view%u
+         m(k, k) = m(k, k) + across
+      end do
+      call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
+      call add_measure_hessian(global_gap, view, tension, at_i, at_j, ld, matrix)
+   end subroutine add_spring_tangent
+
+   !> Adds slope g gᵀ alone: the material part.
+   !> Equation (M.13) of docs/theory/measures.md.
+   pure subroutine add_spring_material(kind, view, slope, at_i, at_j, ld, matrix)
+      integer, intent(in) :: kind                       !! of the measure
+      type(view_t), intent(in) :: view
+      real(wp), intent(in) :: slope                     !! N/m, N m/rad, N m
+      integer, intent(in) :: at_i, at_j, ld
+      real(wp), intent(inout) :: matrix(ld, *)
+      real(wp) :: scaled(3), block(3, 3)
+      integer :: at(4), k, l, step
+
+      at = [at_i, at_i + 3, at_j, at_j + 3]             ! negative: of the chassis
+      step = merge(2, 1, is_of_angle(kind))             ! the gradient of an angle has no translations
+      do l = step, 4, step
+         if (at(l - mod(l + 1, 2)) < 0) cycle
+         scaled = slope*view%gradient(3*l - 2:3*l)
+         do k = step, l, step
+            if (at(k - mod(k + 1, 2)) < 0) cycle
+            block = dyad(scaled, view%gradient(3*k - 2:3*k))
+            if (k == l) then
+               call add_diagonal_block(block, at(l), at(l), ld, matrix)
+            else
+               call add_block(block, at(l), at(k), ld, matrix)
+            end if
+         end do
+      end do
+   end subroutine add_spring_material
 
    !> The stiffnesses at design: along x, y, z and about x, y, z of the marker of a bushing [N/m, N m/rad]. The slope of an
    !> element of one measure is the first or, of an angle, the fourth; the others are 0.

@@ -17,27 +17,60 @@
 !> | driver            | a measure = its design value + prescribed change (+ λ/stiffness) | 1 |
 !> | coupler           | Σ ratio × measure = its design value                     | 1       |
 !>
-!> To add a joint: add its rows to `joint_terms`, its name to `joint_kinds`, its row to the table above,
-!> and a test. The solver and the output do not depend on the names.
+!> To add a joint: its row in `joint_table`, its terms in `joint_terms`, both here, its row in the table above, and a test. Reader,
+!> solver and pictures do not depend on the names.
 module ek_joint
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, axis_axis, body_gap, global_gap, distance
    use ek_rotation, only: cross, perpendicular, identity3, angle_between
    implicit none(type, external)
    private
-   public :: joint_t, row_t, term_t, joint_geometry_t, joint_terms, joint_kinds
-   public :: needs_axis, needs_second_axis, max_terms, axes_fit
+   public :: joint_t, row_t, term_t, joint_geometry_t, joint_terms, joint_kinds, joint_table, joint_kind_t, max_terms, axes_fit
+   public :: no_axis, one_axis, one_or_two, two_axes, either_axis, any_angle, right_angle, no_angle, not_opposed
+   public :: no_part, unseen_part, rod_part, ball_part, hinge_part, slider_part
 
    integer, parameter :: max_terms = 6   !! largest number of terms of a joint (fixed)
 
-   character(*), parameter :: joint_kinds(14) = [character(17) :: &
-      'spherical', 'universal', 'constant_velocity', 'revolute', 'cylindrical', 'translational', &
-      'fixed', 'distance', 'in_plane', 'in_line', 'perpendicular', 'parallel', 'driver', 'coupler']
+   ! directions that define a joint, those of axis and axis_2
+   integer, parameter :: no_axis = 0, one_axis = 1, one_or_two = 2, two_axes = 3
+   integer, parameter :: either_axis = 4      !! the other one is then chosen perpendicular to it
+   ! angle between axis and axis_2
+   integer, parameter :: any_angle = 0, right_angle = 1, no_angle = 2, not_opposed = 3
+   ! parts in pictures: without an attachment point; with one that is not drawn; drawn
+   integer, parameter :: no_part = 0, unseen_part = 1, rod_part = 2, ball_part = 3, hinge_part = 4, slider_part = 5
+
+   !> The properties of a kind.
+   type :: joint_kind_t
+      character(17) :: name
+      integer :: least_points, most_points   !! of `at`; 2 and 2: two that do not coincide
+      integer :: axes, angle                 !! of those above
+      integer :: part
+      logical :: is_of_measures = .false.    !! made of named measures, not of points and axes
+   end type joint_kind_t
+
+   type(joint_kind_t), parameter :: joint_table(14) = [ &
+      joint_kind_t('spherical', 1, 1, no_axis, any_angle, ball_part), &
+      joint_kind_t('universal', 1, 1, either_axis, right_angle, ball_part), &
+      joint_kind_t('constant_velocity', 1, 1, two_axes, not_opposed, ball_part), &
+      joint_kind_t('revolute', 1, 1, one_axis, any_angle, hinge_part), &
+      joint_kind_t('cylindrical', 1, 1, one_axis, any_angle, slider_part), &
+      joint_kind_t('translational', 1, 1, one_axis, any_angle, slider_part), &
+      joint_kind_t('fixed', 1, 1, no_axis, any_angle, unseen_part), &
+      joint_kind_t('distance', 2, 2, no_axis, any_angle, rod_part), &
+      joint_kind_t('in_plane', 1, 2, one_axis, any_angle, no_part), &
+      joint_kind_t('in_line', 1, 2, one_axis, any_angle, no_part), &
+      joint_kind_t('perpendicular', 0, 1, two_axes, right_angle, no_part), &
+      joint_kind_t('parallel', 0, 1, one_or_two, no_angle, no_part), &
+      joint_kind_t('driver', 0, 0, no_axis, any_angle, no_part, .true.), &
+      joint_kind_t('coupler', 0, 0, no_axis, any_angle, no_part, .true.)]
+
+   character(*), parameter :: joint_kinds(*) = joint_table%name
 
    !> A named joint: its definition in the deck, and its rows of Φ.
    type :: joint_t
       character(:), allocatable :: name
       character(:), allocatable :: kind      !! one of joint_kinds
+      integer :: number = 0                  !! of its kind, in joint_table
       character(:), allocatable :: where     !! 'file:line' for messages
       integer :: body_i = 0, body_j = 0
       real(wp) :: arm_j(3) = 0.0_wp          !! point where its force acts on body j, body axes [m]
@@ -74,46 +107,29 @@ module ek_joint
 
 contains
 
-   !> Whether a kind is defined by a direction.
-   pure logical function needs_axis(kind)
-      character(*), intent(in) :: kind
-      select case (kind)
-      case ('spherical', 'fixed', 'distance', 'driver', 'coupler')
-         needs_axis = .false.
-      case default
-         needs_axis = .true.
-      end select
-   end function needs_axis
-
-   !> Whether a kind needs a direction on each body.
-   pure logical function needs_second_axis(kind)
-      character(*), intent(in) :: kind
-      needs_second_axis = kind == 'universal' .or. kind == 'constant_velocity' .or. kind == 'perpendicular'
-   end function needs_second_axis
-
-   !> Whether two axes suit a joint: at a right angle, parallel, or not opposed.
-   pure logical function axes_fit(kind, axis_i, axis_j)
-      character(*), intent(in) :: kind
+   !> Whether two axes are at the angle that a joint needs.
+   pure logical function axes_fit(needed, axis_i, axis_j)
+      integer, intent(in) :: needed                     !! angle of joint_table
       real(wp), intent(in) :: axis_i(3), axis_j(3)      !! unit
       real(wp), parameter :: tolerance = 0.01_wp, widest = 179.0_wp      ! deg
       real(wp) :: angle
 
-      axes_fit = .true.
-      select case (kind)
-      case ('universal', 'perpendicular')
-         axes_fit = abs(angle_between(axis_i, axis_j) - 90.0_wp) <= tolerance
-      case ('parallel')
-         angle = angle_between(axis_i, axis_j)
+      angle = angle_between(axis_i, axis_j)
+      select case (needed)
+      case (right_angle)
+         axes_fit = abs(angle - 90.0_wp) <= tolerance
+      case (no_angle)
          axes_fit = min(angle, 180.0_wp - angle) <= tolerance
-      case ('constant_velocity')
-         axes_fit = angle_between(axis_i, axis_j) <= widest
+      case (not_opposed)
+         axes_fit = angle <= widest
+      case default
+         axes_fit = .true.
       end select
    end function axes_fit
 
    !> The terms of a joint in row order, and the number of terms of each row.
    !>
-   !> Arms are design points (global); `complete` subtracts the reference points of the bodies.
-   !> Drivers and couplers are built from named measures by the builder.
+   !> Arms are design points (global); `settle_design` subtracts the reference points of the bodies.
    !> Equation (M.19) of docs/theory/measures.md.
    subroutine joint_terms(kind, geometry, terms, terms_of_row, rows)
       character(*), intent(in) :: kind

@@ -22,13 +22,13 @@
 module ek_measure
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
-   use ek_block, only: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian, s_matrix, rotated, dyad, dyad_rest
+   use ek_block, only: add_block, add_s_block, add_link_stiffness, add_gap_hessian, rotated, dyad, dyad_rest
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, add_turn_hessian
    implicit none(type, external)
    private
    public :: measure_t, view_t
    public :: axis_axis, body_gap, global_gap, distance, rotation
-   public :: look, measure_value, measure_gradient, add_measure_hessian
+   public :: look, measure_value, is_of_angle, add_measure_hessian
 
    integer, parameter :: axis_axis = 1    !! cosine between an axis of i and an axis of j [-]
    integer, parameter :: body_gap = 2     !! gap of two points along a direction fixed in i [m]
@@ -132,15 +132,11 @@ contains
       value = view%value
    end function measure_value
 
-   !> The gradient alone, d(value)/d[Δr_i Δπ_i Δr_j Δπ_j].
-   pure function measure_gradient(measure, pose_i, pose_j) result(gradient)
-      type(measure_t), intent(in) :: measure
-      type(pose_t), intent(in) :: pose_i, pose_j
-      real(wp) :: gradient(12)
-      type(view_t) :: view
-      call look(measure, pose_i, pose_j, view)
-      gradient = view%gradient
-   end function measure_gradient
+   !> Whether the generalised force of a measure is a moment (rotation, cosine); it has no points.
+   elemental logical function is_of_angle(kind)
+      integer, intent(in) :: kind
+      is_of_angle = kind == rotation .or. kind == axis_axis
+   end function is_of_angle
 
    !> Adds weight × Hessian to the lower triangle of a matrix.
    !>
@@ -153,37 +149,27 @@ contains
       real(wp), intent(in) :: weight
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: u(3), m(3, 3), slope
+      real(wp) :: u(3), m(3, 3)
       real(wp), parameter :: none(3, 3) = 0.0_wp
 
+      u = weight*view%u
       select case (kind)
       case (rotation)
-         u = weight*view%u
          call add_turn_hessian(view%turn, u, none, view%frame, at_i, at_j, ld, matrix)
       case (axis_axis)
-         u = weight*view%u
-         m = s_matrix(u, view%v)
-         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
-         call add_diagonal_block(m, at_j + 3, at_j, ld, matrix)
-         if (at_i >= 0 .and. at_j >= 0) then
-            call add_block(dyad_rest(view%v, u), at_i + 3, at_j + 3, ld, matrix)
-         end if
+         call add_s_block(u, view%v, at_i + 3, at_i, ld, matrix)
+         call add_s_block(u, view%v, at_j + 3, at_j, ld, matrix)
+         if (at_i >= 0 .and. at_j >= 0) call add_block(dyad_rest(view%v, u), at_i + 3, at_j + 3, ld, matrix)
       case (body_gap)
-         u = weight*view%u
          call add_gap_hessian(u, view%a, view%b, view%d, at_i, at_j, ld, matrix)
-      case (global_gap)
-         u = weight*view%u
-         m = -s_matrix(view%a, u)
-         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
-         call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
-      case (distance)
-         slope = weight/view%value
-         m = slope*(identity3 - dyad(view%u, view%u))
-         call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
-         u = weight*view%u
-         m = -s_matrix(view%a, u)
-         call add_diagonal_block(m, at_i + 3, at_i, ld, matrix)
-         call add_diagonal_block(s_matrix(view%b, u), at_j + 3, at_j, ld, matrix)
+      case (global_gap, distance)
+         if (kind == distance) then
+            m = (weight/view%value)*(identity3 - dyad(view%u, view%u))
+            call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
+         end if
+         call add_s_block(view%b, u, at_j + 3, at_j, ld, matrix)
+         u = -u
+         call add_s_block(view%a, u, at_i + 3, at_i, ld, matrix)
       end select
    end subroutine add_measure_hessian
 

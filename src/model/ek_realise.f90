@@ -2,22 +2,22 @@
 !>
 !> The suspension is a copy of the blueprint's prototype; all its numbers are computed anew in place, so that no memory is
 !> allocated and no name is looked up. Every number comes from the same formula as for a suspension built part by part:
-!> the rows of a joint from `joint_terms`, an element from `set_numbers`, arms and design values from `settle_design`.
+!> the rows of a joint from `joint_terms`, arms and design values from `settle_design`.
 !>
 !> Where x is outside the range for which the blueprint is valid (an axis without length, a point that leaves its side), `is_good`
 !> is .false. and the suspension must not be used; the deck reader reports the reason.
 module ek_realise
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_curve, only: curve_t, new_curve, scaled_curve, has_points, look_up_curve, least_step
+   use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, least_step
    use ek_measure, only: distance
-   use ek_joint, only: term_t, joint_geometry_t, joint_terms, axes_fit, max_terms
-   use ek_element, only: element_numbers_t, set_numbers, stop_spring
+   use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
+   use ek_element, only: stop_spring
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_completion, only: settle_design
-   use ek_blueprint, only: blueprint_t, inward, number_at
-   use ek_design_vector, only: find_vectors, marker_axes, spin_of, add_mass
+   use ek_blueprint, only: blueprint_t, inward, number_at, triple_at
+   use ek_design_vector, only: find_vectors, marker_axes, spin_of
    implicit none(type, external)
    private
    public :: new_design, realise, realise_cases
@@ -75,14 +75,15 @@ contains
       do k = 1, size(plan%bodies)
          associate (body => suspension%bodies(k), this => plan%bodies(k))
             if (this%origin > 0) body%origin = suspension%vectors(:, this%origin)
-            body%mass = number_at(x, this%mass, 0.0_wp)
+            body%mass = number_at(x, this%mass)
             body%centre = suspension%vectors(:, this%centre)
          end associate
       end do
+      ! as weights are parallel, one mass at the common centre of gravity is equivalent: m = Σ m_k, centre = Σ m_k c_k / m
       do k = 1, size(plan%masses)
-         associate (this => plan%masses(k))
-            call add_mass(x(this%kg), suspension%vectors(:, this%at), suspension%bodies(this%body)%mass, &
-               suspension%bodies(this%body)%centre)
+         associate (body => suspension%bodies(plan%masses(k)%body), this => plan%masses(k))
+            body%centre = (body%mass*body%centre + x(this%kg)*suspension%vectors(:, this%at))/(body%mass + x(this%kg))
+            body%mass = body%mass + x(this%kg)
          end associate
       end do
    end subroutine place_bodies
@@ -132,8 +133,9 @@ contains
             geometry%point_j = suspension%vectors(:, this%ends(2))
             geometry%axis_i = suspension%vectors(:, this%axes(1))
             geometry%axis_j = suspension%vectors(:, this%axes(2))
-            is_good = is_good .and. axes_fit(joint%kind, geometry%axis_i, geometry%axis_j)
-            if (joint%kind == 'distance') is_good = is_good .and. norm2(geometry%point_j - geometry%point_i) > 0.0_wp
+            is_good = is_good .and. axes_fit(joint_table(joint%number)%angle, geometry%axis_i, geometry%axis_j)
+            if (joint_table(joint%number)%least_points == 2) &
+               is_good = is_good .and. norm2(geometry%point_j - geometry%point_i) > 0.0_wp
             if (.not. is_good) return
             call joint_terms(joint%kind, geometry, terms, terms_of_row, rows)
             do t = 1, sum(terms_of_row(:rows))
@@ -152,35 +154,30 @@ contains
       real(wp), intent(in) :: x(:)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
-      type(element_numbers_t) :: numbers
       real(wp) :: force, slope
       integer :: k
 
       do k = 1, size(plan%elements)
          associate (spring => suspension%elements(k), this => plan%elements(k))
             if (this%readout > 0) then
-               numbers%measure = suspension%readouts(this%readout)%measure
+               spring%measure = suspension%readouts(this%readout)%measure
             else
-               numbers%measure = spring%measure
-               numbers%measure%arm_i = suspension%vectors(:, this%ends(1))
-               numbers%measure%arm_j = suspension%vectors(:, this%ends(2))
-               numbers%measure%u = suspension%vectors(:, this%axis)
+               spring%measure%arm_i = suspension%vectors(:, this%ends(1))
+               spring%measure%arm_j = suspension%vectors(:, this%ends(2))
+               spring%measure%u = suspension%vectors(:, this%axis)
             end if
-            if (numbers%measure%kind == distance) &
-               is_good = is_good .and. norm2(numbers%measure%arm_j - numbers%measure%arm_i) > 0.0_wp
-            numbers%rate = number_at(x, this%rate, 0.0_wp)
-            numbers%preload = number_at(x, this%preload, 0.0_wp)
-            numbers%free_length = number_at(x, this%free_length, 0.0_wp)
-            numbers%clearance = number_at(x, this%clearance, 0.0_wp)
-            numbers%rounding = number_at(x, this%rounding, 0.0_wp)
-            if (this%curve > 0) then
-               call renew(plan, this%curve, x, this%value_unit, this%force_unit, spring%law%curve, is_good)
-               if (spring%kind == stop_spring) then      ! without contact it exerts no force
-                  call look_up_curve(spring%law%curve, 0.0_wp, force, slope)
-                  is_good = is_good .and. abs(force) <= 0.0_wp
-               end if
-            end if
-            call set_numbers(spring, numbers)
+            if (spring%measure%kind == distance) &
+               is_good = is_good .and. norm2(spring%measure%arm_j - spring%measure%arm_i) > 0.0_wp
+            spring%law%rate = number_at(x, this%rate)
+            spring%preload = number_at(x, this%preload)
+            spring%free_length = number_at(x, this%free_length)
+            spring%clearance = number_at(x, this%clearance)
+            spring%law%rounding = number_at(x, this%rounding)
+            if (this%curve == 0) cycle
+            call renew(plan, this%curve, x, this%value_unit, this%force_unit, spring%law%curve, is_good)
+            if (spring%kind /= stop_spring .or. .not. is_good) cycle
+            call look_up_curve(spring%law%curve, 0.0_wp, force, slope)
+            is_good = abs(force) <= 0.0_wp      ! without contact it exerts no force
          end associate
       end do
    end subroutine place_elements
@@ -191,6 +188,7 @@ contains
       real(wp), intent(in) :: x(:)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
+      real(wp) :: rates(6)
       integer :: k, c
 
       do k = 1, size(plan%bushings)
@@ -198,36 +196,21 @@ contains
             bushing => suspension%elements(suspension%scalars + k)%bushing)
             measure%arm_i = suspension%vectors(:, this%ends(1))
             measure%arm_j = suspension%vectors(:, this%ends(2))
-            bushing%arm_i = suspension%vectors(:, this%ends(1))
-            bushing%arm_j = suspension%vectors(:, this%ends(2))
             call marker_axes(plan, suspension%vectors(:, this%z), suspension%vectors(:, this%x), bushing%axes, is_good)
-            call take(this%kt, bushing%kt)
-            call take(this%kr, bushing%kr)
-            call take(this%preload_force, bushing%preload_force)
-            call take(this%preload_moment, bushing%preload_moment)
-            do c = 1, 3
-               if (this%curves(c) > 0) then
-                  call renew(plan, this%curves(c), x, plan%length_unit, plan%force_unit, bushing%laws(c)%curve, is_good)
-                  is_good = is_good .and. abs(bushing%kt(c)) <= 0.0_wp      ! a component has either a rate or a curve
-               end if
-               if (this%curves(c + 3) > 0) then
-                  call renew(plan, this%curves(c + 3), x, plan%angle_unit, plan%force_unit*plan%length_unit, &
-                     bushing%laws(c + 3)%curve, is_good)
-                  is_good = is_good .and. abs(bushing%kr(c)) <= 0.0_wp
-               end if
+            bushing%kt = triple_at(x, this%kt)
+            bushing%kr = triple_at(x, this%kr)
+            bushing%preload_force = triple_at(x, this%preload_force)
+            bushing%preload_moment = triple_at(x, this%preload_moment)
+            rates(1:3) = bushing%kt
+            rates(4:6) = bushing%kr
+            do c = 1, 6
+               if (this%curves(c) == 0) cycle
+               call renew(plan, this%curves(c), x, merge(plan%length_unit, plan%angle_unit, c <= 3), &
+                  plan%force_unit*merge(1.0_wp, plan%length_unit, c <= 3), bushing%laws(c)%curve, is_good)
+               is_good = is_good .and. abs(rates(c)) <= 0.0_wp      ! a component has either a rate or a curve
             end do
          end associate
       end do
-
-   contains
-
-      subroutine take(first, values)
-         integer, intent(in) :: first
-         real(wp), intent(inout) :: values(3)
-         values = 0.0_wp
-         if (first > 0) values = x(first:first + 2)
-      end subroutine take
-
    end subroutine place_bushings
 
    !> A curve of an element, in SI; unchanged points keep it as it is.
@@ -246,7 +229,7 @@ contains
                is_good = .false.
                return
             end if
-            curve = scaled_curve(new_curve(at, values, this%kind), x_unit, y_unit)
+            curve = new_curve(at, values, this%kind, x_unit, y_unit)
             curve%name = this%name
          end associate
       end associate
@@ -259,15 +242,13 @@ contains
       logical, intent(inout) :: is_good
       integer :: k, used
 
-      suspension%gravity = number_at(x, plan%gravity, 0.0_wp)
+      suspension%gravity = number_at(x, plan%gravity)
       used = size(plan%loads)
       do k = 1, used
          associate (load => suspension%loads(k), this => plan%loads(k))
             load%arm = suspension%vectors(:, this%at)
-            load%force = 0.0_wp
-            load%moment = 0.0_wp
-            if (this%force > 0) load%force = inward(plan, x(this%force:this%force + 2))
-            if (this%moment > 0) load%moment = inward(plan, x(this%moment:this%moment + 2))
+            load%force = inward(plan, triple_at(x, this%force))
+            load%moment = inward(plan, triple_at(x, this%moment))
          end associate
       end do
       ! a weight for every body with a mass, or none
@@ -294,10 +275,10 @@ contains
             wheel%centre = suspension%vectors(:, this%centre)
             wheel%contact = suspension%vectors(:, this%contact)
             wheel%radius = number_at(x, this%radius, wheel%centre(3) - wheel%contact(3))
-            wheel%tyre_rate = number_at(x, this%tyre_rate, 0.0_wp)
-            wheel%tyre_width = number_at(x, this%tyre_width, 0.0_wp)
-            wheel%sprung_mass = number_at(x, this%sprung_mass, 0.0_wp)
-            call spin_of(wheel%side, number_at(x, this%toe, 0.0_wp), number_at(x, this%camber, 0.0_wp), &
+            wheel%tyre_rate = number_at(x, this%tyre_rate)
+            wheel%tyre_width = number_at(x, this%tyre_width)
+            wheel%sprung_mass = number_at(x, this%sprung_mass)
+            call spin_of(wheel%side, number_at(x, this%toe), number_at(x, this%camber), &
                suspension%vectors(:, this%spin), wheel)
             do j = 1, 2
                wheel%steer_axis(:, j) = suspension%vectors(:, this%steer_axis(j))
@@ -316,15 +297,15 @@ contains
       type(suspension_t), intent(inout) :: suspension
 
       associate (axle => suspension%axle, steering => suspension%steering)
-         axle%wheelbase = number_at(x, plan%axle(1), 0.0_wp)
-         axle%cg_height = number_at(x, plan%axle(2), 0.0_wp)
-         axle%mass = number_at(x, plan%axle(3), 0.0_wp)
-         axle%brake_share = number_at(x, plan%axle(4), 0.0_wp)
+         axle%wheelbase = number_at(x, plan%axle(1))
+         axle%cg_height = number_at(x, plan%axle(2))
+         axle%mass = number_at(x, plan%axle(3))
+         axle%brake_share = number_at(x, plan%axle(4))
          axle%drive_share = number_at(x, plan%axle(5), 1.0_wp)
-         axle%front_overhang = number_at(x, plan%axle(6), 0.0_wp)
-         axle%front_width = number_at(x, plan%axle(7), 0.0_wp)
-         steering%ratio = number_at(x, plan%steering(1), 0.0_wp)
-         steering%travel = number_at(x, plan%steering(2), 0.0_wp)
+         axle%front_overhang = number_at(x, plan%axle(6))
+         axle%front_width = number_at(x, plan%axle(7))
+         steering%ratio = number_at(x, plan%steering(1))
+         steering%travel = number_at(x, plan%steering(2))
       end associate
    end subroutine place_axle
 
@@ -338,10 +319,10 @@ contains
 
       do k = 1, size(cases)
          associate (this => plan%cases(k))
-            cases(k)%offset = number_at(x, this%offset, 0.0_wp)
+            cases(k)%offset = number_at(x, this%offset)
             if (cases(k)%test == 'table') cycle
-            cases(k)%from = number_at(x, this%from, 0.0_wp)
-            cases(k)%to = number_at(x, this%to, 0.0_wp)
+            cases(k)%from = number_at(x, this%from)
+            cases(k)%to = number_at(x, this%to)
             is_good = is_good .and. abs(cases(k)%to - cases(k)%from) > 0.0_wp
             if (cases(k)%test == 'roll') is_good = is_good .and. max(abs(cases(k)%from), abs(cases(k)%to)) <= steepest_roll
          end associate

@@ -1,6 +1,6 @@
 !> The assembled model: bodies, constraint rows, elastic elements, loads, wheels.
 !>
-!> Built by ek_builder; never changed by a solution.
+!> Built by the reader and ek_realise; never changed by a solution.
 !> All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
 !> body are parallel to the frame. Body 0 is the chassis.
 module ek_suspension
@@ -13,7 +13,7 @@ module ek_suspension
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
-   public :: body_name, design_poses, driver_row, load_number
+   public :: allocate_lists, body_name, design_poses, driver_row, load_number
 
    !> A rigid body.
    type :: body_t
@@ -123,18 +123,30 @@ module ek_suspension
 
 contains
 
+   !> A suspension without parts.
+   subroutine allocate_lists(self)
+      type(suspension_t), intent(inout) :: self
+      allocate (self%bodies(0), self%points(0), self%joints(0), self%rows(0), self%terms(0), self%elements(0), self%loads(0), &
+         self%wheels(0), self%readouts(0))
+      self%balance = 'none'
+      self%name = ''
+      self%title = ''
+      self%where = ''
+      self%axle%where = ''
+      self%steering%where = ''
+      self%steering%driver = ''
+   end subroutine allocate_lists
+
    !> The length of Δq.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
-      unknowns = 0
-      if (allocated(self%bodies)) unknowns = 6*size(self%bodies)
+      unknowns = 6*size(self%bodies)
    end function unknowns
 
    !> The number of rows of Φ.
    pure integer function constraints(self)
       class(suspension_t), intent(in) :: self
-      constraints = 0
-      if (allocated(self%rows)) constraints = size(self%rows)
+      constraints = size(self%rows)
    end function constraints
 
    !> The number of rows of Φ without those of the rig, which come last: λ(:own_rows) is the suspension's own, λ(own_rows+1:) that

@@ -2,7 +2,7 @@
 !>
 !> θ = log(A_iᵀ A_j) in the axes of body i. With (q0, qv) the unit quaternion of A_iᵀ A_j: p = 2 qv, t = pᵀp, θ = α(t) p,
 !> α(t) = asin(√t/2)/(√t/2). δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) is the change of the relative rotation.
-!> Equation (R.12) of docs/theory/rotations.md.
+!> Equation (R.11) of docs/theory/rotations.md.
 module ek_turn
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
@@ -29,7 +29,7 @@ module ek_turn
 contains
 
    !> The rotation of body j relative to body i.
-   !> Equation (R.11) of docs/theory/rotations.md.
+   !> Equation (R.10) of docs/theory/rotations.md.
    pure subroutine relative_turn(pose_i, pose_j, turn)
       type(pose_t), intent(in) :: pose_i, pose_j
       type(turn_t), intent(out) :: turn
@@ -77,7 +77,7 @@ contains
 
    !> G = ∂θ/∂δ = (αI + 2α' p pᵀ)(q0 I − q̃v), δ = A_iᵀ(π_j − π_i).
    !> Equation (M.11) of docs/theory/measures.md.
-   !> Equation (R.10) of docs/theory/rotations.md.
+   !> Equation (R.9) of docs/theory/rotations.md.
    pure function turn_jacobian(turn) result(jacobian)
       type(turn_t), intent(in) :: turn
       real(wp) :: jacobian(3, 3), w(3)
@@ -96,7 +96,7 @@ contains
    !> In δ: Pᵀ[2α'(m pᵀ + p mᵀ) + 2α'(m·p)I + 4α''(m·p) p pᵀ]P − ½(w·qv) I; then
    !> δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) brings the block π_iπ_j += ½ [A_i g]~.
    !> Equations (M.8), (M.9), (M.10), (M.12) of docs/theory/measures.md.
-   !> Equation (R.12) of docs/theory/rotations.md.
+   !> Equation (R.11) of docs/theory/rotations.md.
    pure subroutine add_turn_hessian(turn, m, inner, a_i, at_i, at_j, ld, matrix)
       type(turn_t), intent(in) :: turn
       real(wp), intent(in) :: m(3)           !! body-i axes

@@ -9,6 +9,7 @@ module ek_picture
    use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_measure, only: measure_t, distance
+   use ek_joint, only: joint_table, rod_part, ball_part, hinge_part, slider_part
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
    use ek_suspension, only: suspension_t, wheel_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
@@ -61,7 +62,7 @@ contains
          end do
       end do
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%kind /= 'distance') cycle
+         if (joint_table(suspension%joints(k)%number)%part /= rod_part) cycle
          call ends_of(first_measure(suspension, k), state, line(:, 1), line(:, 2))
          call add_line(scene, kind, line)
       end do
@@ -138,7 +139,7 @@ contains
          call name_at(suspension%bodies(body)%name, aside)
       end do
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%kind /= 'distance') cycle
+         if (joint_table(suspension%joints(k)%number)%part /= rod_part) cycle
          call ends_of(first_measure(suspension, k), state, a, b)
          at = 0.8_wp*a + 0.2_wp*b      ! away from the name of a wishbone or a carrier beside it
          call name_at(suspension%joints(k)%name)
@@ -230,20 +231,20 @@ contains
       do k = 1, size(suspension%joints)
          measure = first_measure(suspension, k)
          call ends_of(measure, state, a, b)
-         select case (suspension%joints(k)%kind)
-         case ('distance')
+         select case (joint_table(suspension%joints(k)%number)%part)
+         case (rod_part)
             call add_tube(scene, part_rod, a, b, rod_radius, merge(4, 6, plain))
             call add_end(measure%body_i, a)
             call add_end(measure%body_j, b)
-         case ('spherical', 'universal', 'constant_velocity')
+         case (ball_part)
             call add_ball(scene, part_ball, b, ball_radius, merge(4, 8, plain))
             if (measure%body_i*measure%body_j == 0) call add_end(0, b)
-         case ('revolute')
+         case (hinge_part)
             ! rows 4 and 5 keep two directions of body i perpendicular to v, the axis in body j
             measure = suspension%terms(suspension%rows(suspension%joints(k)%first_row + 3)%first)%measure
             axis = rotated(state%poses(measure%body_j + 1)%a, measure%v)
             call add_tube(scene, part_ball, b - 0.022_wp*axis, b + 0.022_wp*axis, 0.015_wp, merge(4, 8, plain))
-         case ('cylindrical', 'translational')
+         case (slider_part)
             ! rows: x·z and y·z first, so v of the first row is the axis, fixed in body j
             axis = rotated(state%poses(measure%body_j + 1)%a, measure%v)
             if (measure%body_i == 0 .or. measure%body_j == 0) then

@@ -5,6 +5,7 @@
 module ek_skeleton
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, distance
+   use ek_joint, only: joint_table, no_part, rod_part, slider_part
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
@@ -39,15 +40,13 @@ contains
       type(measure_t) :: measure
       logical :: is_in(most_points), is_rigid, is_spring
       real(wp) :: best, cost
-      integer :: k, n, from, to, bar(2)
+      integer :: k, n, part, from, to, bar(2)
 
       do k = 1, size(suspension%joints)
-         select case (suspension%joints(k)%kind)
-         case ('in_plane', 'in_line', 'perpendicular', 'parallel', 'driver', 'coupler')
-            cycle                                    ! these have no attachment point
-         end select
+         part = joint_table(suspension%joints(k)%number)%part
+         if (part == no_part) cycle                  ! it has no attachment point
          measure = first_measure(suspension, k)
-         is_rigid = suspension%joints(k)%kind /= 'distance'
+         is_rigid = part /= rod_part
          if (measure%body_i == body) call add_node(measure%arm_i, is_rigid .and. measure%body_j == 0, .false.)
          if (measure%body_j == body) call add_node(measure%arm_j, is_rigid .and. measure%body_i == 0, .false.)
       end do
@@ -152,7 +151,7 @@ contains
       slides = .false.
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
-            if (joint%kind == 'cylindrical' .or. joint%kind == 'translational') slides = slides .or. &
+            if (joint_table(joint%number)%part == slider_part) slides = slides .or. &
                (joint%body_i*joint%body_j > 0 .and. (joint%body_i == body .or. joint%body_j == body))
          end associate
       end do

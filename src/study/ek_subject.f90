@@ -6,7 +6,7 @@ module ek_subject
    use ek_text, only: quoted
    use ek_deck, only: deck_t
    use ek_reader, only: design_t, read_design
-   use ek_parameter, only: choice_t, find_parameters, put_value, in_range
+   use ek_parameter, only: choice_t, put_value, in_range
    use ek_realise, only: new_design, realise, realise_cases
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t

@@ -9,8 +9,8 @@ module ek_axle
    use ek_measure, only: measure_t, rotation
    use ek_rotation, only: identity3
    use ek_suspension, only: suspension_t, wheel_t, readout_t
-   use ek_builder, only: add_body, add_joint, add_driver, add_bushing, add_spring, add_wheel, add_readout
-   use ek_completion, only: complete
+   use ek_parts, only: add_body, add_joint, add_driver, add_bushing, add_spring, add_wheel, add_readout
+   use ek_parts, only: complete
    implicit none(type, external)
    private
    public :: guided_axle, swinging_axle, wishbone_axle, block_axle, steered_axle, side_name, both

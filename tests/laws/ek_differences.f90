@@ -6,10 +6,12 @@
 module ek_differences
    use ek_kinds, only: wp
    use ek_turn, only: pose_t
+   use ek_measure, only: measure_t, view_t, look
    use ek_rotation, only: rotate_quaternion, rotation_matrix
    implicit none(type, external)
    private
-   public :: pair_function_t, difference_gradient, difference_hessian, moved_pose, rigidly_moved, symmetric_of_lower
+   public :: pair_function_t, difference_gradient, difference_hessian, measure_gradient, moved_pose, rigidly_moved, &
+      symmetric_of_lower
 
    integer, parameter :: place(4) = [-2, -1, 1, 2]
    real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
@@ -30,6 +32,16 @@ module ek_differences
    end interface
 
 contains
+
+   !> The gradient of a measure, d(value)/d[Δr_i Δπ_i Δr_j Δπ_j].
+   pure function measure_gradient(measure, pose_i, pose_j) result(gradient)
+      type(measure_t), intent(in) :: measure
+      type(pose_t), intent(in) :: pose_i, pose_j
+      real(wp) :: gradient(12)
+      type(view_t) :: view
+      call look(measure, pose_i, pose_j, view)
+      gradient = view%gradient
+   end function measure_gradient
 
    !> r + Δr, exp(Δπ̃) A
    pure function moved_pose(pose, step) result(moved)

@@ -4,12 +4,13 @@
 module ek_example
    use ek_kinds, only: wp
    use ek_case, only: case_t
-   use ek_elastic, only: bushing_t
+   use ek_measure, only: measure_t
+   use ek_element, only: element_t, set_kind, bushing_element
    use ek_joint, only: joint_geometry_t
    use ek_rotation, only: identity3
    use ek_suspension, only: suspension_t, load_t, wheel_t
    use ek_rig, only: rig_t, new_rig, add_height, put_on
-   use ek_builder, only: add_body, add_joint, add_bushing, add_spring, add_load, add_wheel
+   use ek_parts, only: add_body, add_joint, add_bushing, add_spring, add_load, add_wheel
    implicit none(type, external)
    private
    public :: mcpherson_model, double_wishbone_model, load_case, drive_case, new_bushing, geometry, hold_height, add_travel_driver
@@ -53,7 +54,7 @@ contains
          coil_top(3) = [0.029_wp, -0.562_wp, 0.53_wp], coil_low(3) = [0.006_wp, -0.622_wp, 0.27_wp], &
          centre(3) = [0.0_wp, -0.75_wp, 0.0_wp]
       real(wp), parameter :: strut_axis(3) = [0.046262100205922495_wp, 0.09252420041184484_wp, 0.9946351544273336_wp]
-      type(bushing_t) :: bushing(3)
+      type(element_t) :: bushing(3)
       type(load_t) :: static
       integer :: lca, carrier, strut, k
       logical :: is_a
@@ -95,12 +96,12 @@ contains
       bushing(3) = new_bushing('b_lca_r', 0, lca, rear, identity3, &
          [8.0e5_wp, 2.0e6_wp, 6.0e5_wp], [250.0_wp, 250.0_wp, 150.0_wp])
       if (is_a) then
-         bushing(1)%preload_force = [54.61188113719136_wp, -658.5184447623097_wp, -3617.9836847875_wp]
-         bushing(1)%preload_moment = [0.10776523501810735_wp, -0.013670518839916962_wp, -0.25180106231122223_wp]
-         bushing(2)%preload_force = [961.6172418855174_wp, 41.497610570568334_wp, -39.28790725383991_wp]
-         bushing(2)%preload_moment = [0.014401669053152523_wp, -0.18679520455860094_wp, 1.3333399998872824_wp]
-         bushing(3)%preload_force = [-53.16670735557621_wp, -31.769493207490783_wp, -4.717455950824692_wp]
-         bushing(3)%preload_moment = [3.328616580770816_wp, -0.21262747714072486_wp, -0.003514773437692738_wp]
+         bushing(1)%bushing%preload_force = [54.61188113719136_wp, -658.5184447623097_wp, -3617.9836847875_wp]
+         bushing(1)%bushing%preload_moment = [0.10776523501810735_wp, -0.013670518839916962_wp, -0.25180106231122223_wp]
+         bushing(2)%bushing%preload_force = [961.6172418855174_wp, 41.497610570568334_wp, -39.28790725383991_wp]
+         bushing(2)%bushing%preload_moment = [0.014401669053152523_wp, -0.18679520455860094_wp, 1.3333399998872824_wp]
+         bushing(3)%bushing%preload_force = [-53.16670735557621_wp, -31.769493207490783_wp, -4.717455950824692_wp]
+         bushing(3)%bushing%preload_moment = [3.328616580770816_wp, -0.21262747714072486_wp, -0.003514773437692738_wp]
       end if
       do k = 1, 3
          call add_bushing(suspension, bushing(k))
@@ -186,19 +187,16 @@ contains
    end function geometry
 
    !> A bushing at one design point.
-   pure type(bushing_t) function new_bushing(name, body_i, body_j, point, axes, kt, kr) result(bushing)
+   pure type(element_t) function new_bushing(name, body_i, body_j, point, axes, kt, kr) result(bushing)
       character(*), intent(in) :: name
       integer, intent(in) :: body_i, body_j
       real(wp), intent(in) :: point(3), axes(3, 3), kt(3), kr(3)
       bushing%name = name
       bushing%where = ''
-      bushing%body_i = body_i
-      bushing%body_j = body_j
-      bushing%arm_i = point
-      bushing%arm_j = point
-      bushing%axes = axes
-      bushing%kt = kt
-      bushing%kr = kr
+      call set_kind(bushing, bushing_element, measure_t(body_i=body_i, body_j=body_j, arm_i=point, arm_j=point))
+      bushing%bushing%axes = axes
+      bushing%bushing%kt = kt
+      bushing%bushing%kr = kr
    end function new_bushing
 
    subroutine add_case_load(suspension, name, body, point, force)

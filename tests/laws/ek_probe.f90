@@ -3,9 +3,9 @@
 !> What is read off a state is what the columns are made of (ek_attitude), never the compliance matrix.
 module ek_probe
    use ek_kinds, only: wp
-   use ek_rotation, only: quaternion_of_matrix
+   use ek_orientation_matrix, only: quaternion_of_matrix
    use ek_suspension, only: suspension_t, load_t
-   use ek_builder, only: add_load
+   use ek_parts, only: add_load
    use ek_example, only: hold_height
    use ek_kkt, only: kkt_t, new_kkt
    use ek_newton, only: outcome_t, find_equilibrium

@@ -3,9 +3,10 @@ module ek_reading
    use ek_kinds, only: wp
    use ek_elastic, only: bushing_view_t, look_bushing
    use ek_element, only: element_t
-   use ek_spring, only: spring_tension
+   use ek_element_force, only: spring_tension
    use ek_kkt, only: kkt_t, assemble, residual_only
-   use ek_measure, only: measure_value, measure_gradient
+   use ek_measure, only: measure_value
+   use ek_differences, only: measure_gradient
    use ek_turn, only: pose_t
    use ek_path, only: path_t
    use ek_state, only: state_t, demand_t, design_state, unpack_state
@@ -121,8 +122,8 @@ contains
       real(wp) :: force(3)
       type(bushing_view_t) :: view
 
-      associate (b => element%bushing)
-         call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+      associate (b => element%bushing, m => element%measure)
+         call look_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
          force = b%preload_force - b%kt*matmul(transpose(b%axes), view%gap)
       end associate
    end function bushing_force

@@ -9,9 +9,10 @@ module ek_trial
    use ek_file, only: read_whole
    use ek_deck, only: deck_t, parse_deck
    use ek_reader, only: build_model
-   use ek_measure, only: measure_value, measure_gradient
+   use ek_measure, only: measure_value
+   use ek_differences, only: measure_gradient
    use ek_elastic, only: bushing_view_t, look_bushing
-   use ek_spring, only: spring_tension
+   use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, demand_t
@@ -133,12 +134,13 @@ contains
          do k = 1, trial%suspension%scalars
             associate (spring => trial%suspension%elements(k), m => trial%suspension%elements(k)%measure)
                e = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)) - spring%design_length
-               energy(s) = energy(s) + 0.5_wp*spring%rate*e**2 - spring%preload*e
+               energy(s) = energy(s) + 0.5_wp*spring%law%rate*e**2 - spring%preload*e
             end associate
          end do
          do k = 1, size(trial%suspension%elements) - trial%suspension%scalars
-            associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing)
-               call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+            associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing, &
+               m => trial%suspension%elements(trial%suspension%scalars + k)%measure)
+               call look_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
                d = matmul(transpose(b%axes), view%gap)
                turn = matmul(transpose(b%axes), view%turn%theta)
                energy(s) = energy(s) + sum(0.5_wp*b%kt*d**2 - b%preload_force*d) &
@@ -170,12 +172,13 @@ contains
             end associate
          end do
          do k = 1, size(trial%suspension%elements) - trial%suspension%scalars
-            associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing)
-               call look_bushing(b, state%poses(b%body_i + 1), state%poses(b%body_j + 1), view)
+            associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing, &
+               m => trial%suspension%elements(trial%suspension%scalars + k)%measure)
+               call look_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
                gradient = 0.0_wp
                gradient(3) = -view%force(3)
                gradient(9) = view%force(3)
-               call include(b%body_i, b%body_j)
+               call include(m%body_i, m%body_j)
             end associate
          end do
          do k = 1, trial%suspension%own_rows()

@@ -2,8 +2,11 @@
 # tables of a deck on the rig, plane linkages, a folder for files of a test, the program as its user runs it, its text against kept text.
 set(ek_laws_dir ${CMAKE_CURRENT_LIST_DIR})
 add_library(ek_test_laws STATIC
+  ${ek_laws_dir}/ek_orientation_matrix.f90
   ${ek_laws_dir}/ek_random.f90
   ${ek_laws_dir}/ek_differences.f90
+  ${ek_laws_dir}/ek_curve_integral.f90
+  ${ek_laws_dir}/ek_parts.f90
   ${ek_laws_dir}/ek_example.f90
   ${ek_laws_dir}/ek_axle.f90
   ${ek_laws_dir}/ek_reading.f90
