@@ -44,10 +44,11 @@ contains
       type(case_t), intent(in) :: case
       type(observer_t), intent(inout) :: self
       character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
-      character(name_length), allocatable :: columns(:)
+      character(name_length), allocatable :: columns(:), asked(:)      ! asked: not allocated for all
       integer :: k
 
-      if (is_for(self, suspension, case, wanted)) return
+      if (present(wanted)) asked = wanted
+      if (is_for(self, suspension, case, asked)) return
       call list_columns(suspension, case, columns, self%list, self%kandc)
       self%has_all = case%has_all
       self%has_stability = knows_stability(case)
@@ -68,20 +69,20 @@ contains
    end subroutine make_observer
 
    !> Whether an observer was prepared for these columns of such a model.
-   logical function is_for(self, suspension, case, wanted)
+   logical function is_for(self, suspension, case, asked)
       type(observer_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      character(*), intent(in), optional :: wanted(:)
+      character(name_length), allocatable, intent(in) :: asked(:)
 
       is_for = .false.
       if (.not. allocated(self%columns)) return
       if (self%has_all .neqv. case%has_all) return
       if (self%has_stability .neqv. knows_stability(case)) return
-      if (self%has_wanted .neqv. present(wanted)) return
-      if (present(wanted)) then
-         if (size(wanted) /= size(self%wanted)) return
-         if (any(wanted /= self%wanted)) return
+      if (self%has_wanted .neqv. allocated(asked)) return
+      if (allocated(asked)) then
+         if (size(asked) /= size(self%wanted)) return
+         if (any(asked /= self%wanted)) return
       end if
       is_for = .true.
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
@@ -149,7 +150,11 @@ contains
       character(*), intent(in), optional :: wanted(:)   !! as for make_observer
       type(observer_t) :: observer
 
-      call make_observer(suspension, case, observer, wanted)
+      if (present(wanted)) then           ! an absent array is not passed on: gfortran computes its bounds
+         call make_observer(suspension, case, observer, wanted)
+      else
+         call make_observer(suspension, case, observer)
+      end if
       call observe(suspension, case, path, kkt, observer, table)
    end subroutine sweep_table
 
