@@ -48,6 +48,7 @@ contains
       type(windows_t), intent(in) :: windows
       type(gradient_t), allocatable, intent(inout) :: gradients(:)   !! appended to
       type(definition_t), allocatable :: list(:)
+      type(gradient_t) :: gradient
       character(name_length) :: name
       integer :: k, wheel, place
       logical :: is_of_axle
@@ -66,7 +67,9 @@ contains
             end if
             if (place == 0) cycle
             if (wheel_column(test, wheel, trim(list(k)%over)) == 0) cycle
-            gradients = [gradients, one_gradient(test, windows, list(k), wheel, place, is_of_axle)]
+            ! not in the list itself: gfortran 12 leaks it
+            gradient = one_gradient(test, windows, list(k), wheel, place, is_of_axle)
+            gradients = [gradients, gradient]
          end do
       end do
 

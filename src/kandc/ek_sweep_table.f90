@@ -44,10 +44,12 @@ contains
       type(case_t), intent(in) :: case
       type(observer_t), intent(inout) :: self
       character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
-      character(name_length), allocatable :: columns(:)
+      character(name_length), allocatable :: columns(:), asked(:)
       integer :: k
 
-      if (is_for(self, suspension, case, wanted)) return
+      allocate (asked(merge(1, 0, present(wanted))))
+      if (present(wanted)) asked = wanted
+      if (is_for(self, suspension, case, asked, present(wanted))) return
       call list_columns(suspension, case, columns, self%list, self%kandc)
       self%has_all = case%has_all
       self%has_stability = knows_stability(case)
@@ -56,33 +58,29 @@ contains
       self%shown = self%told - self%kandc%used
       if (allocated(self%is_kept)) deallocate (self%is_kept)
       allocate (self%is_kept(self%ended), source=.true.)
-      self%wanted = [character(name_length) ::]
+      self%wanted = asked
       self%has_wanted = present(wanted)
-      if (present(wanted)) then
-         self%wanted = wanted
-         self%is_kept(3:self%told) = [(any(wanted == columns(k)), k=3, self%told)]
-      end if
+      if (self%has_wanted) self%is_kept(3:self%told) = [(any(self%wanted == columns(k)), k=3, self%told)]
       self%kept = pack([(k, k=1, self%ended)], self%is_kept)
       self%columns = columns(self%kept)
       if (self%kandc%used > 0) call choose(self%kandc, self%is_kept(self%shown + 1:self%told))
    end subroutine make_observer
 
    !> Whether an observer was prepared for these columns of such a model.
-   logical function is_for(self, suspension, case, wanted)
+   logical function is_for(self, suspension, case, asked, has_asked)
       type(observer_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      character(*), intent(in), optional :: wanted(:)
+      character(name_length), intent(in) :: asked(:)
+      logical, intent(in) :: has_asked                  !! else: all columns
 
       is_for = .false.
       if (.not. allocated(self%columns)) return
       if (self%has_all .neqv. case%has_all) return
       if (self%has_stability .neqv. knows_stability(case)) return
-      if (self%has_wanted .neqv. present(wanted)) return
-      if (present(wanted)) then
-         if (size(wanted) /= size(self%wanted)) return
-         if (any(wanted /= self%wanted)) return
-      end if
+      if (self%has_wanted .neqv. has_asked) return
+      if (size(asked) /= size(self%wanted)) return
+      if (any(asked /= self%wanted)) return
       is_for = .true.
       if (case%has_all) is_for = same_columns(suspension, self%kandc)
    end function is_for
@@ -149,7 +147,11 @@ contains
       character(*), intent(in), optional :: wanted(:)   !! as for make_observer
       type(observer_t) :: observer
 
-      call make_observer(suspension, case, observer, wanted)
+      if (present(wanted)) then           ! an absent array is not passed on: gfortran computes its bounds
+         call make_observer(suspension, case, observer, wanted)
+      else
+         call make_observer(suspension, case, observer)
+      end if
       call observe(suspension, case, path, kkt, observer, table)
    end subroutine sweep_table
 
