@@ -1,0 +1,118 @@
+!> Random numbers by number: the generator Philox4x32-10, a function without any state.
+!>
+!> The same seed, stream, design and factor give the same number on every machine, in any order and with any number of workers.
+!> A stream separates the uses of one seed: the designs, the scrambling of a sequence, a bootstrap.
+!>
+!> Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011),
+!> doi:10.1145/2063384.2063405. Words of 32 bits are held in 64-bit integers, so that no operation overflows.
+module ek_philox
+   use ek_kinds, only: wp, i8
+   implicit none(type, external)
+   private
+   public :: philox, uniform, fill_uniforms, random_word
+
+   integer(i8), parameter :: low_word = int(z'FFFFFFFF', i8)
+   integer, parameter :: rounds = 10
+   ! the multipliers and the increments of the key (golden ratio, √3 − 1), table 2 of the source and its section 3.3
+   integer(i8), parameter :: multipliers(2) = [int(z'D2511F53', i8), int(z'CD9E8D57', i8)]
+   integer(i8), parameter :: increments(2) = [int(z'9E3779B9', i8), int(z'BB67AE85', i8)]
+
+contains
+
+   !> Four random words of 32 bits from a key of two words and a counter of four. All words are between 0 and 2³² − 1.
+   !>
+   !> A round replaces (c₁, c₂, c₃, c₄) by (hi(m₂c₃) ⊕ c₂ ⊕ k₁, lo(m₂c₃), hi(m₁c₁) ⊕ c₄ ⊕ k₂, lo(m₁c₁)), where hi and lo are the
+   !> words of a product; ten rounds, between which the key grows by the increments (section 3.3 of the source).
+   pure subroutine philox(key, counter, words)
+      integer(i8), intent(in) :: key(2), counter(4)
+      integer(i8), intent(out) :: words(4)
+      integer(i8) :: k(2), high(2), low(2)
+      integer :: round
+
+      words = counter
+      k = key
+      do round = 1, rounds
+         call product_of_words(multipliers(1), words(1), high(1), low(1))
+         call product_of_words(multipliers(2), words(3), high(2), low(2))
+         words(1) = ieor(ieor(high(2), words(2)), k(1))
+         words(3) = ieor(ieor(high(1), words(4)), k(2))
+         words(2) = low(2)
+         words(4) = low(1)
+         k(1) = iand(k(1) + increments(1), low_word)
+         k(2) = iand(k(2) + increments(2), low_word)
+      end do
+   end subroutine philox
+
+   !> The product of two words as two words. In halves of b, because 64 bits with a sign cannot hold the product:
+   !> a b = (a b₁) 2¹⁶ + a b₀, each below 2⁴⁸.
+   pure subroutine product_of_words(a, b, high, low)
+      integer(i8), intent(in) :: a, b
+      integer(i8), intent(out) :: high, low
+      integer(i8) :: first, second
+
+      first = a*iand(b, 65535_i8)
+      second = a*shiftr(b, 16) + shiftr(first, 16)
+      high = shiftr(second, 16)
+      low = ior(shiftl(iand(second, 65535_i8), 16), iand(first, 65535_i8))
+   end subroutine product_of_words
+
+   !> The four words that two factors (2m − 1 and 2m, m = pair) of a design share.
+   pure subroutine words_of(seed, stream, design, pair, words)
+      integer(i8), intent(in) :: seed, design
+      integer, intent(in) :: stream, pair
+      integer(i8), intent(out) :: words(4)
+
+      call philox([iand(seed, low_word), shiftr(seed, 32)], &
+         [iand(design, low_word), shiftr(design, 32), int(pair, i8), int(stream, i8)], words)
+   end subroutine words_of
+
+   !> A multiple of 2⁻⁵³ in (0, 1) from two words; 2⁻⁵⁴ takes the place of 0. Exact, so that it is the same on every machine.
+   pure real(wp) function fraction_of(first, second) result(u)
+      integer(i8), intent(in) :: first, second
+      real(wp), parameter :: step = 2.0_wp**(-53)
+
+      u = max(real(ior(shiftl(first, 21), shiftr(second, 11)), wp), 0.5_wp)*step
+   end function fraction_of
+
+   !> A random number, uniform in (0, 1) with 53 bits.
+   pure real(wp) function uniform(seed, stream, design, factor) result(u)
+      integer(i8), intent(in) :: seed      !! any number
+      integer, intent(in) :: stream        !! from 0
+      integer(i8), intent(in) :: design    !! any number
+      integer, intent(in) :: factor        !! from 1
+      integer(i8) :: words(4)
+
+      call words_of(seed, stream, design, (factor + 1)/2, words)
+      if (mod(factor, 2) == 1) then
+         u = fraction_of(words(1), words(2))
+      else
+         u = fraction_of(words(3), words(4))
+      end if
+   end function uniform
+
+   !> u(j) = uniform(seed, stream, design, j) for all factors of a design, in half the time.
+   pure subroutine fill_uniforms(seed, stream, design, u)
+      integer(i8), intent(in) :: seed, design
+      integer, intent(in) :: stream
+      real(wp), intent(out) :: u(:)
+      integer(i8) :: words(4)
+      integer :: j
+
+      do j = 1, size(u), 2
+         call words_of(seed, stream, design, (j + 1)/2, words)
+         u(j) = fraction_of(words(1), words(2))
+         if (j < size(u)) u(j + 1) = fraction_of(words(3), words(4))
+      end do
+   end subroutine fill_uniforms
+
+   !> A random word of 32 bits: 0 to 2³² − 1.
+   pure integer(i8) function random_word(seed, stream, number, place) result(word)
+      integer(i8), intent(in) :: seed, number
+      integer, intent(in) :: stream, place     !! place: from 1
+      integer(i8) :: words(4)
+
+      call words_of(seed, stream, number, (place + 3)/4, words)
+      word = words(1 + mod(place - 1, 4))
+   end function random_word
+
+end module ek_philox

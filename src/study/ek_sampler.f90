@@ -1,0 +1,403 @@
+!> Samplers: the designs of a study by number, x(design), a pure function of sampler and design number.
+!>
+!> Designs may be asked for in any order and by any number of workers. u below is a number in (0, 1) that becomes a value by the
+!> quantile function of the factor (ek_distribution), t a fraction of its range (`ends_of`, or its list of values).
+!>
+!> | kind | designs | x |
+!> |---|---|---|
+!> | grid | product of the levels | all combinations, first factor slowest; t = 0, 1/(l − 1), …, 1 |
+!> | one_at_a_time | 1 + sum of the levels | nominal; then each factor through its levels, the others nominal (tornado) |
+!> | list | rows | rows that were given |
+!> | latin_hypercube | n | u of each factor once in each of n equal intervals (McKay, Beckman, Conover 1979) |
+!> | sobol | n | u = Sobol' point (ek_sobol) |
+!> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
+!> | monte_carlo | n | u independent |
+!> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
+!>
+!> A factor with `values` takes these only: as levels, or at random each with the same probability. Correlations (ek_copula) apply
+!> to latin_hypercube (whose intervals are then filled exactly by the first factor of each group only), sobol and monte_carlo.
+!>
+!> u and t are the same to the last bit on every machine; x is as exact as the machine's logarithm.
+!>
+!> To add a kind: its number and row in ek_sampler_kind, and here its case in `count_designs` and in `sample`.
+module ek_sampler
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: str, quoted
+   use ek_normal, only: normal_quantile, normal_probability
+   use ek_philox, only: uniform, fill_uniforms
+   use ek_permutation, only: permutation_t, new_permutation, image_of, largest_permutation
+   use ek_sobol, only: sobol_t, new_sobol, sobol_coordinate, largest_dimension, largest_index
+   use ek_distribution, only: distribution_t, quantile, quantile_of_score, ends_of
+   use ek_copula, only: copula_t, new_copula, correlate
+   use ek_sampler_kind, only: sampler_kind_t, sampler_kinds, grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, &
+      sobol_kind, saltelli_kind, morris_kind
+   implicit none(type, external)
+   private
+   public :: factor_t, sampler_settings_t, sampler_t
+   public :: new_sampler, sample, designs_of, factors_of, is_kind, changed_factor, morris_change
+
+   ! what one seed is used for (ek_philox)
+   integer, parameter :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
+
+   !> One number, or a group of numbers that change together.
+   type :: factor_t
+      type(distribution_t) :: distribution
+      real(wp) :: nominal = 0.0_wp             !! of one_at_a_time
+      real(wp), allocatable :: values(:)       !! if allocated, the only values, and `distribution` is not used
+   end type factor_t
+
+   type :: sampler_settings_t
+      integer :: kind = grid_kind
+      integer(i8) :: size = 0                  !! n
+      integer :: levels = 2                    !! of a factor without values: ends of its range, and evenly between; even for morris
+      integer(i8) :: seed = 1
+      logical :: is_scrambled = .true.         !! sobol, saltelli: scrambled by the seed
+      real(wp), allocatable :: rows(:, :)      !! (factor, design) of a list
+      integer, allocatable :: pairs(:, :)      !! (2, m): numbers of two factors
+      real(wp), allocatable :: correlations(:) !! (m)
+   end type sampler_settings_t
+
+   type :: sampler_t
+      private
+      type(sampler_settings_t) :: settings
+      type(factor_t), allocatable :: factors(:)
+      real(wp), allocatable :: low(:), high(:)               !! range of a factor without values
+      integer(i8), allocatable :: levels(:)                  !! of each factor
+      integer(i8) :: designs = 0
+      type(permutation_t), allocatable :: permutations(:)    !! latin_hypercube: of the intervals of each factor
+      type(sobol_t) :: points
+      type(copula_t) :: copula
+      logical :: is_correlated = .false.
+   end type sampler_t
+
+contains
+
+   !> Makes a sampler. All mistakes that a deck can make are errors (exit_deck).
+   pure subroutine new_sampler(settings, factors, sampler, error)
+      type(sampler_settings_t), intent(in) :: settings
+      type(factor_t), intent(in) :: factors(:)
+      type(sampler_t), intent(out) :: sampler
+      type(error_t), allocatable, intent(out) :: error
+      integer :: j, k
+
+      k = size(factors)
+      call check(settings, factors, error)
+      if (allocated(error)) return
+      sampler%settings = settings
+      sampler%factors = factors
+      allocate (sampler%low(k), sampler%high(k), sampler%levels(k))
+      do j = 1, k
+         call ends_of(factors(j)%distribution, sampler%low(j), sampler%high(j))
+         sampler%levels(j) = settings%levels
+         if (allocated(factors(j)%values)) sampler%levels(j) = size(factors(j)%values)
+      end do
+      call count_designs(sampler, error)
+      if (allocated(error)) return
+      select case (settings%kind)
+      case (latin_hypercube_kind)
+         allocate (sampler%permutations(k))
+         do j = 1, k
+            sampler%permutations(j) = new_permutation(settings%size, settings%seed, permutation_stream, int(j, i8))
+         end do
+      case (sobol_kind, saltelli_kind)
+         if (settings%kind == saltelli_kind) k = 2*k
+         if (settings%is_scrambled) then
+            call new_sobol(k, sampler%points, settings%seed, scramble_stream)
+         else
+            call new_sobol(k, sampler%points)
+         end if
+      end select
+      if (allocated(settings%pairs)) sampler%is_correlated = size(settings%pairs, 2) > 0
+      if (sampler%is_correlated) call new_copula(size(factors), settings%pairs, settings%correlations, sampler%copula, error)
+   end subroutine new_sampler
+
+   !> The mistakes in the settings of a sampler.
+   pure subroutine check(settings, factors, error)
+      type(sampler_settings_t), intent(in) :: settings
+      type(factor_t), intent(in) :: factors(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(sampler_kind_t) :: kind
+      integer :: j, dimensions
+
+      if (settings%kind < 1 .or. settings%kind > size(sampler_kinds)) then
+         call fail(error, exit_deck, 'unknown kind of sampler '//str(settings%kind))
+         return
+      end if
+      if (size(factors) == 0) call fail(error, exit_deck, 'the study has no factor')
+      do j = 1, size(factors)
+         if (.not. allocated(factors(j)%values)) cycle
+         if (size(factors(j)%values) == 0) call fail(error, exit_deck, 'factor '//str(j)//' has an empty list of values')
+      end do
+      if (allocated(error)) return
+      kind = sampler_kinds(settings%kind)
+      if (kind%has_size .and. (settings%size < 1 .or. settings%size > largest_index)) then
+         call fail(error, exit_deck, quoted(kind%name)//' requires a number of samples between 1 and 2**32 - 1')
+      else if (kind%has_levels .and. settings%levels < 2) then
+         call fail(error, exit_deck, quoted(kind%name)//' requires at least 2 levels, found '//str(settings%levels))
+      else if (settings%kind == morris_kind .and. mod(settings%levels, 2) /= 0) then
+         call fail(error, exit_deck, '''morris'' requires an even number of levels, found '//str(settings%levels))
+      end if
+      if (allocated(error)) return
+      if (allocated(settings%correlations) .and. .not. kind%has_correlations) then
+         if (size(settings%correlations) > 0) call fail(error, exit_deck, quoted(kind%name)// &
+            ' requires independent factors, found correlations')
+      end if
+      select case (settings%kind)
+      case (list_kind)
+         if (.not. allocated(settings%rows)) then
+            call fail(error, exit_deck, 'the list of designs is missing')
+         else if (size(settings%rows, 1) /= size(factors)) then
+            call fail(error, exit_deck, 'the list of designs has '//str(size(settings%rows, 1))//' columns for '// &
+               str(size(factors))//' factors')
+         end if
+      case (sobol_kind, saltelli_kind)
+         dimensions = merge(2, 1, settings%kind == saltelli_kind)*size(factors)
+         if (dimensions > largest_dimension) call fail(error, exit_deck, quoted(kind%name)//' requires '//str(dimensions)// &
+            ' coordinates for '//str(size(factors))//' factors; the limit is '//str(largest_dimension))
+      end select
+   end subroutine check
+
+   !> The number of designs.
+   pure subroutine count_designs(sampler, error)
+      type(sampler_t), intent(inout) :: sampler
+      type(error_t), allocatable, intent(out) :: error
+      integer(i8) :: k
+      integer :: j
+
+      associate (s => sampler, n => sampler%settings%size)
+         k = size(s%factors)
+         select case (s%settings%kind)
+         case (grid_kind)
+            s%designs = 1
+            do j = 1, int(k)
+               if (s%designs <= largest_permutation/s%levels(j)) then
+                  s%designs = s%designs*s%levels(j)
+               else
+                  call fail(error, exit_deck, 'the grid has more than 2**40 designs')
+                  return
+               end if
+            end do
+         case (one_at_a_time_kind)
+            s%designs = 1 + sum(s%levels)
+         case (list_kind)
+            s%designs = size(s%settings%rows, 2)
+         case (saltelli_kind)
+            s%designs = n*(k + 2)
+         case (morris_kind)
+            s%designs = n*(k + 1)
+         case default
+            s%designs = n
+         end select
+      end associate
+   end subroutine count_designs
+
+   !> The number of designs of a study: they are numbered from 1 to this.
+   pure integer(i8) function designs_of(sampler) result(designs)
+      type(sampler_t), intent(in) :: sampler
+
+      designs = sampler%designs
+   end function designs_of
+
+   !> The number of factors.
+   pure integer function factors_of(sampler) result(factors)
+      type(sampler_t), intent(in) :: sampler
+
+      factors = size(sampler%factors)
+   end function factors_of
+
+   !> Is the sampler of this kind?
+   pure logical function is_kind(sampler, kind)
+      type(sampler_t), intent(in) :: sampler
+      integer, intent(in) :: kind                  !! one of *_kind
+
+      is_kind = sampler%settings%kind == kind
+   end function is_kind
+
+   !> The factors of a design. No allocation.
+   pure subroutine sample(sampler, design, x)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design            !! 1 … designs_of
+      real(wp), intent(out) :: x(:)                !! one number per factor
+      integer(i8) :: rest
+      integer :: j, k
+
+      k = size(x)
+      select case (sampler%settings%kind)
+      case (grid_kind)
+         rest = design - 1
+         do j = k, 1, -1
+            x(j) = level_of(sampler, j, mod(rest, sampler%levels(j)), sampler%levels(j))
+            rest = rest/sampler%levels(j)
+         end do
+      case (one_at_a_time_kind)
+         rest = design - 2
+         do j = 1, k
+            x(j) = sampler%factors(j)%nominal
+            if (rest >= 0 .and. rest < sampler%levels(j)) x(j) = level_of(sampler, j, rest, sampler%levels(j))
+            rest = rest - sampler%levels(j)
+         end do
+      case (list_kind)
+         do j = 1, k
+            x(j) = sampler%settings%rows(j, design)
+         end do
+      case (morris_kind)
+         do j = 1, k
+            x(j) = level_of(sampler, j, morris_level(sampler, design, j), int(sampler%settings%levels, i8))
+         end do
+      case default
+         call sample_at_random(sampler, design, x)
+      end select
+   end subroutine sample
+
+   !> The kinds that begin with numbers u in (0, 1).
+   pure subroutine sample_at_random(sampler, design, x)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design
+      real(wp), intent(out) :: x(:)
+      integer(i8) :: row, block
+      integer :: j, k
+
+      k = size(x)
+      associate (s => sampler%settings)
+         select case (s%kind)
+         case (latin_hypercube_kind)
+            do j = 1, k
+               x(j) = point_in_interval(image_of(sampler%permutations(j), design - 1), s%size, &
+                  uniform(s%seed, design_stream, design, j))
+            end do
+         case (sobol_kind)
+            do j = 1, k
+               x(j) = sobol_coordinate(sampler%points, design - 1, j)
+            end do
+         case (saltelli_kind)
+            row = (design - 1)/(k + 2)
+            block = design - 1 - row*(k + 2)             ! 0: A, j: A with factor j from B, k + 1: B
+            do j = 1, k
+               x(j) = sobol_coordinate(sampler%points, row, merge(j + k, j, block == j .or. block == k + 1))
+            end do
+         case default
+            call fill_uniforms(s%seed, design_stream, design, x)
+         end select
+      end associate
+      call take_quantiles(sampler, x)
+   end subroutine sample_at_random
+
+   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it to a neighbour.
+   pure real(wp) function point_in_interval(i, n, fraction) result(u)
+      integer(i8), intent(in) :: i, n              !! i: 0 … n − 1; n up to 2⁴⁰
+      real(wp), intent(in) :: fraction
+      real(wp) :: margin
+
+      margin = real(n, wp)*2.0_wp**(-50)
+      u = (real(i, wp) + max(margin, min(1.0_wp - margin, fraction)))/real(n, wp)
+   end function point_in_interval
+
+   !> Numbers u in (0, 1) become values of the factors, in place: x_j = F_j⁻¹(u_j), or x_j = F_j⁻¹(Φ(Σ L_ji Φ⁻¹(u_i))).
+   pure subroutine take_quantiles(sampler, x)
+      type(sampler_t), intent(in) :: sampler
+      real(wp), intent(inout) :: x(:)
+      integer :: j
+
+      if (sampler%is_correlated) then
+         do j = 1, size(x)
+            x(j) = normal_quantile(x(j))
+         end do
+         call correlate(sampler%copula, x)
+      end if
+      do j = 1, size(x)
+         associate (factor => sampler%factors(j))
+            if (allocated(factor%values)) then
+               if (sampler%is_correlated) x(j) = normal_probability(x(j))
+               x(j) = factor%values(min(size(factor%values), 1 + int(x(j)*size(factor%values))))
+            else if (sampler%is_correlated) then
+               x(j) = quantile_of_score(factor%distribution, x(j))
+            else
+               x(j) = quantile(factor%distribution, x(j))
+            end if
+         end associate
+      end do
+   end subroutine take_quantiles
+
+   !> Level i of a factor with some levels: evenly over its range, or from its list (the nearest if the list has another length).
+   pure real(wp) function level_of(sampler, j, i, levels) result(x)
+      type(sampler_t), intent(in) :: sampler
+      integer, intent(in) :: j
+      integer(i8), intent(in) :: i, levels         !! i: 0 … levels − 1
+      real(wp) :: t
+
+      t = 0.0_wp
+      if (levels > 1) t = real(i, wp)/real(levels - 1, wp)
+      if (allocated(sampler%factors(j)%values)) then
+         x = sampler%factors(j)%values(1 + nint(t*(size(sampler%factors(j)%values) - 1)))
+      else
+         x = (1.0_wp - t)*sampler%low(j) + t*sampler%high(j)
+      end if
+   end function level_of
+
+   !> The step of its trajectory, 1 … k, after which a factor is changed.
+   pure integer function step_of(sampler, trajectory, factor) result(step)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: trajectory        !! from 0
+      integer, intent(in) :: factor
+
+      step = 1 + int(image_of(new_permutation(int(size(sampler%factors), i8), sampler%settings%seed, permutation_stream, &
+         trajectory), int(factor - 1, i8)))
+   end function step_of
+
+   !> The level of a factor in a design of Morris' method: random at first; from its step on, half of the levels further (or back).
+   pure integer(i8) function morris_level(sampler, design, factor) result(level)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design
+      integer, intent(in) :: factor
+      integer(i8) :: trajectory, step
+      integer :: p
+
+      p = sampler%settings%levels
+      trajectory = (design - 1)/(size(sampler%factors) + 1)
+      step = design - 1 - trajectory*(size(sampler%factors) + 1)
+      level = min(int(uniform(sampler%settings%seed, trajectory_stream, trajectory, factor)*p, i8), p - 1_i8)
+      if (step >= step_of(sampler, trajectory, factor)) level = mod(level + p/2, int(p, i8))
+   end function morris_level
+
+   !> The factor that alone differs: from the nominal design (one_at_a_time), from the design before (morris), from A (saltelli).
+   !> 0 if there is none such: the nominal design, the begin of a trajectory, A, B, and all designs of the other kinds.
+   pure integer function changed_factor(sampler, design) result(factor)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design
+      integer(i8) :: rest, row
+      integer :: k
+
+      k = size(sampler%factors)
+      factor = 0
+      select case (sampler%settings%kind)
+      case (one_at_a_time_kind)
+         rest = design - 1
+         do while (rest > 0)
+            factor = factor + 1
+            rest = rest - sampler%levels(factor)
+         end do
+      case (saltelli_kind)
+         factor = int(mod(design - 1, k + 2_i8))
+         if (factor == k + 1) factor = 0
+      case (morris_kind)
+         row = (design - 1)/(k + 1)
+         rest = design - 1 - row*(k + 1)
+         if (rest == 0) return
+         do factor = 1, k - 1
+            if (step_of(sampler, row, factor) == rest) return
+         end do
+      end select
+   end function changed_factor
+
+   !> By which fraction of its range the factor changed from the design before: ±p/(2(p − 1)).
+   pure real(wp) function morris_change(sampler, design, factor) result(change)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design            !! not the first of its trajectory
+      integer, intent(in) :: factor                !! changed_factor of this design
+
+      change = real(morris_level(sampler, design, factor) - morris_level(sampler, design - 1, factor), wp)/ &
+         real(sampler%settings%levels - 1, wp)
+   end function morris_change
+
+end module ek_sampler
