@@ -5,7 +5,7 @@
 !> √n) is permuted again. Source: J. Black, P. Rogaway, Ciphers with arbitrary finite domains, CT-RSA 2002, sections 3 and 5.
 module ek_permutation
    use ek_kinds, only: wp, i8
-   use ek_philox, only: random_word
+   use ek_philox, only: fill_words
    implicit none(type, external)
    private
    public :: permutation_t, new_permutation, image_of, largest_permutation
@@ -28,14 +28,11 @@ contains
       integer(i8), intent(in) :: seed, number
       integer, intent(in) :: stream
       type(permutation_t) :: permutation
-      integer :: k
 
       permutation%n = n
       permutation%a = ceiling(sqrt(real(n, wp)), i8)
       permutation%b = (n + permutation%a - 1)/permutation%a
-      do k = 1, rounds
-         permutation%keys(k) = random_word(seed, stream, number, k)
-      end do
+      call fill_words(seed, stream, number, permutation%keys)
    end function new_permutation
 
    !> The image of i, from 0 to n − 1.

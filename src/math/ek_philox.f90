@@ -9,7 +9,7 @@ module ek_philox
    use ek_kinds, only: wp, i8
    implicit none(type, external)
    private
-   public :: philox, uniform, fill_uniforms, random_word
+   public :: philox, uniform, fill_uniforms, fill_words
 
    integer(i8), parameter :: low_word = int(z'FFFFFFFF', i8)
    integer, parameter :: rounds = 10
@@ -56,14 +56,14 @@ contains
       low = ior(shiftl(iand(second, 65535_i8), 16), iand(first, 65535_i8))
    end subroutine product_of_words
 
-   !> The four words that two factors (2m − 1 and 2m, m = pair) of a design share.
-   pure subroutine words_of(seed, stream, design, pair, words)
+   !> The words of one counter: block m = 1, 2, … of a design, which holds the numbers of the factors 2m − 1 and 2m.
+   pure subroutine words_of(seed, stream, design, block, words)
       integer(i8), intent(in) :: seed, design
-      integer, intent(in) :: stream, pair
+      integer, intent(in) :: stream, block
       integer(i8), intent(out) :: words(4)
 
       call philox([iand(seed, low_word), shiftr(seed, 32)], &
-         [iand(design, low_word), shiftr(design, 32), int(pair, i8), int(stream, i8)], words)
+         [iand(design, low_word), shiftr(design, 32), int(block, i8), int(stream, i8)], words)
    end subroutine words_of
 
    !> A multiple of 2⁻⁵³ in (0, 1) from two words; 2⁻⁵⁴ takes the place of 0. Exact, so that it is the same on every machine.
@@ -105,14 +105,19 @@ contains
       end do
    end subroutine fill_uniforms
 
-   !> A random word of 32 bits: 0 to 2³² − 1.
-   pure integer(i8) function random_word(seed, stream, number, place) result(word)
+   !> Random words of 32 bits, 0 to 2³² − 1 each.
+   pure subroutine fill_words(seed, stream, number, words)
       integer(i8), intent(in) :: seed, number
-      integer, intent(in) :: stream, place     !! place: from 1
-      integer(i8) :: words(4)
+      integer, intent(in) :: stream
+      integer(i8), intent(out) :: words(:)
+      integer(i8) :: four(4)
+      integer :: j, last
 
-      call words_of(seed, stream, number, (place + 3)/4, words)
-      word = words(1 + mod(place - 1, 4))
-   end function random_word
+      do j = 1, size(words), 4
+         call words_of(seed, stream, number, (j + 3)/4, four)
+         last = min(j + 3, size(words))
+         words(j:last) = four(:last - j + 1)
+      end do
+   end subroutine fill_words
 
 end module ek_philox

@@ -13,7 +13,7 @@
 !> digits (lower triangular with a unit diagonal, so that the intervals above stay filled) and a random digital shift.
 module ek_sobol
    use ek_kinds, only: wp, i8
-   use ek_philox, only: random_word
+   use ek_philox, only: fill_words
    use ek_sobol_numbers, only: largest_dimension, polynomials, initial_numbers
    implicit none(type, external)
    private
@@ -81,26 +81,27 @@ contains
    end subroutine set_directions
 
    !> Scrambles one dimension. Digit i of a number (i = 1 is the first behind the point) becomes the sum modulo 2 of itself and of a
-   !> random choice of the digits before it; then the shift is drawn.
+   !> random choice of the digits before it. The shift is random.
    pure subroutine scramble(seed, stream, dimension, v, shift)
       integer(i8), intent(in) :: seed
       integer, intent(in) :: stream, dimension
       integer(i8), intent(inout) :: v(digits)
       integer(i8), intent(out) :: shift
-      integer(i8) :: row, old(digits)
+      integer(i8) :: row, old(digits), words(digits + 1)
       integer :: i, k
 
+      call fill_words(seed, stream, int(dimension, i8), words)
+      shift = words(digits + 1)
       old = v
       v = 0
       do i = 1, digits
          ! bits of digits 1 … i − 1 at random, the bit of digit i
-         row = ior(shiftl(shiftr(random_word(seed, stream, int(dimension, i8), i), digits - i + 1), digits - i + 1), &
+         row = ior(shiftl(shiftr(words(i), digits - i + 1), digits - i + 1), &
             shiftl(1_i8, digits - i))
          do k = 1, digits
             if (poppar(iand(row, old(k))) == 1) v(k) = ibset(v(k), digits - i)
          end do
       end do
-      shift = random_word(seed, stream, int(dimension, i8), digits + 1)
    end subroutine scramble
 
    !> One coordinate of a point: a multiple of 2⁻³³ in (0, 1).

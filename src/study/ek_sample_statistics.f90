@@ -96,7 +96,7 @@ contains
       below = 0.0_wp                               ! P(B < b)
       coverage = 0.0_wp
       do b = first, last
-         ! rank b + 1 is above the percentile if no more than b values are below it
+         ! rank b is above the percentile with the probability P(B < b)
          if (below <= tail) lower = b
          probability = exp(log_gamma(n + 1.0_wp) - log_gamma(b + 1.0_wp) - log_gamma(n - b + 1.0_wp) + b*log(p) + &
             (n - b)*log(1.0_wp - p))

@@ -23,40 +23,20 @@
 module ek_sampler
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: str, quoted
    use ek_normal, only: normal_quantile, normal_probability
    use ek_philox, only: uniform, fill_uniforms
    use ek_permutation, only: permutation_t, new_permutation, image_of, largest_permutation
-   use ek_sobol, only: sobol_t, new_sobol, sobol_coordinate, largest_dimension, largest_index
-   use ek_distribution, only: distribution_t, quantile, quantile_of_score, ends_of
+   use ek_sobol, only: sobol_t, new_sobol, sobol_coordinate
+   use ek_distribution, only: quantile, quantile_of_score, ends_of
    use ek_copula, only: copula_t, new_copula, correlate
-   use ek_sampler_kind, only: sampler_kind_t, sampler_kinds, grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, &
-      sobol_kind, saltelli_kind, morris_kind
+   use ek_sampler_kind, only: grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, sobol_kind, saltelli_kind, morris_kind
+   use ek_sampler_settings, only: factor_t, sampler_settings_t, check_settings
    implicit none(type, external)
    private
-   public :: factor_t, sampler_settings_t, sampler_t
-   public :: new_sampler, sample, designs_of, factors_of, is_kind, changed_factor, morris_change
+   public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, changed_factor, morris_change
 
    ! what one seed is used for (ek_philox)
    integer, parameter :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
-
-   !> One number, or a group of numbers that change together.
-   type :: factor_t
-      type(distribution_t) :: distribution
-      real(wp) :: nominal = 0.0_wp             !! of one_at_a_time
-      real(wp), allocatable :: values(:)       !! if allocated, the only values, and `distribution` is not used
-   end type factor_t
-
-   type :: sampler_settings_t
-      integer :: kind = grid_kind
-      integer(i8) :: size = 0                  !! n
-      integer :: levels = 2                    !! of a factor without values: ends of its range, and evenly between; even for morris
-      integer(i8) :: seed = 1
-      logical :: is_scrambled = .true.         !! sobol, saltelli: scrambled by the seed
-      real(wp), allocatable :: rows(:, :)      !! (factor, design) of a list
-      integer, allocatable :: pairs(:, :)      !! (2, m): numbers of two factors
-      real(wp), allocatable :: correlations(:) !! (m)
-   end type sampler_settings_t
 
    type :: sampler_t
       private
@@ -71,6 +51,14 @@ module ek_sampler
       logical :: is_correlated = .false.
    end type sampler_t
 
+   !> A design of Morris' method on its trajectory.
+   type :: trajectory_t
+      integer(i8) :: seed = 0, number = 0      !! number from 0
+      integer(i8) :: step = 0                  !! 0 … k: factors already changed
+      integer(i8) :: levels = 2
+      type(permutation_t) :: order             !! of the factors
+   end type trajectory_t
+
 contains
 
    !> Makes a sampler. All mistakes that a deck can make are errors (exit_deck).
@@ -82,7 +70,7 @@ contains
       integer :: j, k
 
       k = size(factors)
-      call check(settings, factors, error)
+      call check_settings(settings, factors, error)
       if (allocated(error)) return
       sampler%settings = settings
       sampler%factors = factors
@@ -111,52 +99,6 @@ contains
       if (allocated(settings%pairs)) sampler%is_correlated = size(settings%pairs, 2) > 0
       if (sampler%is_correlated) call new_copula(size(factors), settings%pairs, settings%correlations, sampler%copula, error)
    end subroutine new_sampler
-
-   !> The mistakes in the settings of a sampler.
-   pure subroutine check(settings, factors, error)
-      type(sampler_settings_t), intent(in) :: settings
-      type(factor_t), intent(in) :: factors(:)
-      type(error_t), allocatable, intent(out) :: error
-      type(sampler_kind_t) :: kind
-      integer :: j, dimensions
-
-      if (settings%kind < 1 .or. settings%kind > size(sampler_kinds)) then
-         call fail(error, exit_deck, 'unknown kind of sampler '//str(settings%kind))
-         return
-      end if
-      if (size(factors) == 0) call fail(error, exit_deck, 'the study has no factor')
-      do j = 1, size(factors)
-         if (.not. allocated(factors(j)%values)) cycle
-         if (size(factors(j)%values) == 0) call fail(error, exit_deck, 'factor '//str(j)//' has an empty list of values')
-      end do
-      if (allocated(error)) return
-      kind = sampler_kinds(settings%kind)
-      if (kind%has_size .and. (settings%size < 1 .or. settings%size > largest_index)) then
-         call fail(error, exit_deck, quoted(kind%name)//' requires a number of samples between 1 and 2**32 - 1')
-      else if (kind%has_levels .and. settings%levels < 2) then
-         call fail(error, exit_deck, quoted(kind%name)//' requires at least 2 levels, found '//str(settings%levels))
-      else if (settings%kind == morris_kind .and. mod(settings%levels, 2) /= 0) then
-         call fail(error, exit_deck, '''morris'' requires an even number of levels, found '//str(settings%levels))
-      end if
-      if (allocated(error)) return
-      if (allocated(settings%correlations) .and. .not. kind%has_correlations) then
-         if (size(settings%correlations) > 0) call fail(error, exit_deck, quoted(kind%name)// &
-            ' requires independent factors, found correlations')
-      end if
-      select case (settings%kind)
-      case (list_kind)
-         if (.not. allocated(settings%rows)) then
-            call fail(error, exit_deck, 'the list of designs is missing')
-         else if (size(settings%rows, 1) /= size(factors)) then
-            call fail(error, exit_deck, 'the list of designs has '//str(size(settings%rows, 1))//' columns for '// &
-               str(size(factors))//' factors')
-         end if
-      case (sobol_kind, saltelli_kind)
-         dimensions = merge(2, 1, settings%kind == saltelli_kind)*size(factors)
-         if (dimensions > largest_dimension) call fail(error, exit_deck, quoted(kind%name)//' requires '//str(dimensions)// &
-            ' coordinates for '//str(size(factors))//' factors; the limit is '//str(largest_dimension))
-      end select
-   end subroutine check
 
    !> The number of designs.
    pure subroutine count_designs(sampler, error)
@@ -219,6 +161,7 @@ contains
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! 1 … designs_of
       real(wp), intent(out) :: x(:)                !! one number per factor
+      type(trajectory_t) :: trajectory
       integer(i8) :: rest
       integer :: j, k
 
@@ -242,8 +185,9 @@ contains
             x(j) = sampler%settings%rows(j, design)
          end do
       case (morris_kind)
+         call find_trajectory(sampler, design, trajectory)
          do j = 1, k
-            x(j) = level_of(sampler, j, morris_level(sampler, design, j), int(sampler%settings%levels, i8))
+            x(j) = level_of(sampler, j, morris_level(trajectory, j), int(sampler%settings%levels, i8))
          end do
       case default
          call sample_at_random(sampler, design, x)
@@ -335,29 +279,38 @@ contains
       end if
    end function level_of
 
-   !> The step of its trajectory, 1 … k, after which a factor is changed.
-   pure integer function step_of(sampler, trajectory, factor) result(step)
-      type(sampler_t), intent(in) :: sampler
-      integer(i8), intent(in) :: trajectory        !! from 0
-      integer, intent(in) :: factor
-
-      step = 1 + int(image_of(new_permutation(int(size(sampler%factors), i8), sampler%settings%seed, permutation_stream, &
-         trajectory), int(factor - 1, i8)))
-   end function step_of
-
-   !> The level of a factor in a design of Morris' method: random at first; from its step on, half of the levels further (or back).
-   pure integer(i8) function morris_level(sampler, design, factor) result(level)
+   !> The trajectory that a design lies on, and where.
+   pure subroutine find_trajectory(sampler, design, trajectory)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
-      integer, intent(in) :: factor
-      integer(i8) :: trajectory, step
-      integer :: p
+      type(trajectory_t), intent(out) :: trajectory
+      integer(i8) :: k
 
-      p = sampler%settings%levels
-      trajectory = (design - 1)/(size(sampler%factors) + 1)
-      step = design - 1 - trajectory*(size(sampler%factors) + 1)
-      level = min(int(uniform(sampler%settings%seed, trajectory_stream, trajectory, factor)*p, i8), p - 1_i8)
-      if (step >= step_of(sampler, trajectory, factor)) level = mod(level + p/2, int(p, i8))
+      k = size(sampler%factors)
+      trajectory%seed = sampler%settings%seed
+      trajectory%levels = sampler%settings%levels
+      trajectory%number = (design - 1)/(k + 1)
+      trajectory%step = design - 1 - trajectory%number*(k + 1)
+      trajectory%order = new_permutation(k, trajectory%seed, permutation_stream, trajectory%number)
+   end subroutine find_trajectory
+
+   !> The step, 1 … k, that changes a factor.
+   pure integer(i8) function step_of(trajectory, factor) result(step)
+      type(trajectory_t), intent(in) :: trajectory
+      integer, intent(in) :: factor
+
+      step = 1 + image_of(trajectory%order, int(factor - 1, i8))
+   end function step_of
+
+   !> The level of a factor, 0 … p − 1: random at first; from its step on, half of the levels further (or back).
+   pure integer(i8) function morris_level(trajectory, factor) result(level)
+      type(trajectory_t), intent(in) :: trajectory
+      integer, intent(in) :: factor
+
+      associate (t => trajectory)
+         level = min(int(uniform(t%seed, trajectory_stream, t%number, factor)*t%levels, i8), t%levels - 1)
+         if (t%step >= step_of(t, factor)) level = mod(level + t%levels/2, t%levels)
+      end associate
    end function morris_level
 
    !> The factor that alone differs: from the nominal design (one_at_a_time), from the design before (morris), from A (saltelli).
@@ -365,7 +318,8 @@ contains
    pure integer function changed_factor(sampler, design) result(factor)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
-      integer(i8) :: rest, row
+      type(trajectory_t) :: trajectory
+      integer(i8) :: rest
       integer :: k
 
       k = size(sampler%factors)
@@ -381,11 +335,10 @@ contains
          factor = int(mod(design - 1, k + 2_i8))
          if (factor == k + 1) factor = 0
       case (morris_kind)
-         row = (design - 1)/(k + 1)
-         rest = design - 1 - row*(k + 1)
-         if (rest == 0) return
+         call find_trajectory(sampler, design, trajectory)
+         if (trajectory%step == 0) return
          do factor = 1, k - 1
-            if (step_of(sampler, row, factor) == rest) return
+            if (step_of(trajectory, factor) == trajectory%step) return
          end do
       end select
    end function changed_factor
@@ -395,9 +348,12 @@ contains
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design            !! not the first of its trajectory
       integer, intent(in) :: factor                !! changed_factor of this design
+      type(trajectory_t) :: trajectory
+      integer(i8) :: level
 
-      change = real(morris_level(sampler, design, factor) - morris_level(sampler, design - 1, factor), wp)/ &
-         real(sampler%settings%levels - 1, wp)
+      call find_trajectory(sampler, design, trajectory)
+      level = 2*morris_level(trajectory, factor) - (trajectory%levels - 1)       ! above the middle after a step upwards
+      change = sign(real(trajectory%levels/2, wp)/real(trajectory%levels - 1, wp), real(level, wp))
    end function morris_change
 
 end module ek_sampler

@@ -7,7 +7,7 @@ module ek_sensitivity
    use ek_kinds, only: wp, i8
    use ek_contract, only: are_checked, require
    use ek_sampler, only: sampler_t, factors_of, designs_of, is_kind, changed_factor, morris_change
-   use ek_sampler_kind, only: saltelli_kind, morris_kind, one_at_a_time_kind
+   use ek_sampler_kind, only: morris_kind, one_at_a_time_kind
    use ek_sample_statistics, only: mean_and_deviation
    implicit none(type, external)
    private
@@ -39,25 +39,25 @@ module ek_sensitivity
 
 contains
 
-   !> First-order and total indices from the responses of a Saltelli design. With f_A, f_B, f_i the responses of row r in the blocks
-   !> A, B and AB_i (A with factor i from B), less their common mean, and V the variance of f_A and f_B together:
+   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in its order (A, AB₁ … AB_k, B
+   !> for each row, as SALib without second order writes it). With f_A, f_B, f_i the responses of row r in the blocks
+   !> A, B and AB_i (A with factor i from B), less the mean of all, and V the variance of f_A and f_B together:
    !>
    !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
    !>     T_i = ⟨(f_A − f_i)²⟩ / (2 V)          Jansen, Comput. Phys. Commun. 117 (1999) 35–43; table 2 (f) of the former
    !>
    !> Confidence by the jackknife: with θ_r the index without row r, the standard error is √((n − 1)/n Σ (θ_r − θ̄)²) (B. Efron,
    !> C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random ones, it is on the safe side.
-   subroutine sobol_indices(sampler, responses, indices)
-      type(sampler_t), intent(in) :: sampler                 !! of kind saltelli
+   subroutine sobol_indices(factors, responses, indices)
+      integer, intent(in) :: factors                         !! k
       real(wp), intent(in) :: responses(:)
       type(sobol_indices_t), intent(out) :: indices
       real(wp), allocatable :: f(:, :)                       ! (0: A, i: AB_i, k + 1: B; row)
       real(wp) :: nan
       integer :: k, i, r, first, last
 
-      if (are_checked) call require(is_kind(sampler, saltelli_kind) .and. size(responses, kind=i8) == designs_of(sampler), &
-         'sobol_indices: responses of another sampler')
-      k = factors_of(sampler)
+      k = factors
+      if (are_checked) call require(mod(size(responses), k + 2) == 0, 'sobol_indices: responses of another design')
       nan = ieee_value(nan, ieee_quiet_nan)
       allocate (indices%first(k), indices%total(k), indices%first_error(k), indices%total_error(k))
       allocate (f(0:k + 1, size(responses)/(k + 2)))
@@ -68,7 +68,8 @@ contains
          indices%used = indices%used + 1
          f(:, indices%used) = responses(first:last)
       end do
-      call center(f(:, :indices%used))
+      ! the products of S_i then carry no constant
+      if (indices%used > 0) f(:, :indices%used) = f(:, :indices%used) - sum(f(:, :indices%used))/size(f(:, :indices%used))
       do i = 1, k
          indices%first(i) = nan
          indices%total(i) = nan
@@ -81,15 +82,6 @@ contains
          end associate
       end do
    end subroutine sobol_indices
-
-   !> Takes the mean of blocks A and B from all responses: the products of S_i then carry no constant.
-   pure subroutine center(f)
-      real(wp), intent(inout) :: f(0:, :)
-      integer :: last
-
-      last = ubound(f, 1)
-      if (size(f, 2) > 0) f = f - (sum(f(0, :)) + sum(f(last, :)))/(2*size(f, 2))
-   end subroutine center
 
    !> ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
    pure subroutine estimate(a, b, share, index, error)
