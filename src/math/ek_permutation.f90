@@ -1,4 +1,4 @@
-!> A random permutation of 0 … n − 1 that is computed, not stored: the image of one number costs some 50 ns, whatever n is.
+!> A random permutation of 0 … n − 1 that is computed, not stored: the image of one number takes some 50 ns regardless of n.
 !>
 !> The numbers are written as pairs (l, r), i = l b + r, with l below a = ⌈√n⌉ and r below b = ⌈n/a⌉. Every round adds a keyed
 !> hash of one half to the other half, modulo its size, and can therefore be undone; a result of n or more (there are fewer than
@@ -36,6 +36,8 @@ contains
    end function new_permutation
 
    !> The image of i, from 0 to n − 1.
+   !>
+   !> Equation (D.2) of docs/theory/sampling.md.
    pure integer(i8) function image_of(permutation, i) result(image)
       type(permutation_t), intent(in) :: permutation
       integer(i8), intent(in) :: i             !! 0 … n − 1
@@ -47,23 +49,29 @@ contains
          left = image/permutation%b
          right = image - left*permutation%b
          do k = 1, rounds, 2
-            left = mod(left + hashed(right, permutation%keys(k)), permutation%a)
-            right = mod(right + hashed(left, permutation%keys(k + 1)), permutation%b)
+            left = left + below(permutation%a, right, permutation%keys(k))
+            if (left >= permutation%a) left = left - permutation%a
+            right = right + below(permutation%b, left, permutation%keys(k + 1))
+            if (right >= permutation%b) right = right - permutation%b
          end do
          image = left*permutation%b + right
          if (image < permutation%n) return
       end do
    end function image_of
 
-   !> A word mixed from a number and a key. Multipliers below 2³¹ keep the products within 63 bits; they and the shifts are from
-   !> C. Wellons, Hash Prospector (public domain), https://github.com/skeeto/hash-prospector.
-   pure integer(i8) function hashed(number, key) result(word)
+   !> A number from 0 to n − 1, mixed from a number and a key: n w / 2³² with a word w. Multipliers below 2³¹ keep all products
+   !> within 63 bits; they and the shifts are from C. Wellons, Hash Prospector (public domain),
+   !> https://github.com/skeeto/hash-prospector.
+   pure integer(i8) function below(n, number, key)
+      integer(i8), intent(in) :: n             !! up to 2³¹
       integer(i8), intent(in) :: number, key
+      integer(i8) :: word
 
       word = iand(number + key, low_word)
       word = iand(ieor(word, shiftr(word, 15))*int(z'2C1B3C6D', i8), low_word)
       word = iand(ieor(word, shiftr(word, 12))*int(z'297A2D39', i8), low_word)
       word = ieor(word, shiftr(word, 15))
-   end function hashed
+      below = shiftr(word*n, 32)
+   end function below
 
 end module ek_permutation

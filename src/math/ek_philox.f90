@@ -4,7 +4,7 @@
 !> A stream separates the uses of one seed: the designs, the scrambling of a sequence, a bootstrap.
 !>
 !> Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011),
-!> doi:10.1145/2063384.2063405. Words of 32 bits are held in 64-bit integers, so that no operation overflows.
+!> doi:10.1145/2063384.2063405. The 32-bit integers of the source are held in 64 bits, so that no operation overflows.
 module ek_philox
    use ek_kinds, only: wp, i8
    implicit none(type, external)
@@ -19,10 +19,10 @@ module ek_philox
 
 contains
 
-   !> Four random words of 32 bits from a key of two words and a counter of four. All words are between 0 and 2³² − 1.
+   !> Four random integers from a key of two and a counter of four integers, all from 0 to 2³² − 1.
    !>
    !> A round replaces (c₁, c₂, c₃, c₄) by (hi(m₂c₃) ⊕ c₂ ⊕ k₁, lo(m₂c₃), hi(m₁c₁) ⊕ c₄ ⊕ k₂, lo(m₁c₁)), where hi and lo are the
-   !> words of a product; ten rounds, between which the key grows by the increments (section 3.3 of the source).
+   !> upper and lower 32 bits of a product; ten rounds, between which the key grows by the increments (section 3.3 of the source).
    pure subroutine philox(key, counter, words)
       integer(i8), intent(in) :: key(2), counter(4)
       integer(i8), intent(out) :: words(4)
@@ -43,7 +43,7 @@ contains
       end do
    end subroutine philox
 
-   !> The product of two words as two words. In halves of b, because 64 bits with a sign cannot hold the product:
+   !> The upper and lower 32 bits of a product. In halves of b, because 64 bits with a sign cannot hold the product:
    !> a b = (a b₁) 2¹⁶ + a b₀, each below 2⁴⁸.
    pure subroutine product_of_words(a, b, high, low)
       integer(i8), intent(in) :: a, b
@@ -56,17 +56,25 @@ contains
       low = ior(shiftl(iand(second, 65535_i8), 16), iand(first, 65535_i8))
    end subroutine product_of_words
 
-   !> The words of one counter: block m = 1, 2, … of a design, which holds the numbers of the factors 2m − 1 and 2m.
+   !> The random integers of one counter: block m = 1, 2, … of a design, which holds the numbers of the factors 2m − 1 and 2m.
    pure subroutine words_of(seed, stream, design, block, words)
       integer(i8), intent(in) :: seed, design
       integer, intent(in) :: stream, block
       integer(i8), intent(out) :: words(4)
+      integer(i8) :: key(2), counter(4)
 
-      call philox([iand(seed, low_word), shiftr(seed, 32)], &
-         [iand(design, low_word), shiftr(design, 32), int(block, i8), int(stream, i8)], words)
+      key(1) = iand(seed, low_word)
+      key(2) = shiftr(seed, 32)
+      counter(1) = iand(design, low_word)
+      counter(2) = shiftr(design, 32)
+      counter(3) = block
+      counter(4) = stream
+      call philox(key, counter, words)
    end subroutine words_of
 
-   !> A multiple of 2⁻⁵³ in (0, 1) from two words; 2⁻⁵⁴ takes the place of 0. Exact, so that it is the same on every machine.
+   !> A multiple of 2⁻⁵³ in (0, 1) from two random integers; 2⁻⁵⁴ takes the place of 0. Exact, thus the same on every machine.
+   !>
+   !> Equation (D.1) of docs/theory/sampling.md.
    pure real(wp) function fraction_of(first, second) result(u)
       integer(i8), intent(in) :: first, second
       real(wp), parameter :: step = 2.0_wp**(-53)
@@ -105,7 +113,7 @@ contains
       end do
    end subroutine fill_uniforms
 
-   !> Random words of 32 bits, 0 to 2³² − 1 each.
+   !> Random integers from 0 to 2³² − 1.
    pure subroutine fill_words(seed, stream, number, words)
       integer(i8), intent(in) :: seed, number
       integer, intent(in) :: stream

@@ -60,6 +60,8 @@ contains
    !> The direction numbers of one dimension: v_k = m_k 2³²⁻ᵏ, and beyond the degree s of its polynomial xˢ + a₁xˢ⁻¹ + … + 1
    !>
    !>     v_k = a₁v_{k−1} ⊕ … ⊕ a_{s−1}v_{k−s+1} ⊕ v_{k−s} ⊕ v_{k−s} 2⁻ˢ      (Bratley and Fox, equation 2)
+   !>
+   !> Equation (D.3) of docs/theory/sampling.md.
    pure subroutine set_directions(dimension, degree, first, v)
       integer, intent(in) :: dimension, degree
       integer, intent(in) :: first                   !! where its m₁ stands in the table
@@ -82,6 +84,8 @@ contains
 
    !> Scrambles one dimension. Digit i of a number (i = 1 is the first behind the point) becomes the sum modulo 2 of itself and of a
    !> random choice of the digits before it. The shift is random.
+   !>
+   !> Equation (D.5) of docs/theory/sampling.md.
    pure subroutine scramble(seed, stream, dimension, v, shift)
       integer(i8), intent(in) :: seed
       integer, intent(in) :: stream, dimension
@@ -105,6 +109,8 @@ contains
    end subroutine scramble
 
    !> One coordinate of a point: a multiple of 2⁻³³ in (0, 1).
+   !>
+   !> Equation (D.4) of docs/theory/sampling.md.
    pure real(wp) function sobol_coordinate(sobol, index, dimension) result(x)
       type(sobol_t), intent(in) :: sobol
       integer(i8), intent(in) :: index               !! 0 … largest_index

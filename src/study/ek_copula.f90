@@ -56,6 +56,8 @@ contains
    end subroutine new_copula
 
    !> z ← L z, in place.
+   !>
+   !> Equation (D.9) of docs/theory/sampling.md.
    pure subroutine correlate(copula, z)
       type(copula_t), intent(in) :: copula
       real(wp), intent(inout) :: z(:)

@@ -18,7 +18,7 @@ module ek_distribution
    public :: distribution_kinds, uniform_kind, normal_kind, log_normal_kind, triangular_kind
 
    integer, parameter :: uniform_kind = 1, normal_kind = 2, log_normal_kind = 3, triangular_kind = 4
-   character(*), parameter :: distribution_kinds(4) = [character(10) :: 'uniform', 'normal', 'log_normal', 'triangular']
+   character(10), parameter :: distribution_kinds(4) = [character(10) :: 'uniform', 'normal', 'log_normal', 'triangular']
 
    real(wp), parameter :: unbounded = huge(1.0_wp)
    real(wp), parameter :: tolerance_deviations = 3.0_wp   !! standard deviations in a tolerance
@@ -30,7 +30,7 @@ module ek_distribution
       real(wp) :: first = 0.0_wp, last = 1.0_wp        !! ends of a triangle, before it is truncated
       real(wp) :: center = 0.5_wp                      !! mean of x (normal) or of ln x (log-normal), peak of a triangle
       real(wp) :: deviation = 1.0_wp                   !! of x (normal) or of ln x (log-normal)
-      real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F(lower), F(upper) before truncation; reflected: 1 − F(upper), 1 − F(lower)
+      real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, untruncated; reflected: 1 − F(upper), 1 − F(lower)
       logical :: is_reflected = .false.                !! both bounds above the median of a normal: calculated from the other end
    end type distribution_t
 
@@ -133,6 +133,8 @@ contains
    end subroutine truncate
 
    !> x below which the share u of all values lies; 0 < u < 1.
+   !>
+   !> Equation (D.7) of docs/theory/sampling.md.
    pure real(wp) function quantile(distribution, u) result(x)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(in) :: u
@@ -237,6 +239,8 @@ contains
    !> Truncated normal, between the scores α and β, Z = Φ(β) − Φ(α): mean μ + σ m, m = (φ(α) − φ(β))/Z, and
    !> variance σ²(1 + (α φ(α) − β φ(β))/Z − m²). Truncated log-normal: E xʳ = exp(rμ + r²σ²/2) (Φ(β − rσ) − Φ(α − rσ))/Z.
    !> Both: Johnson, Kotz, Balakrishnan (1994), sections 13.10.1 and 14.
+   !>
+   !> Equation (D.8) of docs/theory/sampling.md.
    pure subroutine moments(distribution, mean, deviation)
       type(distribution_t), intent(in) :: distribution
       real(wp), intent(out) :: mean, deviation

@@ -80,6 +80,8 @@ contains
    !>
    !> The ranks leave out at most (1 − confidence)/2 on either side. Where the sample is too small for that, they are its ends, and
    !> the coverage is below the confidence. Source: H. A. David, H. N. Nagaraja, Order statistics, 2003, section 7.1.
+   !>
+   !> Equation (D.13) of docs/theory/sampling.md.
    pure subroutine percentile_interval(n, p, confidence, lower, upper, coverage)
       integer, intent(in) :: n
       real(wp), intent(in) :: p, confidence        !! in (0, 1)

@@ -186,8 +186,9 @@ contains
          end do
       case (morris_kind)
          call find_trajectory(sampler, design, trajectory)
+         call fill_uniforms(trajectory%seed, trajectory_stream, trajectory%number, x)
          do j = 1, k
-            x(j) = level_of(sampler, j, morris_level(trajectory, j), int(sampler%settings%levels, i8))
+            x(j) = level_of(sampler, j, morris_level(trajectory, j, x(j)), trajectory%levels)
          end do
       case default
          call sample_at_random(sampler, design, x)
@@ -206,9 +207,9 @@ contains
       associate (s => sampler%settings)
          select case (s%kind)
          case (latin_hypercube_kind)
+            call fill_uniforms(s%seed, design_stream, design, x)
             do j = 1, k
-               x(j) = point_in_interval(image_of(sampler%permutations(j), design - 1), s%size, &
-                  uniform(s%seed, design_stream, design, j))
+               x(j) = point_in_interval(image_of(sampler%permutations(j), design - 1), s%size, x(j))
             end do
          case (sobol_kind)
             do j = 1, k
@@ -227,7 +228,9 @@ contains
       call take_quantiles(sampler, x)
    end subroutine sample_at_random
 
-   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it to a neighbour.
+   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it into another one.
+   !>
+   !> Equation (D.6) of docs/theory/sampling.md.
    pure real(wp) function point_in_interval(i, n, fraction) result(u)
       integer(i8), intent(in) :: i, n              !! i: 0 … n − 1; n up to 2⁴⁰
       real(wp), intent(in) :: fraction
@@ -303,18 +306,19 @@ contains
    end function step_of
 
    !> The level of a factor, 0 … p − 1: random at first; from its step on, half of the levels further (or back).
-   pure integer(i8) function morris_level(trajectory, factor) result(level)
+   pure integer(i8) function morris_level(trajectory, factor, u) result(level)
       type(trajectory_t), intent(in) :: trajectory
       integer, intent(in) :: factor
+      real(wp), intent(in) :: u                !! the random number of factor and trajectory
 
       associate (t => trajectory)
-         level = min(int(uniform(t%seed, trajectory_stream, t%number, factor)*t%levels, i8), t%levels - 1)
+         level = min(int(u*t%levels, i8), t%levels - 1)
          if (t%step >= step_of(t, factor)) level = mod(level + t%levels/2, t%levels)
       end associate
    end function morris_level
 
    !> The factor that alone differs: from the nominal design (one_at_a_time), from the design before (morris), from A (saltelli).
-   !> 0 if there is none such: the nominal design, the begin of a trajectory, A, B, and all designs of the other kinds.
+   !> 0 for the nominal design, the start of a trajectory, A, B, and all designs of the other kinds.
    pure integer function changed_factor(sampler, design) result(factor)
       type(sampler_t), intent(in) :: sampler
       integer(i8), intent(in) :: design
@@ -352,7 +356,8 @@ contains
       integer(i8) :: level
 
       call find_trajectory(sampler, design, trajectory)
-      level = 2*morris_level(trajectory, factor) - (trajectory%levels - 1)       ! above the middle after a step upwards
+      level = morris_level(trajectory, factor, uniform(trajectory%seed, trajectory_stream, trajectory%number, factor))
+      level = 2*level - (trajectory%levels - 1)    ! above the middle after a step upwards
       change = sign(real(trajectory%levels/2, wp)/real(trajectory%levels - 1, wp), real(level, wp))
    end function morris_change
 

@@ -39,15 +39,17 @@ module ek_sensitivity
 
 contains
 
-   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in its order (A, AB₁ … AB_k, B
-   !> for each row, as SALib without second order writes it). With f_A, f_B, f_i the responses of row r in the blocks
+   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in its order (for each row
+   !> A, AB₁ … AB_k, B, as SALib without second order writes it). With f_A, f_B, f_i the responses of row r in the blocks
    !> A, B and AB_i (A with factor i from B), less the mean of all, and V the variance of f_A and f_B together:
    !>
    !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
    !>     T_i = ⟨(f_A − f_i)²⟩ / (2 V)          Jansen, Comput. Phys. Commun. 117 (1999) 35–43; table 2 (f) of the former
    !>
    !> Confidence by the jackknife: with θ_r the index without row r, the standard error is √((n − 1)/n Σ (θ_r − θ̄)²) (B. Efron,
-   !> C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random ones, it is on the safe side.
+   !> C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random ones, the interval is too wide.
+   !>
+   !> Equation (D.10) of docs/theory/sampling.md.
    subroutine sobol_indices(factors, responses, indices)
       integer, intent(in) :: factors                         !! k
       real(wp), intent(in) :: responses(:)
@@ -84,6 +86,8 @@ contains
    end subroutine sobol_indices
 
    !> ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
+   !>
+   !> Equation (D.11) of docs/theory/sampling.md.
    pure subroutine estimate(a, b, share, index, error)
       real(wp), intent(in) :: a(:), b(:), share(:)           !! one number per row, two rows or more
       real(wp), intent(inout) :: index
@@ -132,6 +136,8 @@ contains
    !>
    !> Sources: M. D. Morris, Technometrics 33 (1991) 161–174; μ*: F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22
    !> (2007) 1509–1518. Not a number for a factor without effects.
+   !>
+   !> Equation (D.12) of docs/theory/sampling.md.
    subroutine morris_effects(sampler, responses, effects)
       type(sampler_t), intent(in) :: sampler                 !! of kind morris
       real(wp), intent(in) :: responses(:)
