@@ -22,6 +22,7 @@
 !> To add a kind: its number and row in ek_sampler_kind, and here its case in `count_designs` and in `sample`.
 module ek_sampler
    use ek_kinds, only: wp, i8
+   use ek_contract, only: are_checked, require
    use ek_error, only: error_t, fail, exit_deck
    use ek_normal, only: normal_quantile, normal_probability
    use ek_philox, only: uniform, fill_uniforms
@@ -165,6 +166,8 @@ contains
       integer(i8) :: rest
       integer :: j, k
 
+      if (are_checked) call require(size(x) == size(sampler%factors) .and. design >= 1 .and. design <= sampler%designs, &
+         'sample: a design of another sampler')
       k = size(x)
       select case (sampler%settings%kind)
       case (grid_kind)

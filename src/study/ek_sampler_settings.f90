@@ -13,7 +13,7 @@ module ek_sampler_settings
    !> One number, or a group of numbers that change together.
    type :: factor_t
       type(distribution_t) :: distribution
-      real(wp) :: nominal = 0.0_wp             !! of one_at_a_time
+      real(wp) :: nominal = 0.0_wp             !! of one_at_a_time; mean_of(distribution) unless the study gives it
       real(wp), allocatable :: values(:)       !! if allocated, the only values, and `distribution` is not used
    end type factor_t
 
