@@ -87,7 +87,7 @@ contains
       real(wp), intent(in) :: p, confidence        !! in (0, 1)
       integer, intent(out) :: lower, upper         !! ranks, 1 … n
       real(wp), intent(out) :: coverage            !! probability that the interval contains the percentile
-      real(wp) :: below, probability, tail
+      real(wp) :: below, tail
       integer :: b, first, last
 
       tail = 0.5_wp*(1.0_wp - confidence)
@@ -100,19 +100,25 @@ contains
       do b = first, last
          ! rank b is above the percentile with the probability P(B < b)
          if (below <= tail) lower = b
-         probability = exp(log_gamma(n + 1.0_wp) - log_gamma(b + 1.0_wp) - log_gamma(n - b + 1.0_wp) + b*log(p) + &
-            (n - b)*log(1.0_wp - p))
-         below = below + probability
+         below = below + binomial(n, b, p)
          if (upper > n .and. below >= 1.0_wp - tail) upper = min(n, b + 1)
       end do
       lower = max(1, lower)
       upper = max(lower, min(n, upper))
       do b = max(first, lower), min(last, upper - 1)
-         coverage = coverage + exp(log_gamma(n + 1.0_wp) - log_gamma(b + 1.0_wp) - log_gamma(n - b + 1.0_wp) + b*log(p) + &
-            (n - b)*log(1.0_wp - p))
+         coverage = coverage + binomial(n, b, p)
       end do
       coverage = min(1.0_wp, coverage)
    end subroutine percentile_interval
+
+   !> C(n, b) pᵇ(1 − p)ⁿ⁻ᵇ
+   pure real(wp) function binomial(n, b, p)
+      integer, intent(in) :: n, b
+      real(wp), intent(in) :: p
+
+      binomial = exp(log_gamma(n + 1.0_wp) - log_gamma(b + 1.0_wp) - log_gamma(n - b + 1.0_wp) + b*log(p) + &
+         (n - b)*log(1.0_wp - p))
+   end function binomial
 
    !> Pearson's correlation, Σ(x − x̄)(y − ȳ)/√(Σ(x − x̄)² Σ(y − ȳ)²); 0 if x or y is constant.
    pure real(wp) function linear_correlation(x, y) result(r)
