@@ -26,7 +26,7 @@ module ek_writer
       try_lock, random_tag, machine_tag, system_reason, error_number, folder_exists, write_bytes, already_there, not_for_this_kind
    implicit none(type, external)
    private
-   public :: writer_t, begin_file, move_file, remove_stale
+   public :: writer_t, begin_file, move_file, remove_stale, remove_empty_folder
    public :: scratch_t, begin_scratch, end_scratch
 
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
@@ -270,6 +270,14 @@ contains
       end do
       ignored = c_rmdir(path//c_null_char)
    end subroutine remove_folder
+
+   !> Removes a folder in which nothing is left.
+   subroutine remove_empty_folder(path)
+      character(*), intent(in) :: path
+      integer :: ignored
+
+      ignored = c_rmdir(path//c_null_char)
+   end subroutine remove_empty_folder
 
    !> Removes files of dead runs from a folder. Anything that cannot be removed or identified remains.
    subroutine remove_stale(folder)

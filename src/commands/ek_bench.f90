@@ -25,7 +25,7 @@ module ek_bench
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, read_changed
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t
-   use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
+   use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
    use ek_case_result, only: case_result_t, solve_options_t, solve_case
    use ek_wheel_side, only: prefix_of
    use ek_json, only: json_t
@@ -186,7 +186,7 @@ contains
       type(figures_t), intent(inout) :: figures
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: deck
-      type(subject_t) :: subject
+      type(worker_t) :: worker
       type(factor_paths_t) :: paths(1)
       type(solve_options_t) :: options
       type(case_result_t) :: result
@@ -195,31 +195,31 @@ contains
       integer :: k, d
 
       call read_changed(settings%file, settings%changes, deck, error)
-      if (.not. allocated(error)) call make_subject(deck, case_name, subject, error)
+      if (.not. allocated(error)) call make_worker(deck, [case_name], worker, error)
       if (allocated(error)) return
-      associate (list => subject%design%parameters%list, x => subject%design%parameters%x)
-         do k = 1, subject%design%parameters%used
+      associate (list => worker%design%parameters%list, x => worker%design%parameters%x)
+         do k = 1, worker%design%parameters%used
             if (list(k)%is_given .and. abs(x(k)) > 0.0_wp) exit
          end do
          paths(1)%found = [choice_t(k, 1.0_wp)]
          value = x(k)/list(k)%unit
       end associate
-      subject%design%cases%increments = short_sweep
+      worker%design%cases%increments = short_sweep
       options%has_remarks = .false.
       allocate (options%columns(1))
       options%columns = 'toe_deg'
-      if (size(subject%suspension%wheels) > 1) options%columns = prefix_of(subject%suspension, 1)//'toe_deg'
+      if (size(worker%suspension%wheels) > 1) options%columns = prefix_of(worker%suspension, 1)//'toe_deg'
       figures%design = huge(time)
       figures%states = huge(time)
       do k = 1, 3
          start = seconds()
          do d = 1, designs
-            call change_subject(settings%file, paths, [value*(1.0_wp + 1.0e-10_wp*d)], subject, is_done, error)
-            if (allocated(error) .or. .not. is_done) then      ! such a model has no design from numbers
+            call change_design(paths, [value*(1.0_wp + 1.0e-10_wp*d)], worker, is_done)
+            if (.not. is_done) then      ! such a model has no design from numbers
                figures%design = 0.0_wp
                return
             end if
-            call solve_case(subject%suspension, subject%case, options, result, observer=subject%observer)
+            call solve_case(worker%suspension, worker%cases(1)%case, options, result, observer=worker%cases(1)%observer)
          end do
          figures%design = min(figures%design, (seconds() - start)/designs)
          start = seconds()

@@ -8,7 +8,7 @@ module ek_command
    use ek_check, only: check
    use ek_report, only: report
    use ek_compare, only: compare
-   use ek_study_command, only: run_study_command
+   use ek_study_command, only: run_study_command, run_merge_command
    use ek_bench, only: bench
    implicit none(type, external)
    private
@@ -40,10 +40,12 @@ module ek_command
       'common columns in shared charts, and a table of all gradients against those of the first result.'//nl// &
       'The table is also printed to standard output and written to differences.csv. Columns missing from one'//nl// &
       'result are listed.', '', 2), &
-      command_t('study', 'study STUDY.nml', 'study STUDY', 'step-size convergence or a sweep of factors', &
-      'Runs a study: a convergence study (kind = ''step_size'') or a sweep of one or two factors of a deck'//nl// &
-      '(kind = ''sweep''). Writes CSV files into DIR (default: out, next to the study) and, if gnuplot is'//nl// &
-      'installed, runs the study''s plot script there. --set changes the deck of the study.', ''), &
+      command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'many designs of a deck, or step-size convergence', &
+      'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, runs the study''s plot'//nl// &
+      'script there. A study that was stopped or killed goes on where it was: DIR/<study>.parts keeps what is done.', &
+      'Exit status 4: stopped, or a design failed (see the columns status and reason; the others are written).'), &
+      command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'the tables of a study that ran in shards', &
+      'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', ''), &
       command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
@@ -74,7 +76,14 @@ module ek_command
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
       option_t('compare', '--no-plots', no_plots_help), &
       option_t('compare', '--quiet', quiet_help), &
-      option_t('study', '--out DIR', ''), option_t('study', '--set path=value', ''), option_t('study', '--quiet', ''), &
+      option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
+      option_t('study', '--jobs N', 'threads (default: one per processor)'), &
+      option_t('study', '--shard i/n', 'only part i of n of the designs, for the tasks of a job array; then elastokin merge'), &
+      option_t('study', '--time-limit TIME', 'stop in time: seconds or [hours:]minutes:seconds'), &
+      option_t('study', '--status', 'print how far the study is, and end'), &
+      option_t('study', '--set path=value', 'change the deck of the study'), &
+      option_t('study', '--quiet', quiet_help), &
+      option_t('merge', '--out DIR', ''), option_t('merge', '--set path=value', ''), option_t('merge', '--quiet', ''), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
       option_t('', '--help', ''), option_t('', '--version', '')]
@@ -97,6 +106,8 @@ contains
          call compare(line, error)
       case ('study')
          call run_study_command(line, error)
+      case ('merge')
+         call run_merge_command(line, error)
       case ('bench')
          call bench(line, error)
       end select

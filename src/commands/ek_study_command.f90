@@ -1,60 +1,306 @@
-!> elastokin study: runs a study, writes its tables, and draws its figures.
+!> elastokin study: runs a study, writes its tables, and draws its figures; elastokin merge: the tables of a study whose shards ran
+!> as separate jobs.
 module ek_study_command
-   use ek_error, only: error_t, fail, exit_convergence, message_list_t
-   use ek_text, only: plural
-   use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_usage, exit_convergence, message_list_t
+   use ek_text, only: str, plural, quoted
+   use ek_clock, only: seconds
+   use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists, is_terminal, write_standard_error
+   use ek_threads, only: processor_count
+   use ek_interrupt, only: watch_for_stop
    use ek_deck, only: deck_t
-   use ek_table, only: table_t
-   use ek_writer, only: writer_t, begin_file
+   use ek_writer, only: writer_t, begin_file, remove_stale
    use ek_drawing, only: run_plot_script
-   use ek_study, only: study_t, read_study
+   use ek_study, only: study_t, step_size_kind
+   use ek_study_reader, only: read_study
+   use ek_study_design, only: designer_t, new_designer
+   use ek_study_plan, only: study_plan_t, new_plan
+   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
+   use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name
+   use ek_chunk, only: status_names
    use ek_step_size, only: step_size_text
-   use ek_factor_sweep, only: sweep_factors
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
-   use ek_console, only: print_note, print_warning, print_error, print_path
+   use ek_console, only: print_note, print_warning, print_error, print_path, print_text
    implicit none(type, external)
    private
-   public :: run_study_command
+   public :: run_study_command, run_merge_command
+
+   character(*), parameter :: nl = new_line('a')
+
+   !> A study that was read, with its folders.
+   type :: opened_t
+      type(study_t) :: study
+      type(deck_t) :: deck
+      character(:), allocatable :: home, out         !! folder of the study; of its results
+      type(designer_t) :: designer
+      type(study_plan_t) :: plan
+   end type opened_t
 
 contains
 
-   !> Tables are written to DIR (default: out, beside the study) row by row: if a study is killed, its finished rows stay in
-   !> DIR/<table>.csv.<…>.part. gnuplot then runs the study's plot script; its variable `out` is the folder of the tables and
-   !> figures.
+   !> Tables are written to DIR (default: out, beside the study) when all designs are done; until then DIR/<study>.parts holds the
+   !> finished chunks, with which the next run goes on. gnuplot then runs the study's plot script; its variable `out` is the
+   !> folder of the tables and figures.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      type(error_t), allocatable :: unprinted, undrawn
+      type(opened_t) :: this
+      type(run_options_t) :: options
       type(message_list_t) :: tables
-      type(study_t) :: study
-      type(deck_t) :: deck
-      character(:), allocatable :: home, out
+
+      call read_options(line, options, error)
+      if (.not. allocated(error)) call open_study(line, this, error)
+      if (allocated(error)) return
+      if (this%study%kind == step_size_kind) then
+         call make_folder(this%out, error)
+         if (.not. allocated(error)) call run_step_size(this%study, this%deck, this%out, tables, error)
+      else
+         call prepare(this, error)
+         if (allocated(error)) return
+         if (line%has('--status')) then
+            call print_status(this, error)
+            return
+         end if
+         call make_folder(this%out, error)
+         if (.not. allocated(error)) call run_designs(line, this, options, tables, error)
+      end if
+      call show(line, this, tables, error)
+   end subroutine run_study_command
+
+   !> Merges the chunks of a study into its tables.
+   subroutine run_merge_command(line, error)
+      type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      type(opened_t) :: this
+      type(message_list_t) :: tables
+      integer :: done
+
+      call open_study(line, this, error)
+      if (.not. allocated(error) .and. this%study%kind == step_size_kind) call fail(error, exit_usage, &
+         'merge: a study of kind ''step_size'' has no shards')
+      if (.not. allocated(error)) call prepare(this, error)
+      if (allocated(error)) return
+      call count_parts(this%study, this%plan, this%out, done)
+      if (done < this%plan%designs) then
+         call fail(error, exit_convergence, 'merge: '//str(this%plan%designs - done)//' of '//plural(this%plan%designs, &
+            'design is', 'designs are')//' missing in '//this%out//'; run the shards that did not end (a run computes only '// &
+            'what is missing), or elastokin study '//line%files%line(1))
+         return
+      end if
+      call finish(this, tables, error)
+      call show(line, this, tables, error)
+   end subroutine run_merge_command
+
+   !> --jobs, --shard and --time-limit.
+   subroutine read_options(line, options, error)
+      type(command_line_t), intent(in) :: line
+      type(run_options_t), intent(out) :: options
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: text
+      integer :: slash, status
+
+      options%jobs = line%number('--jobs')
+      if (options%jobs == 0) options%jobs = processor_count()
+      text = line%value('--shard')
+      if (text /= '') then
+         slash = index(text, '/')
+         status = 1
+         if (slash > 1 .and. verify(text, '0123456789/') == 0) then
+            read (text(:slash - 1), *, iostat=status) options%shard
+            if (status == 0) read (text(slash + 1:), *, iostat=status) options%shards
+         end if
+         if (status /= 0 .or. options%shard < 1 .or. options%shard > options%shards) then
+            call fail(error, exit_usage, '--shard: expected i/n, 1 to n of n, for instance 2/4, found '//quoted(text))
+            return
+         end if
+      end if
+      text = line%value('--time-limit')
+      if (text /= '') call read_time(text, options%time_limit, error)
+   end subroutine read_options
+
+   !> '90' (seconds), '30:00' or '1:30:00'.
+   subroutine read_time(text, time, error)
+      character(*), intent(in) :: text
+      real(wp), intent(out) :: time                  !! s
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: rest
+      real(wp) :: part
+      integer :: colon, status
+
+      time = 0.0_wp
+      rest = text//':'
+      do
+         colon = index(rest, ':')
+         status = 1
+         if (colon > 1 .and. verify(rest(:colon - 1), '0123456789.') == 0) read (rest(:colon - 1), *, iostat=status) part
+         if (status /= 0) exit
+         time = 60.0_wp*time + part
+         rest = rest(colon + 1:)
+         if (rest == '') exit
+      end do
+      if (status /= 0) call fail(error, exit_usage, '--time-limit: expected seconds or [hours:]minutes:seconds, found '// &
+         quoted(text))
+   end subroutine read_time
+
+   !> Reads the study and its deck.
+   subroutine open_study(line, this, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_t), intent(out) :: this
+      type(error_t), allocatable, intent(out) :: error
+
+      this%home = folder_name(line%files%line(1))
+      this%out = line%value('--out', join_path(this%home, 'out'))
+      call read_study(line%files%line(1), this%study, error)
+      if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
+   end subroutine open_study
+
+   !> The design of the deck, against which the study is checked, and the plan.
+   subroutine prepare(this, error)
+      type(opened_t), intent(inout) :: this
+      type(error_t), allocatable, intent(out) :: error
+
+      call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
+      if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
+   end subroutine prepare
+
+   !> Runs the designs that are missing, then writes the tables unless this is a shard.
+   subroutine run_designs(line, this, options, tables, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_t), intent(inout) :: this
+      type(run_options_t), intent(in) :: options
+      type(message_list_t), intent(inout) :: tables
+      type(error_t), allocatable, intent(out) :: error
+      type(run_state_t) :: state
+      real(wp) :: told
+      logical :: is_quiet
+
+      is_quiet = line%has('--quiet')
+      call open_parts(this%study, this%plan, this%out, error)
+      if (allocated(error)) return
+      call watch_for_stop()
+      told = seconds()
+      call run_chunks(this%study, this%plan, this%deck, this%out, options, this%designer, state, show_state, error)
+      if (is_terminal(2) .and. .not. is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
+      if (state%before > 0 .and. .not. allocated(error)) call print_note(is_quiet, str(state%before)//' of '// &
+         plural(state%wanted, 'design was', 'designs were')//' done before')
+      if (state%is_stopped .and. .not. allocated(error)) call fail(error, exit_convergence, 'stopped: '//str(state%done)// &
+         ' of '//plural(state%wanted, 'design is', 'designs are')//' done and kept; the same command goes on from there')
+      if (allocated(error)) return
+      if (options%shards > 1) then
+         call print_note(is_quiet, 'shard '//str(options%shard)//' of '//str(options%shards)//' is done: '// &
+            plural(state%wanted, 'design', 'designs')//'; when all are, elastokin merge '//line%files%line(1))
+         return
+      end if
+      call finish(this, tables, error)
+
+   contains
+
+      !> On a terminal a line that overwrites itself, else a line a minute.
+      subroutine show_state(now)
+         type(run_state_t), intent(in) :: now
+
+         if (is_quiet) return
+         if (is_terminal(2)) then
+            call write_standard_error(achar(13)//'  '//state_text(now)//'   ')
+         else if (now%now - told > 60.0_wp) then
+            told = now%now
+            call print_note(is_quiet, state_text(now))
+         end if
+      end subroutine show_state
+
+   end subroutine run_designs
+
+   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'
+   function state_text(state) result(text)
+      type(run_state_t), intent(in) :: state
+      character(:), allocatable :: text
+      real(wp) :: rate
+
+      rate = (state%done - state%before)/max(state%now - state%begun, 1.0e-6_wp)
+      text = str(state%done)//' of '//plural(state%wanted, 'design', 'designs')//', '//str(rate, 3)//'/s, '// &
+         time_text((state%wanted - state%done)/max(rate, 1.0e-9_wp))//' left, '//str(state%failed)//' failed'
+   end function state_text
+
+   !> '45 s', '12 min', '3.5 h'
+   function time_text(time) result(text)
+      real(wp), intent(in) :: time                   !! s
+      character(:), allocatable :: text
+
+      if (time < 120.0_wp) then
+         text = str(nint(time))//' s'
+      else if (time < 7200.0_wp) then
+         text = str(nint(time/60.0_wp))//' min'
+      else
+         text = str(time/3600.0_wp, 3)//' h'
+      end if
+   end function time_text
+
+   !> How far a study is, that another process may be running.
+   subroutine print_status(this, error)
+      type(opened_t), intent(in) :: this
+      type(error_t), allocatable, intent(out) :: error
+      logical :: has_table
+      integer :: done
+
+      call count_parts(this%study, this%plan, this%out, done)
+      has_table = file_exists(join_path(this%out, responses_name(this%study)))
+      if (done == 0 .and. has_table) then
+         call print_text('study '//this%study%name//': complete, '//join_path(this%out, responses_name(this%study))//nl, error)
+      else
+         call print_text('study '//this%study%name//': '//str(done)//' of '//plural(this%plan%designs, 'design', 'designs')// &
+            ' done'//nl, error)
+      end if
+   end subroutine print_status
+
+   !> Writes the tables, removes the chunks, and counts the designs that failed.
+   subroutine finish(this, tables, error)
+      type(opened_t), intent(in) :: this
+      type(message_list_t), intent(inout) :: tables
+      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
+      type(study_counts_t) :: counts
+      character(:), allocatable :: list
+      integer :: k, failed
+
+      call remove_stale(this%out)
+      call write_tables(this%study, this%plan, this%out, counts, error)
+      if (allocated(error)) return
+      call remove_parts(this%study, this%plan, this%out)
+      if (this%plan%columns > 0) call tables%add(curves_name(this%study))
+      call tables%add(responses_name(this%study))
+      failed = sum(counts%designs(1:))
+      if (failed == 0) return
+      list = ''
+      do k = 1, ubound(status_names, 1)
+         if (counts%designs(k) > 0) list = list//', '//str(counts%designs(k))//' '//trim(status_names(k))
+      end do
+      do k = 1, counts%reasons%count()
+         call print_warning(counts%reasons%line(k))
+      end do
+      call fail(error, exit_convergence, plural(failed, 'design', 'designs')//' of '//str(this%plan%designs)//' failed ('// &
+         list(3:)//'; columns status and reason of '//responses_name(this%study)//'); the others were written')
+   end subroutine finish
+
+   !> Prints the paths of the tables and draws the figures.
+   subroutine show(line, this, tables, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_t), intent(in) :: this
+      type(message_list_t), intent(in) :: tables
+      type(error_t), allocatable, intent(inout) :: error
+      type(error_t), allocatable :: unprinted, undrawn
       integer :: k
 
-      call read_study(line%files%line(1), study, error)
-      if (allocated(error)) return
-      home = folder_name(line%files%line(1))
-      out = line%value('--out', join_path(home, 'out'))
-      call read_changed(join_path(home, study%deck), line%values('--set'), deck, error)
-      if (.not. allocated(error)) call make_folder(out, error)
-      if (allocated(error)) return
-      if (study%kind == 'step_size') then
-         call run_step_size(study, deck, out, tables, error)
-      else
-         call run_sweep(study, deck, out, tables, error)
-      end if
       if (tables%count() == 0) return
       do k = 1, tables%count()
-         call print_path(join_path(out, tables%line(k)), unprinted)
+         call print_path(join_path(this%out, tables%line(k)), unprinted)
       end do
-      call draw(line%has('--quiet'), join_path(home, study%plot), tables, out, undrawn)
+      call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
       if (allocated(undrawn)) then
          if (allocated(error)) call print_error(undrawn%message)
          if (.not. allocated(error)) call move_alloc(undrawn, error)
       end if
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
-   end subroutine run_study_command
+   end subroutine show
 
    !> out/<study>.csv
    subroutine run_step_size(study, deck, out, tables, error)
@@ -72,39 +318,6 @@ contains
       call writer%abandon()                              ! no effect on a finished table
       if (.not. allocated(error)) call tables%add(study%name//'.csv')
    end subroutine run_step_size
-
-   !> out/<study>_curves.csv and out/<study>_responses.csv
-   subroutine run_sweep(study, deck, out, tables, error)
-      type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
-      character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! names of the tables written: both or none
-      type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: endings(2) = [character(14) :: '_curves.csv', '_responses.csv']
-      type(table_t) :: curves, responses
-      type(writer_t) :: writers(2)
-      type(message_list_t) :: troubles
-      integer :: k
-
-      do k = 1, 2
-         if (.not. allocated(error)) &
-            call begin_file(writers(k), join_path(out, study%name//trim(endings(k))), error, is_part=.true.)
-      end do
-      if (.not. allocated(error)) call sweep_factors(study, deck, curves, responses, troubles, error, writers)
-      do k = 1, 2
-         if (.not. allocated(error)) call writers(k)%finish(error)
-      end do
-      do k = 1, 2
-         call writers(k)%abandon()                       ! no effect on a finished table
-         if (.not. allocated(error)) call tables%add(study%name//trim(endings(k)))
-      end do
-      if (allocated(error)) return
-      do k = 1, troubles%count()
-         call print_warning(troubles%line(k))
-      end do
-      if (troubles%count() > 0) call fail(error, exit_convergence, plural(troubles%count(), 'design of the study is', &
-         'designs of the study are')//' incomplete (see the warnings above); the others were written')
-   end subroutine run_sweep
 
    !> Runs the study's plot script over the tables.
    subroutine draw(is_quiet, script, tables, out, error)

@@ -8,9 +8,9 @@
 !> created by &mirror.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
-   use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_deck, exit_usage, exit_file
    use ek_file, only: read_whole, join_path, folder_name
+   use ek_checksum, only: checksum_t, include, digits_of
    use ek_text, only: str, lower, quoted
    use ek_letters, only: visible
    use ek_complaint, only: place_t, complaints_t, place_in
@@ -20,7 +20,7 @@ module ek_deck
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
-   public :: deck_t, read_deck, parse_deck, set_value, finish_deck, split_setting, deck_checksum
+   public :: deck_t, read_deck, parse_deck, set_value, finish_deck, split_setting, deck_checksum, include_records
 
    !> `path=text` for a record created by &mirror.
    type :: setting_t
@@ -180,45 +180,33 @@ contains
       type(deck_t), intent(in) :: deck
       character(16) :: digits
       type(deck_t) :: whole
-      integer(i8) :: high, low
-      integer :: k, e, v
+      type(checksum_t) :: sum
 
       call finish_deck(deck, whole)
-      high = int(z'cbf29ce4', i8)
-      low = int(z'84222325', i8)
-      do k = 1, whole%used
-         if (whole%records(k)%group == 'include') cycle
-         call include('&'//whole%records(k)%group)
-         do e = 1, whole%records(k)%used
-            associate (entry => whole%records(k)%entries(e))
+      call include_records(whole%records(:whole%used), sum)
+      digits = digits_of(sum)
+   end function deck_checksum
+
+   !> Adds the groups, keys and values of records to a checksum, without titles and notes.
+   subroutine include_records(records, sum)
+      type(record_t), intent(in) :: records(:)
+      type(checksum_t), intent(inout) :: sum
+      integer :: k, e, v
+
+      do k = 1, size(records)
+         if (records(k)%group == 'include') cycle
+         call include(sum, '&'//records(k)%group)
+         do e = 1, records(k)%used
+            associate (entry => records(k)%entries(e))
                if (entry%key == 'note' .or. entry%key == 'title') cycle
-               call include(';'//entry%key//'('//str(entry%first)//')')
+               call include(sum, ';'//entry%key//'('//str(entry%first)//')')
                do v = 1, entry%used
-                  call include(merge("'", ',', entry%values(v)%is_string)//entry%values(v)%text)
+                  call include(sum, merge("'", ',', entry%values(v)%is_string)//entry%values(v)%text)
                end do
             end associate
          end do
       end do
-      write (digits, '(2z8.8)') high, low
-
-   contains
-
-      !> hash ← (hash xor byte) × (2^40 + 0x1b3), in two halves of 32 bits to avoid overflow.
-      subroutine include(text)
-         character(*), intent(in) :: text
-         integer(i8), parameter :: mask = int(z'ffffffff', i8), multiplier = int(z'1b3', i8)
-         integer(i8) :: product
-         integer :: c
-
-         do c = 1, len(text)
-            low = ieor(low, int(ichar(text(c:c)), i8))
-            product = low*multiplier
-            high = iand(high*multiplier + ishft(product, -32) + ishft(iand(low, int(z'ffffff', i8)), 8), mask)
-            low = iand(product, mask)
-         end do
-      end subroutine include
-
-   end function deck_checksum
+   end subroutine include_records
 
    !> Reads all of standard input line by line: it may be a pipe of unknown size.
    subroutine read_standard_input(text, error)

@@ -16,7 +16,7 @@ module ek_draft
    private
    public :: draft_t, card_t, complain, complain_of_all, where_of, line_of, has_key
    public :: text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, choice, choose
-   public :: refuse, is_second, slot
+   public :: refuse, is_second, slot, raw
 
    !> The information about one record.
    type :: card_t

@@ -13,15 +13,15 @@ module ek_group
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
-      mass_group = 22
-   character(*), parameter :: group_names(22) = [character(8) :: 'model', 'point', 'body', 'measure', 'joint', &
+      mass_group = 22, correlation_group = 23
+   character(*), parameter :: group_names(23) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
-      'stop', 'torsion', 'axle', 'steering', 'mass']
+      'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation']
 
    integer, parameter :: every_group = 0      !! in the table of keys
    integer, parameter :: spring_groups(4) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
    integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
-   integer, parameter :: study_groups(3) = [study_group, factor_group, response_group]   ! all others belong to a deck
+   integer, parameter :: study_groups(4) = [study_group, factor_group, response_group, correlation_group]   ! all others belong to a deck
 
    ! types of value
    integer, parameter, public :: word = 1      !! quoted, at most word_length characters: names and choices
@@ -34,6 +34,7 @@ module ek_group
    integer, parameter, public :: note_length = 2000    !! longest title or note
    integer, parameter, public :: most_measures = 8     !! per coupler
    integer, parameter, public :: most_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
+   integer, parameter, public :: most_paths = 50       !! of numbers that a factor moves together
    integer, parameter, public :: most_loads = 12       !! scaled together by one case
 
    ! legal ranges of a number
@@ -194,17 +195,37 @@ module ek_group
       key_t(study_group, 'methods', word, 1, 3, .false.), &
       key_t(study_group, 'increments', whole, 1, most_values, .false.), &
       key_t(study_group, 'columns', word, 1, 20, .false.), &
-      key_t(factor_group, 'path', prose, 1, 1, .true.), &
+      key_t(study_group, 'samples', whole, 1, 1, .false.), &
+      key_t(study_group, 'levels', whole, 1, 1, .false.), &
+      key_t(study_group, 'seed', whole, 1, 1, .false.), &
+      key_t(study_group, 'scrambled', switch, 1, 1, .false.), &
+      key_t(study_group, 'list', prose, 1, 1, .false.), &
+      key_t(study_group, 'chunk', whole, 1, 1, .false.), &
+      key_t(study_group, 'format', word, 1, 1, .false.), &
+      key_t(factor_group, 'path', prose, 1, most_paths, .true.), &
+      key_t(factor_group, 'change', word, 1, 1, .false.), &
+      key_t(factor_group, 'lower', number, 1, 1, .false.), &
+      key_t(factor_group, 'upper', number, 1, 1, .false.), &
+      key_t(factor_group, 'nominal', number, 1, 1, .false.), &
+      key_t(factor_group, 'tolerance', number, 1, 1, .false., positive), &
+      key_t(factor_group, 'deviation', number, 1, 1, .false., positive), &
+      key_t(factor_group, 'distribution', word, 1, 1, .false.), &
       key_t(factor_group, 'values', number, 1, most_values, .false.), &
       key_t(factor_group, 'from', number, 1, 1, .false.), &
       key_t(factor_group, 'to', number, 1, 1, .false.), &
       key_t(factor_group, 'count', whole, 1, 1, .false.), &
       key_t(factor_group, 'spacing', word, 1, 1, .false.), &
+      key_t(correlation_group, 'factors', word, 2, 2, .true.), &
+      key_t(correlation_group, 'value', number, 1, 1, .true.), &
+      key_t(response_group, 'case', word, 1, 1, .false.), &
       key_t(response_group, 'column', word, 1, 1, .true.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
       key_t(response_group, 'over', word, 1, 1, .false.), &
       key_t(response_group, 'window', number, 1, 1, .false., positive), &
+      key_t(response_group, 'file', prose, 1, 1, .false.), &
+      key_t(response_group, 'lower', number, 1, 1, .false.), &
+      key_t(response_group, 'upper', number, 1, 1, .false.), &
       key_t(include_group, 'file', prose, 1, 1, .true.), &
       key_t(mirror_group, 'shared', word, 1, most_values, .false.), &
       key_t(every_group, 'note', prose, 1, 1, .false.)]

@@ -33,16 +33,20 @@ module ek_balance
 contains
 
    !> Sets the preloads according to suspension%balance ('none': no change).
-   subroutine balance(suspension, tolerance, error)
+   subroutine balance(suspension, tolerance, error, is_terse)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
       type(error_t), allocatable, intent(out) :: error     !! exit_model: no solution
+      logical, intent(in), optional :: is_terse            !! .true.: a message without numbers and names, safe in a thread
+      logical :: has_details
 
+      has_details = .true.
+      if (present(is_terse)) has_details = .not. is_terse
       select case (suspension%balance)
       case ('spring')
-         call balance_springs(suspension, tolerance, error)
+         call balance_springs(suspension, tolerance, has_details, error)
       case ('all')
-         call balance_all(suspension, error)
+         call balance_all(suspension, has_details, error)
       end select
    end subroutine balance
 
@@ -114,9 +118,10 @@ contains
    !>
    !> The first change is the solution of the linear problem at design, close to the final one. A wheel with too little preload
    !> would settle on its stop, where the slope would give a change many times too large.
-   subroutine balance_springs(suspension, tolerance, error)
+   subroutine balance_springs(suspension, tolerance, has_details, error)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance
+      logical, intent(in) :: has_details
       type(error_t), allocatable, intent(out) :: error
       type(kkt_t) :: kkt
       type(state_t) :: state
@@ -160,8 +165,8 @@ contains
          call lower_by(height, suspension, state, kkt, error)
          if (allocated(error)) return
       end do
-      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height; "// &
-         'the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm')
+      call fail(error, exit_convergence, "balance = 'spring': no preload brings the wheels to design height")
+      if (has_details) error%message = error%message//'; the remaining error is '//str(maxval(abs(height))*1000.0_wp, 4)//' mm'
    end subroutine balance_springs
 
    !> Changes the spring preloads so that, according to the tangent at a state, the wheels move down by `height`.
@@ -220,8 +225,9 @@ contains
    end function rise
 
    !> Solves one linear problem: min Σ f²/2k, subject to equilibrium of preloads, Φqᵀλ and loads at design.
-   subroutine balance_all(suspension, error)
+   subroutine balance_all(suspension, has_details, error)
       type(suspension_t), intent(inout) :: suspension
+      logical, intent(in) :: has_details
       type(error_t), allocatable, intent(out) :: error
       type(kkt_t) :: kkt
       type(state_t) :: state
@@ -288,8 +294,8 @@ contains
       call least_norm(carried, remainder, y)
       remainder = remainder - matmul(free, y)
       if (.not. norm2(remainder) <= 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
-         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &
-            kept_out(suspension))
+         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
+         if (has_details) error%message = error%message//kept_out(suspension)
          return
       end if
       do s = 1, suspension%scalars

@@ -97,16 +97,18 @@ contains
    !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
    !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
    !> has no defect here: the run reports the reason.
-   subroutine examine_case(base, case, diagnosis, known, on_rig)
+   subroutine examine_case(base, case, diagnosis, known, on_rig, is_in_doubt)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
       type(case_t), intent(out), optional :: on_rig      !! the case with its actuations
+      logical, intent(out), optional :: is_in_doubt      !! if present, a doubtful design is not diagnosed, which takes text
       type(suspension_t) :: suspension
       type(case_t) :: mounted
       type(kkt_t) :: kkt
 
+      if (present(is_in_doubt)) is_in_doubt = .false.
       if (.not. is_mountable(case)) return
       call mount(base, case, suspension, mounted)
       if (present(on_rig)) on_rig = mounted
@@ -115,6 +117,10 @@ contains
          if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
             if (is_surely_sound(suspension, design_state(suspension), known%negative, kkt)) return
          end if
+      end if
+      if (present(is_in_doubt)) then
+         is_in_doubt = .true.
+         return
       end if
       call diagnose(suspension, design_state(suspension), kkt, diagnosis)
       if (.not. present(known)) return

@@ -11,16 +11,29 @@ module ek_lapack
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
-      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd
+      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
+      lapack_dpotrf => dpotrf
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd
+   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
 
 #ifdef EK_TRAPS
 contains
+
+   !> Cholesky factorisation of a symmetric positive definite matrix.
+   pure subroutine dpotrf(uplo, n, a, lda, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, lda
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dpotrf(uplo, n, a, lda, info)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dpotrf
 
    !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
    pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)

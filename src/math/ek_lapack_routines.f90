@@ -5,9 +5,19 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd
+   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dpotrf
 
    interface
+      !> Cholesky factorisation of a symmetric positive definite matrix; info = order of the first minor that is not.
+      pure subroutine dpotrf(uplo, n, a, lda, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: info
+      end subroutine dpotrf
+
       !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
       pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
          import :: wp

@@ -7,7 +7,7 @@ module ek_threads
    use ek_memory, only: ask_memory
    implicit none(type, external)
    private
-   public :: use_one_thread
+   public :: use_one_thread, processor_count
 
    !> Bytes of the work space that OpenBLAS allocates at its first call, slightly more than 128 MB. If the allocation fails,
    !> OpenBLAS retries forever.
@@ -32,6 +32,14 @@ module ek_threads
    end interface
 
 contains
+
+   !> The processors that this process may use; 1 in a build without OpenMP.
+   integer function processor_count()
+      !$ use omp_lib, only: omp_get_num_procs
+
+      processor_count = 1
+      !$ processor_count = omp_get_num_procs()
+   end function processor_count
 
    !> Sets one thread in OpenBLAS, if it is the loaded library; other libraries have neither this function nor the work space.
    subroutine use_one_thread(error)

@@ -1,17 +1,20 @@
-!> A response that a study reads from the table of a design: a value, a slope or a span, and its column name.
+!> A response that a study reads from the table of a design, and its column name: a value, a slope, a span, an extreme, or the
+!> deviation from a given curve.
 !>
 !> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
 !> otherwise those of its two columns; its column name ends with the unit.
 module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
+   use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, plural
    use ek_quantity, only: slope_unit
+   use ek_csv, only: read_csv
    use ek_table, only: table_t, column_index, name_length
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, needed_columns, no_column, prepare_reading, read_response
+   public :: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -19,7 +22,17 @@ module ek_response
       character(:), allocatable :: over      !! slope: the column over which it is taken
       character(:), allocatable :: head      !! name of its column, with the unit of a slope
       real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
+      integer :: of = 0                      !! what is read, one of those below
+      integer :: at_column = 0, at_over = 0  !! places of the columns in the table of the first design
+      real(wp), allocatable :: curve(:, :)   !! rms: (factor, wanted value; point)
    end type reading_t
+
+   ! what is read
+   integer, parameter :: a_value = 1, a_slope = 2, a_span = 3, a_least = 4, a_most = 5, an_rms = 6
+   character(*), parameter :: of_names(6) = [character(5) :: 'value', 'slope', 'span', 'min', 'max', 'rms']
+
+   ! why it cannot be read
+   integer, parameter :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, is_flat = 5
 
    character(*), parameter :: travel = 'wheel_travel_mm'
 
@@ -56,28 +69,32 @@ contains
    end subroutine needed_columns
 
    !> Checks a response against the table of the first design; `message` gives the reason if it cannot be read, else ''.
-   subroutine prepare_reading(asked, table, factor_unit, reading, message, heads)
+   subroutine prepare_reading(asked, table, factor_unit, reading, message, heads, home)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
       type(reading_t), intent(out) :: reading
       character(:), allocatable, intent(out) :: message
       character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default those of the table
+      character(*), intent(in), optional :: home          !! folder of the study with its slash, for the file of rms
       character(name_length), allocatable :: names(:)
       character(:), allocatable :: unit
       real(wp) :: value
-      integer :: at
+      integer :: at, fault
 
       reading%asked = asked
       reading%over = asked%over
       reading%head = asked%name
+      reading%of = findloc(of_names == asked%of, .true., dim=1)
       names = table%columns
       if (present(heads)) names = heads
       message = ''
-      if (column_index(table, asked%column) == 0) message = no_column(asked%column, names)
-      if (asked%of == 'slope') then
+      reading%at_column = column_index(table, asked%column)
+      if (reading%at_column == 0) message = no_column(asked%column, names)
+      if (reading%of == a_slope) then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
-         if (message == '' .and. column_index(table, reading%over) == 0) then
+         reading%at_over = column_index(table, reading%over)
+         if (message == '' .and. reading%at_over == 0) then
             message = no_column(reading%over, names)
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
@@ -85,68 +102,174 @@ contains
          at = len(asked%name) - len(unit)
          if (index(asked%name, '_'//unit, back=.true.) /= max(at, 1)) reading%head = asked%name//'_'//unit
       end if
-      if (message == '') call read_response(reading, table, value, message)
+      if (reading%of == an_rms) call read_curve(asked, home, reading%curve, message)
+      if (message == '') then
+         call read_response(reading, table, value, fault)
+         if (fault /= no_fault) message = fault_text(reading, table, fault)
+      end if
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window
-   !> around it, or the span over all states. `message` gives the reason if there is no slope or no such factor.
-   subroutine read_response(reading, table, value, message)
+   !> Reads the curve from which a column deviates: a CSV with the columns `factor` and that of the response.
+   subroutine read_curve(asked, home, curve, message)
+      type(response_t), intent(in) :: asked
+      character(*), intent(in), optional :: home
+      real(wp), allocatable, intent(out) :: curve(:, :)
+      character(:), allocatable, intent(inout) :: message
+      type(table_t) :: table
+      type(error_t), allocatable :: error
+      character(:), allocatable :: path
+      integer :: x, y
+
+      allocate (curve(2, 0))
+      path = asked%file
+      if (present(home) .and. index(path, '/') /= 1) path = home//path
+      call read_csv(path, table, error)
+      if (allocated(error)) then
+         message = error%message
+         return
+      end if
+      x = column_index(table, 'factor')
+      y = column_index(table, asked%column)
+      if (x == 0 .or. y == 0 .or. size(table%values, 2) == 0) then
+         message = path//' must have the columns factor and '//trim(asked%column)//', and a row'
+         return
+      end if
+      curve = table%values([x, y], :)
+   end subroutine read_curve
+
+   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window around it, the
+   !> span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points.
+   subroutine read_response(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
       real(wp), intent(out) :: value             !! nan if there is none
-      character(:), allocatable, intent(out) :: message
-      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
+      integer, intent(out) :: fault              !! 0, or for fault_text
       real(wp) :: at, centre, mean_x, mean_y, spread
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
-      integer :: column, over
+      integer :: column, over, k
 
-      message = ''
+      fault = no_fault
       value = ieee_value(1.0_wp, ieee_quiet_nan)
-      column = column_index(table, reading%asked%column)
+      column = place_of_column(table, reading%asked%column, reading%at_column)
       over = 2                                   ! the factor
-      if (reading%asked%of == 'slope') over = column_index(table, reading%over)
-      if (column == 0) message = no_column(reading%asked%column, table%columns)
-      if (over == 0) message = no_column(reading%over, table%columns)
-      if (message /= '') return                  ! the model of this design does not define it
+      if (reading%of == a_slope) over = place_of_column(table, reading%over, reading%at_over)
+      if (column == 0) fault = column_is_missing
+      if (over == 0) fault = over_is_missing
+      if (fault /= no_fault) return              ! the model of this design does not define it
       y = table%values(column, :)
-      if (reading%asked%of == 'span') then
-         value = maxval(y) - minval(y)
-         return
-      end if
       x = table%values(2, :)
-      at = reading%asked%at
-      if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) at = minval(x)
-      if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) at = maxval(x)
-      if (.not. (at >= minval(x) .and. at <= maxval(x))) then
-         message = 'at = '//str(reading%asked%at)//' lies outside the range of the case, '// &
-            str(minval(x))//' to '//str(maxval(x))
-         return
-      end if
-      if (reading%asked%of == 'value') then
-         value = between(x, y, at)
-         return
-      end if
-      centre = between(x, table%values(over, :), at)
-      x = table%values(over, :)
-      if (.not. ieee_is_finite(centre)) return          ! the state did not converge, or the column is undefined there
-      is_near = ieee_is_finite(x)
-      where (is_near) is_near = abs(x - centre) <= reading%asked%window*(1.0_wp + rounding)
-      if (count(is_near) < 2) then
-         message = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
-            str(reading%asked%window)//', a slope needs 2; '//remedy(abs(x - centre), reading%asked%window)
-         return
-      end if
-      mean_x = sum(x, mask=is_near)/count(is_near)
-      mean_y = sum(y, mask=is_near)/count(is_near)
-      spread = sum((x - mean_x)**2, mask=is_near)
-      if (spread > 0.0_wp) then
-         value = reading%size*sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
-      else
-         message = 'no slope: '//quoted(reading%over)//' does not change within the window'
-      end if
+      select case (reading%of)
+      case (a_span)
+         value = maxval(y) - minval(y)
+      case (a_least)
+         value = minval(y)
+      case (a_most)
+         value = maxval(y)
+      case (an_rms)
+         spread = 0.0_wp
+         do k = 1, size(reading%curve, 2)
+            at = between(x, y, rounded(reading%curve(1, k), x))
+            if (reading%curve(1, k) < minval(x) .or. reading%curve(1, k) > maxval(x)) fault = is_outside
+            spread = spread + (at - reading%curve(2, k))**2
+         end do
+         if (fault == no_fault) value = sqrt(spread/size(reading%curve, 2))
+      case default
+         at = rounded(reading%asked%at, x)
+         if (.not. (at >= minval(x) .and. at <= maxval(x))) then
+            fault = is_outside
+            return
+         end if
+         if (reading%of == a_value) then
+            value = between(x, y, at)
+            return
+         end if
+         call find_window(reading, table, over, at, centre, is_near)
+         x = table%values(over, :)
+         if (.not. ieee_is_finite(centre)) return       ! the state did not converge, or the column is undefined there
+         if (count(is_near) < 2) then
+            fault = has_no_slope
+            return
+         end if
+         mean_x = sum(x, mask=is_near)/count(is_near)
+         mean_y = sum(y, mask=is_near)/count(is_near)
+         spread = sum((x - mean_x)**2, mask=is_near)
+         if (spread > 0.0_wp) then
+            value = reading%size*sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
+         else
+            fault = is_flat
+         end if
+      end select
    end subroutine read_response
+
+   !> The states in the window of a slope.
+   subroutine find_window(reading, table, over, at, centre, is_near)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: over                !! column over which the slope is taken
+      real(wp), intent(in) :: at
+      real(wp), intent(out) :: centre            !! of the window
+      logical, intent(out) :: is_near(:)
+      real(wp), parameter :: rounding = 1.0e-9_wp
+
+      centre = between(table%values(2, :), table%values(over, :), at)
+      is_near = ieee_is_finite(table%values(over, :))
+      where (is_near) is_near = abs(table%values(over, :) - centre) <= reading%asked%window*(1.0_wp + rounding)
+   end subroutine find_window
+
+   !> A swept value that differs from an end of the range by rounding only is that end.
+   pure real(wp) function rounded(at, x)
+      real(wp), intent(in) :: at, x(:)
+      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
+
+      rounded = at
+      if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) rounded = minval(x)
+      if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) rounded = maxval(x)
+   end function rounded
+
+   !> The place of a column: usually that in the table of the first design.
+   pure integer function place_of_column(table, name, usual) result(place)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: name
+      integer, intent(in) :: usual
+
+      place = usual
+      if (place >= 1 .and. place <= size(table%columns)) then
+         if (table%columns(place) == name) return
+      end if
+      place = column_index(table, name)
+   end function place_of_column
+
+   !> Why a response cannot be read.
+   function fault_text(reading, table, fault) result(text)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: fault               !! of read_response, not 0
+      character(:), allocatable :: text
+      logical :: is_near(size(table%values, 2))
+      real(wp) :: centre, x(size(table%values, 2))
+
+      select case (fault)
+      case (column_is_missing)
+         text = no_column(reading%asked%column, table%columns)
+      case (over_is_missing)
+         text = no_column(reading%over, table%columns)
+      case (is_outside)
+         x = table%values(2, :)
+         text = 'at = '//str(reading%asked%at)
+         if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
+         text = text//' lies outside the range of the case, '//str(minval(x))//' to '//str(maxval(x))
+      case (has_no_slope)
+         x = table%values(place_of_column(table, reading%over, reading%at_over), :)
+         call find_window(reading, table, place_of_column(table, reading%over, reading%at_over), &
+            rounded(reading%asked%at, table%values(2, :)), centre, is_near)
+         text = 'no slope: '//plural(count(is_near), 'state lies', 'states lie')//' within the window of ± '// &
+            str(reading%asked%window)//', a slope needs 2; '//remedy(abs(x - centre), reading%asked%window)
+      case default
+         text = 'no slope: '//quoted(reading%over)//' does not change within the window'
+      end select
+   end function fault_text
 
    !> Advice on how to have two states in the window.
    pure function remedy(distance, window) result(words)

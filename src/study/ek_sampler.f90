@@ -1,52 +1,367 @@
-!> The kinds of studies. A kind is a sampler: it makes the values of the factors from the number of a design, so that the designs
-!> are the same in any order and with any number of workers. Only 'step_size' (ek_step_size) varies the solution, not the deck.
+!> Samplers: the designs of a study by number, x(design), a pure function of sampler and design number.
 !>
-!> A new kind: its own file; here its row in `kinds`, and its calls in `design_count` and `sample`.
+!> Designs may be asked for in any order and by any number of workers. u below is a number in (0, 1) that becomes a value by the
+!> quantile function of the factor (ek_distribution), t a fraction of its range (`ends_of`, or its list of values).
+!>
+!> | kind | designs | x |
+!> |---|---|---|
+!> | grid | product of the levels | all combinations, first factor slowest; t = 0, 1/(l − 1), …, 1 |
+!> | one_at_a_time | 1 + sum of the levels | nominal; then each factor through its levels, the others nominal (tornado) |
+!> | list | rows | rows that were given |
+!> | latin_hypercube | n | u of each factor once in each of n equal intervals (McKay, Beckman, Conover 1979) |
+!> | sobol | n | u = Sobol' point (ek_sobol) |
+!> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
+!> | monte_carlo | n | u independent |
+!> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
+!>
+!> A factor with `values` takes these only: as levels, or at random each with the same probability. Correlations (ek_copula) apply
+!> to latin_hypercube (whose intervals are then filled exactly by the first factor of each group only), sobol and monte_carlo.
+!>
+!> u and t are the same to the last bit on every machine; x is as exact as the machine's logarithm.
+!>
+!> To add a kind: its number and row in ek_sampler_kind, and here its case in `count_designs` and in `sample`.
 module ek_sampler
-   use ek_kinds, only: wp
-   use ek_factor, only: factor_t
-   use ek_grid, only: grid_size, grid_design
+   use ek_kinds, only: wp, i8
+   use ek_contract, only: are_checked, require
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_normal, only: normal_quantile, normal_probability
+   use ek_philox, only: uniform, fill_uniforms
+   use ek_permutation, only: permutation_t, new_permutation, image_of, largest_permutation
+   use ek_sobol, only: sobol_t, new_sobol, sobol_coordinate
+   use ek_distribution, only: quantile, quantile_of_score, ends_of
+   use ek_copula, only: copula_t, new_copula, correlate
+   use ek_sampler_kind, only: grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, sobol_kind, saltelli_kind, morris_kind
+   use ek_sampler_settings, only: factor_t, sampler_settings_t, check_settings
    implicit none(type, external)
    private
-   public :: kind_t, kinds, design_count, sample
+   public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, changed_factor, morris_change
 
-   !> A kind, and what a study of this kind must have.
-   type :: kind_t
-      character(12) :: name
-      integer :: least_factors, most_factors, least_increments
-      character(30) :: needs       !! the same, for the message
-   end type kind_t
+   ! what one seed is used for (ek_philox)
+   integer, parameter :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
 
-   type(kind_t), parameter :: kinds(*) = [ &
-      kind_t('step_size', 0, huge(1), 1, 'increments = …'), &
-      kind_t('sweep', 1, 2, 0, 'one or two &factor groups')]
+   type :: sampler_t
+      private
+      type(sampler_settings_t) :: settings
+      type(factor_t), allocatable :: factors(:)
+      real(wp), allocatable :: low(:), high(:)               !! range of a factor without values
+      integer(i8), allocatable :: levels(:)                  !! of each factor
+      integer(i8) :: designs = 0
+      type(permutation_t), allocatable :: permutations(:)    !! latin_hypercube: of the intervals of each factor
+      type(sobol_t) :: points
+      type(copula_t) :: copula
+      logical :: is_correlated = .false.
+   end type sampler_t
+
+   !> A design of Morris' method on its trajectory.
+   type :: trajectory_t
+      integer(i8) :: seed = 0, number = 0      !! number from 0
+      integer(i8) :: step = 0                  !! 0 … k: factors already changed
+      integer(i8) :: levels = 2
+      type(permutation_t) :: order             !! of the factors
+   end type trajectory_t
 
 contains
 
-   !> The number of designs.
-   pure integer function design_count(kind, factors) result(designs)
-      character(*), intent(in) :: kind
+   !> Makes a sampler. All mistakes that a deck can make are errors (exit_deck).
+   pure subroutine new_sampler(settings, factors, sampler, error)
+      type(sampler_settings_t), intent(in) :: settings
       type(factor_t), intent(in) :: factors(:)
+      type(sampler_t), intent(out) :: sampler
+      type(error_t), allocatable, intent(out) :: error
+      integer :: j, k
 
-      designs = 0
-      select case (kind)
-      case ('sweep')
-         designs = grid_size(factors)
+      k = size(factors)
+      call check_settings(settings, factors, error)
+      if (allocated(error)) return
+      sampler%settings = settings
+      sampler%factors = factors
+      allocate (sampler%low(k), sampler%high(k), sampler%levels(k))
+      do j = 1, k
+         call ends_of(factors(j)%distribution, sampler%low(j), sampler%high(j))
+         sampler%levels(j) = settings%levels
+         if (allocated(factors(j)%values)) sampler%levels(j) = size(factors(j)%values)
+      end do
+      call count_designs(sampler, error)
+      if (allocated(error)) return
+      select case (settings%kind)
+      case (latin_hypercube_kind)
+         allocate (sampler%permutations(k))
+         do j = 1, k
+            sampler%permutations(j) = new_permutation(settings%size, settings%seed, permutation_stream, int(j, i8))
+         end do
+      case (sobol_kind, saltelli_kind)
+         if (settings%kind == saltelli_kind) k = 2*k
+         if (settings%is_scrambled) then
+            call new_sobol(k, sampler%points, settings%seed, scramble_stream)
+         else
+            call new_sobol(k, sampler%points)
+         end if
       end select
-   end function design_count
+      if (allocated(settings%pairs)) sampler%is_correlated = size(settings%pairs, 2) > 0
+      if (sampler%is_correlated) call new_copula(size(factors), settings%pairs, settings%correlations, sampler%copula, error)
+   end subroutine new_sampler
 
-   !> The values of the factors of design `number` = 1, 2, …, in the units of the deck.
-   pure subroutine sample(kind, factors, number, values, begins_block)
-      character(*), intent(in) :: kind
-      type(factor_t), intent(in) :: factors(:)
-      integer, intent(in) :: number
-      real(wp), intent(out) :: values(:)
-      logical, intent(out) :: begins_block      !! gnuplot needs an empty line before this design
+   !> The number of designs.
+   pure subroutine count_designs(sampler, error)
+      type(sampler_t), intent(inout) :: sampler
+      type(error_t), allocatable, intent(out) :: error
+      integer(i8) :: k
+      integer :: j
 
-      select case (kind)
-      case ('sweep')
-         call grid_design(factors, number, values, begins_block)
+      associate (s => sampler, n => sampler%settings%size)
+         k = size(s%factors)
+         select case (s%settings%kind)
+         case (grid_kind)
+            s%designs = 1
+            do j = 1, int(k)
+               if (s%designs <= largest_permutation/s%levels(j)) then
+                  s%designs = s%designs*s%levels(j)
+               else
+                  call fail(error, exit_deck, 'the grid has more than 2**40 designs')
+                  return
+               end if
+            end do
+         case (one_at_a_time_kind)
+            s%designs = 1 + sum(s%levels)
+         case (list_kind)
+            s%designs = size(s%settings%rows, 2)
+         case (saltelli_kind)
+            s%designs = n*(k + 2)
+         case (morris_kind)
+            s%designs = n*(k + 1)
+         case default
+            s%designs = n
+         end select
+      end associate
+   end subroutine count_designs
+
+   !> The number of designs of a study: they are numbered from 1 to this.
+   pure integer(i8) function designs_of(sampler) result(designs)
+      type(sampler_t), intent(in) :: sampler
+
+      designs = sampler%designs
+   end function designs_of
+
+   !> The number of factors.
+   pure integer function factors_of(sampler) result(factors)
+      type(sampler_t), intent(in) :: sampler
+
+      factors = size(sampler%factors)
+   end function factors_of
+
+   !> Is the sampler of this kind?
+   pure logical function is_kind(sampler, kind)
+      type(sampler_t), intent(in) :: sampler
+      integer, intent(in) :: kind                  !! one of *_kind
+
+      is_kind = sampler%settings%kind == kind
+   end function is_kind
+
+   !> The factors of a design. No allocation.
+   pure subroutine sample(sampler, design, x)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design            !! 1 … designs_of
+      real(wp), intent(out) :: x(:)                !! one number per factor
+      type(trajectory_t) :: trajectory
+      integer(i8) :: rest
+      integer :: j, k
+
+      if (are_checked) call require(size(x) == size(sampler%factors) .and. design >= 1 .and. design <= sampler%designs, &
+         'sample: a design of another sampler')
+      k = size(x)
+      select case (sampler%settings%kind)
+      case (grid_kind)
+         rest = design - 1
+         do j = k, 1, -1
+            x(j) = level_of(sampler, j, mod(rest, sampler%levels(j)), sampler%levels(j))
+            rest = rest/sampler%levels(j)
+         end do
+      case (one_at_a_time_kind)
+         rest = design - 2
+         do j = 1, k
+            x(j) = sampler%factors(j)%nominal
+            if (rest >= 0 .and. rest < sampler%levels(j)) x(j) = level_of(sampler, j, rest, sampler%levels(j))
+            rest = rest - sampler%levels(j)
+         end do
+      case (list_kind)
+         do j = 1, k
+            x(j) = sampler%settings%rows(j, design)
+         end do
+      case (morris_kind)
+         call find_trajectory(sampler, design, trajectory)
+         call fill_uniforms(trajectory%seed, trajectory_stream, trajectory%number, x)
+         do j = 1, k
+            x(j) = level_of(sampler, j, morris_level(trajectory, j, x(j)), trajectory%levels)
+         end do
+      case default
+         call sample_at_random(sampler, design, x)
       end select
    end subroutine sample
+
+   !> The kinds that begin with numbers u in (0, 1).
+   pure subroutine sample_at_random(sampler, design, x)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design
+      real(wp), intent(out) :: x(:)
+      integer(i8) :: row, block
+      integer :: j, k
+
+      k = size(x)
+      associate (s => sampler%settings)
+         select case (s%kind)
+         case (latin_hypercube_kind)
+            call fill_uniforms(s%seed, design_stream, design, x)
+            do j = 1, k
+               x(j) = point_in_interval(image_of(sampler%permutations(j), design - 1), s%size, x(j))
+            end do
+         case (sobol_kind)
+            do j = 1, k
+               x(j) = sobol_coordinate(sampler%points, design - 1, j)
+            end do
+         case (saltelli_kind)
+            row = (design - 1)/(k + 2)
+            block = design - 1 - row*(k + 2)             ! 0: A, j: A with factor j from B, k + 1: B
+            do j = 1, k
+               x(j) = sobol_coordinate(sampler%points, row, merge(j + k, j, block == j .or. block == k + 1))
+            end do
+         case default
+            call fill_uniforms(s%seed, design_stream, design, x)
+         end select
+      end associate
+      call take_quantiles(sampler, x)
+   end subroutine sample_at_random
+
+   !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it into another one.
+   !>
+   !> Equation (D.6) of docs/theory/sampling.md.
+   pure real(wp) function point_in_interval(i, n, fraction) result(u)
+      integer(i8), intent(in) :: i, n              !! i: 0 … n − 1; n up to 2⁴⁰
+      real(wp), intent(in) :: fraction
+      real(wp) :: margin
+
+      margin = real(n, wp)*2.0_wp**(-50)
+      u = (real(i, wp) + max(margin, min(1.0_wp - margin, fraction)))/real(n, wp)
+   end function point_in_interval
+
+   !> Numbers u in (0, 1) become values of the factors, in place: x_j = F_j⁻¹(u_j), or x_j = F_j⁻¹(Φ(Σ L_ji Φ⁻¹(u_i))).
+   pure subroutine take_quantiles(sampler, x)
+      type(sampler_t), intent(in) :: sampler
+      real(wp), intent(inout) :: x(:)
+      integer :: j
+
+      if (sampler%is_correlated) then
+         do j = 1, size(x)
+            x(j) = normal_quantile(x(j))
+         end do
+         call correlate(sampler%copula, x)
+      end if
+      do j = 1, size(x)
+         associate (factor => sampler%factors(j))
+            if (allocated(factor%values)) then
+               if (sampler%is_correlated) x(j) = normal_probability(x(j))
+               x(j) = factor%values(min(size(factor%values), 1 + int(x(j)*size(factor%values))))
+            else if (sampler%is_correlated) then
+               x(j) = quantile_of_score(factor%distribution, x(j))
+            else
+               x(j) = quantile(factor%distribution, x(j))
+            end if
+         end associate
+      end do
+   end subroutine take_quantiles
+
+   !> Level i of a factor with some levels: evenly over its range, or from its list (the nearest if the list has another length).
+   pure real(wp) function level_of(sampler, j, i, levels) result(x)
+      type(sampler_t), intent(in) :: sampler
+      integer, intent(in) :: j
+      integer(i8), intent(in) :: i, levels         !! i: 0 … levels − 1
+      real(wp) :: t
+
+      t = 0.0_wp
+      if (levels > 1) t = real(i, wp)/real(levels - 1, wp)
+      if (allocated(sampler%factors(j)%values)) then
+         x = sampler%factors(j)%values(1 + nint(t*(size(sampler%factors(j)%values) - 1)))
+      else
+         x = (1.0_wp - t)*sampler%low(j) + t*sampler%high(j)
+      end if
+   end function level_of
+
+   !> The trajectory that a design lies on, and where.
+   pure subroutine find_trajectory(sampler, design, trajectory)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design
+      type(trajectory_t), intent(out) :: trajectory
+      integer(i8) :: k
+
+      k = size(sampler%factors)
+      trajectory%seed = sampler%settings%seed
+      trajectory%levels = sampler%settings%levels
+      trajectory%number = (design - 1)/(k + 1)
+      trajectory%step = design - 1 - trajectory%number*(k + 1)
+      trajectory%order = new_permutation(k, trajectory%seed, permutation_stream, trajectory%number)
+   end subroutine find_trajectory
+
+   !> The step, 1 … k, that changes a factor.
+   pure integer(i8) function step_of(trajectory, factor) result(step)
+      type(trajectory_t), intent(in) :: trajectory
+      integer, intent(in) :: factor
+
+      step = 1 + image_of(trajectory%order, int(factor - 1, i8))
+   end function step_of
+
+   !> The level of a factor, 0 … p − 1: random at first; from its step on, half of the levels further (or back).
+   pure integer(i8) function morris_level(trajectory, factor, u) result(level)
+      type(trajectory_t), intent(in) :: trajectory
+      integer, intent(in) :: factor
+      real(wp), intent(in) :: u                !! the random number of factor and trajectory
+
+      associate (t => trajectory)
+         level = min(int(u*t%levels, i8), t%levels - 1)
+         if (t%step >= step_of(t, factor)) level = mod(level + t%levels/2, t%levels)
+      end associate
+   end function morris_level
+
+   !> The factor that alone differs: from the nominal design (one_at_a_time), from the design before (morris), from A (saltelli).
+   !> 0 for the nominal design, the start of a trajectory, A, B, and all designs of the other kinds.
+   pure integer function changed_factor(sampler, design) result(factor)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design
+      type(trajectory_t) :: trajectory
+      integer(i8) :: rest
+      integer :: k
+
+      k = size(sampler%factors)
+      factor = 0
+      select case (sampler%settings%kind)
+      case (one_at_a_time_kind)
+         rest = design - 1
+         do while (rest > 0)
+            factor = factor + 1
+            rest = rest - sampler%levels(factor)
+         end do
+      case (saltelli_kind)
+         factor = int(mod(design - 1, k + 2_i8))
+         if (factor == k + 1) factor = 0
+      case (morris_kind)
+         call find_trajectory(sampler, design, trajectory)
+         if (trajectory%step == 0) return
+         do factor = 1, k - 1
+            if (step_of(trajectory, factor) == trajectory%step) return
+         end do
+      end select
+   end function changed_factor
+
+   !> By which fraction of its range the factor changed from the design before: ±p/(2(p − 1)).
+   pure real(wp) function morris_change(sampler, design, factor) result(change)
+      type(sampler_t), intent(in) :: sampler
+      integer(i8), intent(in) :: design            !! not the first of its trajectory
+      integer, intent(in) :: factor                !! changed_factor of this design
+      type(trajectory_t) :: trajectory
+      integer(i8) :: level
+
+      call find_trajectory(sampler, design, trajectory)
+      level = morris_level(trajectory, factor, uniform(trajectory%seed, trajectory_stream, trajectory%number, factor))
+      level = 2*level - (trajectory%levels - 1)    ! above the middle after a step upwards
+      change = sign(real(trajectory%levels/2, wp)/real(trajectory%levels - 1, wp), real(level, wp))
+   end function morris_change
 
 end module ek_sampler

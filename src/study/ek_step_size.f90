@@ -23,7 +23,7 @@ module ek_step_size
    use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
-   use ek_subject, only: subject_t, make_subject
+   use ek_worker, only: worker_t, make_worker
    implicit none(type, external)
    private
    public :: step_size_text
@@ -42,7 +42,7 @@ contains
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error
       type(writer_t), intent(inout), optional :: writer
-      type(subject_t) :: subject
+      type(worker_t) :: worker
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -51,9 +51,9 @@ contains
       logical :: is_reached
       integer :: m, k
 
-      call make_subject(deck, study%case, subject, error)
+      call make_worker(deck, [study%case], worker, error)
       if (allocated(error)) return
-      call mount(subject%suspension, subject%case, suspension, case)
+      call mount(worker%suspension, worker%cases(1)%case, suspension, case)
       kkt = new_kkt(suspension)
       if (size(suspension%wheels) == 0) then
          call fail(error, exit_deck, deck%file//': a step-size study needs a wheel, but the deck has none')

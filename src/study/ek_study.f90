@@ -1,243 +1,137 @@
-!> Reads a study from its namelist file, with the scanner and the messages of the deck reader.
-!>
-!> `&study` defines the study, `&factor` a value of the deck that is varied, `&response` a value read from
-!> the results. The kinds of studies are those of ek_sampler.
+!> A study: its factors, responses and settings, as its file gives them (ek_study_reader).
 module ek_study
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: str, lower, quoted
-   use ek_case, only: method_names, most_increments
-   use ek_factor, only: factor_t
-   use ek_sampler, only: kind_t, kinds
-   use ek_complaint, only: place_t
-   use ek_record, only: element, place_of
-   use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, most_values, &
-      did_you_mean, is_deck_group, names_of_groups
-   use ek_reserved_name, only: is_legal_name
-   use ek_namelist, only: check_record
-   use ek_deck, only: deck_t, read_deck
-   use ek_draft, only: draft_t, complain, complain_of_all, choice, choose, has_key, where_of, line_of, text_of, &
-      texts_of, number_of, numbers_of, whole_of, value_count
+   use ek_text, only: quoted
+   use ek_checksum, only: checksum_t
+   use ek_group, only: word_length, note_length
+   use ek_distribution, only: new_distribution, from_tolerance, truncate, mean_of, uniform_kind, &
+      triangular_kind
+   use ek_sampler_kind, only: sampler_kinds, list_kind
+   use ek_sampler_settings, only: factor_t, sampler_settings_t
    implicit none(type, external)
    private
-   public :: study_t, response_t, read_study
+   public :: study_t, study_factor_t, response_t, step_size_kind, kind_names, change_names, by_value, by_delta, by_scale
+   public :: define_factor, is_given, not_given
 
-   !> A number read from the table of a run.
+   ! how a factor changes a number of the deck
+   integer, parameter :: by_value = 1       !! number = factor
+   integer, parameter :: by_delta = 2       !! number = that of the deck + factor
+   integer, parameter :: by_scale = 3       !! number = that of the deck × factor
+   character(*), parameter :: change_names(3) = [character(8) :: 'absolute', 'delta', 'scale']
+
+   ! the kinds: those of the samplers, and two names of this module
+   integer, parameter :: step_size_kind = size(sampler_kinds) + 1       !! varies the solution, not the deck
+   character(*), parameter :: kind_names(step_size_kind + 1) = [character(15) :: sampler_kinds%name, 'step_size', 'sweep']
+
+   !> A factor: numbers of the deck that change together, and the range over which they do. Units of the deck.
+   type :: study_factor_t
+      character(:), allocatable :: name
+      character(note_length), allocatable :: paths(:)      !! as in --set
+      integer :: change = by_value
+      integer :: distribution = uniform_kind
+      real(wp) :: lower, upper, nominal, tolerance, deviation    !! NaN: not given
+      real(wp), allocatable :: values(:)                   !! if allocated, the only values
+      character(:), allocatable :: where                   !! 'file:line', for messages
+   end type study_factor_t
+
+   !> A number read from the table of a case.
    type :: response_t
       character(:), allocatable :: name, column
-      character(:), allocatable :: of             !! 'value', 'slope' or 'span'
+      character(:), allocatable :: case           !! '': the case of the study
+      character(:), allocatable :: of             !! 'value', 'slope', 'span', 'min', 'max' or 'rms'
       real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
       character(:), allocatable :: over           !! column over which the slope is taken; '': the travel of the wheel
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
+      character(:), allocatable :: file           !! rms: CSV of the curve from which the column deviates
+      real(wp) :: lower, upper                    !! limits that a good design keeps; NaN: none
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
 
    !> A study.
    type :: study_t
-      character(:), allocatable :: name, title, kind, deck, case, plot
+      character(:), allocatable :: name, title, deck, case, plot
+      integer :: kind = step_size_kind
       character(:), allocatable :: end            !! step_size: the end of the case to be compared, 'from' or 'to'
       character(word_length), allocatable :: methods(:), columns(:)
       integer, allocatable :: increments(:)
-      type(factor_t), allocatable :: factors(:)
+      type(study_factor_t), allocatable :: factors(:)
       type(response_t), allocatable :: responses(:)
+      type(sampler_settings_t) :: settings        !! of the sampler, without the rows of a list
+      character(:), allocatable :: list           !! CSV of the designs
+      integer :: chunk = 0                        !! designs that are computed, stored and resumed together; 0: chosen by the engine
+      character(:), allocatable :: format         !! 'netcdf', 'csv', or '': NetCDF if this build has it
       character(:), allocatable :: where          !! 'file:line' of the &study, for messages
+      type(checksum_t) :: sum                     !! of the file without titles and notes
    end type study_t
 
 contains
 
-   !> Reads a study file; all its mistakes are reported in one error.
-   subroutine read_study(path, study, error)
-      character(*), intent(in) :: path
-      type(study_t), intent(out) :: study
-      type(error_t), allocatable, intent(out) :: error
-      type(deck_t) :: file
-      type(draft_t) :: draft
-      type(place_t) :: place
-      integer :: k, studies
+   !> A number that the file does not give.
+   pure real(wp) function not_given()
+      not_given = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function not_given
 
-      call read_deck(path, file, error, is_study=.true.)
-      if (allocated(error)) return
-      draft%file = file%file
-      draft%records = file%records(:file%used)
-      draft%complaints = file%complaints
-      draft%k = 1
-      if (file%used == 0) then
-         call fail(error, exit_deck, file%complaints%text())
-         return
-      else if (is_deck(file)) then
-         call fail(error, exit_deck, where_of(draft)//': this is a deck (&'//file%records(1)%group// &
-            '), not a study; use it with: elastokin run, check or report '//file%file// &
-            '. A study is a file with a &study, which names its deck')
+   !> Whether the file gives a number.
+   elemental logical function is_given(value)
+      real(wp), intent(in) :: value
+      is_given = ieee_is_finite(value)
+   end function is_given
+
+   !> The range of a factor for the sampler. `usual` is the nominal value of a factor that gives none: that of the deck for an
+   !> absolute factor (NaN if its paths lead to different numbers), else 0 (delta) or 1 (scale).
+   subroutine define_factor(given, kind, usual, factor, error)
+      type(study_factor_t), intent(in) :: given
+      integer, intent(in) :: kind                          !! of the sampler
+      real(wp), intent(in) :: usual
+      type(factor_t), intent(out) :: factor
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck
+      real(wp) :: nominal
+
+      nominal = given%nominal
+      if (.not. is_given(nominal) .and. given%change == by_value) nominal = usual
+      if (.not. is_given(nominal) .and. given%change == by_delta) nominal = 0.0_wp
+      if (.not. is_given(nominal) .and. given%change == by_scale) nominal = 1.0_wp
+      factor%nominal = nominal
+      if (allocated(given%values)) factor%values = given%values
+      if (allocated(given%values) .or. kind == list_kind) then
+         if (.not. is_given(nominal) .and. allocated(given%values)) factor%nominal = sum(given%values)/size(given%values)
          return
       end if
-      allocate (draft%cards(file%used))
-      allocate (study%factors(0), study%responses(0))
-      studies = 0
-      do k = 1, file%used
-         draft%k = k
-         associate (card => draft%cards(k), record => draft%records(k))
-            card%group = group_number(record%group)
-            if (card%group == 0 .or. is_deck_group(card%group)) then
-               call place_of(record, 0, place)
-               call draft%complaints%add(place, 'there is no group &'//record%group//' in a study'// &
-                  did_you_mean(record%group, names_of_groups(of_deck=.false.)))
-               card%group = 0
-               cycle
-            end if
-            card%name = element(record, 'name', 1)
-            call check_record(record, card%group, record_head(card%group, trim(card%name)), draft%complaints, card%is_good)
-         end associate
-         call check_name(draft)
-         select case (draft%cards(k)%group)
-         case (study_group)
-            studies = studies + 1
-            if (studies > 1) call complain(draft, '', 'a second &study; a file may hold only one')
-            call take_study(draft, study)
-         case (factor_group)
-            call take_factor(draft, study)
-         case (response_group)
-            call take_response(draft, study)
-         end select
-      end do
-      if (studies == 0) call complain_of_all(draft, 'there is no &study')
-      if (studies == 1 .and. draft%complaints%count() == 0) call check_whole(draft, study)
-      if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
-   end subroutine read_study
-
-   !> Whether a file contains groups of a deck and none of a study.
-   pure logical function is_deck(file)
-      type(deck_t), intent(in) :: file
-      integer :: groups(file%used), k
-
-      groups = [(group_number(file%records(k)%group), k=1, file%used)]
-      is_deck = any(groups > 0) .and. all([(groups(k) == 0 .or. is_deck_group(groups(k)), k=1, file%used)])
-   end function is_deck
-
-   !> Checks a name, which appears in paths and must be unique among the column names.
-   subroutine check_name(draft)
-      type(draft_t), intent(inout) :: draft
-      character(*), parameter :: heads(3) = [character(9) :: 'design', 'factor', 'converged']   !! always present
-      integer :: j
-
-      associate (card => draft%cards(draft%k))
-         if (card%name == '') return
-         if (.not. is_legal_name(trim(card%name))) then
-            call complain(draft, 'name', 'a name must begin with a letter and contain only letters, digits and _')
-         end if
-         if (card%group == study_group) return
-         if (any(heads == lower(card%name))) &
-            call complain(draft, 'name', 'the name is reserved for a column of the results')
-         do j = 1, draft%k - 1
-            if (draft%cards(j)%group /= factor_group .and. draft%cards(j)%group /= response_group) cycle
-            if (draft%cards(j)%name == card%name) call complain(draft, 'name', 'the name is given twice, first in '// &
-               line_of(draft, j))
-         end do
-      end associate
-   end subroutine check_name
-
-   !> &study
-   subroutine take_study(draft, study)
-      type(draft_t), intent(inout) :: draft
-      type(study_t), intent(inout) :: study
-      character(word_length) :: words(20)
-      integer :: c, m
-
-      call choice(draft, 'kind', kinds%name, c)
-      study%kind = lower(text_of(draft, 'kind'))
-      call choice(draft, 'end', [character(4) :: 'from', 'to'], c)
-      study%end = lower(text_of(draft, 'end', 'to'))
-      words = texts_of(draft, 'methods', 20)
-      study%methods = pack(words, words /= '')
-      do m = 1, size(study%methods)
-         call choose(draft, 'methods', trim(study%methods(m)), method_names, c)
-      end do
-      if (size(study%methods) == 0) study%methods = method_names
-      study%name = text_of(draft, 'name')
-      study%title = text_of(draft, 'title')
-      study%deck = text_of(draft, 'deck')
-      study%case = text_of(draft, 'case')
-      study%plot = text_of(draft, 'plot', 'plot.gp')
-      words = texts_of(draft, 'columns', 20)
-      study%columns = pack(words, words /= '')
-      study%increments = [(whole_of(draft, 'increments', 0, m), m=1, value_count(draft, 'increments'))]
-      if (any(study%increments < 1 .or. study%increments > most_increments)) call complain(draft, 'increments', &
-         'increments must be 1 to '//str(most_increments))
-      do c = 2, size(study%columns)
-         if (any(study%columns(:c - 1) == study%columns(c))) call complain(draft, 'columns', &
-            'columns: '//quoted(study%columns(c))//' is named twice')
-      end do
-      study%where = where_of(draft)
-   end subroutine take_study
-
-   !> &factor: values given one by one, or from, to, count and spacing.
-   subroutine take_factor(draft, study)
-      type(draft_t), intent(inout) :: draft
-      type(study_t), intent(inout) :: study
-      type(factor_t) :: this
-      real(wp) :: from, to
-      integer :: count, c, j
-
-      call choice(draft, 'spacing', [character(6) :: 'linear', 'log'], c, default=1)
-      this%name = text_of(draft, 'name')
-      this%path = text_of(draft, 'path')
-      if (has_key(draft, 'values')) then
-         this%values = numbers_of(draft, 'values', value_count(draft, 'values'))
-         if (has_key(draft, 'count') .or. has_key(draft, 'from') .or. has_key(draft, 'to')) &
-            call complain(draft, 'values', 'give values, or from, to and count, not both')
-      else if (has_key(draft, 'count') .and. has_key(draft, 'from') .and. has_key(draft, 'to')) then
-         count = whole_of(draft, 'count', 2)
-         from = number_of(draft, 'from', 0.0_wp)
-         to = number_of(draft, 'to', 0.0_wp)
-         if (count < 2 .or. count > most_values) then
-            call complain(draft, 'count', 'count must be 2 to 200')
-            return
-         end if
-         if (c == 2) then
-            if (.not. (from > 0.0_wp .and. to > 0.0_wp)) then
-               call complain(draft, 'spacing', 'spacing = ''log'' needs from and to above 0')
-               return
-            end if
-            this%values = [(from*(to/from)**(real(j, wp)/(count - 1)), j=0, count - 1)]
-         else
-            this%values = [(from + (to - from)*real(j, wp)/(count - 1), j=0, count - 1)]
-         end if
+      if (.not. is_given(nominal) .and. (is_given(given%tolerance) .or. is_given(given%deviation))) then
+         call complain('its paths lead to numbers of different sizes; give nominal, or change = ''delta'' or ''scale''')
+         return
+      end if
+      if (is_given(given%tolerance)) then
+         call from_tolerance(given%distribution, nominal, given%tolerance, factor%distribution, error)
       else
-         call complain(draft, '', 'needs values, or from, to and count')
+         select case (given%distribution)
+         case (uniform_kind)
+            call new_distribution(uniform_kind, given%lower, given%upper, factor%distribution, error)
+         case (triangular_kind)
+            if (.not. is_given(nominal)) nominal = 0.5_wp*(given%lower + given%upper)
+            call new_distribution(triangular_kind, given%lower, nominal, factor%distribution, error, c=given%upper)
+         case default
+            call new_distribution(given%distribution, nominal, given%deviation, factor%distribution, error)
+         end select
+      end if
+      ! beyond the bounds of a tolerance or a normal distribution nothing is left
+      if (.not. allocated(error)) call truncate(factor%distribution, error, &
+         merge(given%lower, -huge(1.0_wp), is_given(given%lower)), merge(given%upper, huge(1.0_wp), is_given(given%upper)))
+      if (allocated(error)) then
+         call complain(error%message)
          return
       end if
-      this%where = where_of(draft)
-      study%factors = [study%factors, this]
-   end subroutine take_factor
+      if (.not. is_given(factor%nominal)) factor%nominal = mean_of(factor%distribution)
 
-   !> &response
-   subroutine take_response(draft, study)
-      type(draft_t), intent(inout) :: draft
-      type(study_t), intent(inout) :: study
-      type(response_t) :: this
-      integer :: c
+   contains
 
-      call choice(draft, 'of', [character(5) :: 'value', 'slope', 'span'], c)
-      this%name = text_of(draft, 'name')
-      this%column = text_of(draft, 'column')
-      this%of = lower(text_of(draft, 'of', 'value'))
-      this%over = text_of(draft, 'over')
-      this%at = number_of(draft, 'at', 0.0_wp)
-      this%window = number_of(draft, 'window', this%window)
-      this%where = where_of(draft)
-      study%responses = [study%responses, this]
-   end subroutine take_response
+      subroutine complain(what)
+         character(*), intent(in) :: what
+         call fail(error, exit_deck, given%where//': factor '//quoted(given%name)//': '//what)
+      end subroutine complain
 
-   !> Checks that the parts of a study are consistent.
-   subroutine check_whole(draft, study)
-      type(draft_t), intent(inout) :: draft
-      type(study_t), intent(in) :: study
-      type(kind_t) :: kind
-
-      draft%k = findloc(draft%cards%group, study_group, dim=1)
-      kind = kinds(findloc(kinds%name == study%kind, .true., dim=1))
-      if (size(study%factors) < kind%least_factors .or. size(study%factors) > kind%most_factors .or. &
-         size(study%increments) < kind%least_increments) call complain(draft, '', 'kind = '//quoted(kind%name)//' needs '// &
-         trim(kind%needs))
-   end subroutine check_whole
+   end subroutine define_factor
 
 end module ek_study

@@ -1,0 +1,234 @@
+!> A chunk of a study: designs that are computed, written and resumed together, and its file.
+!>
+!> The file begins with lines of text (what it is, the study to which it belongs, its sizes), then the numbers as bytes, then the
+!> reasons of failed designs, and ends with a checksum of everything before. It is written under a temporary name and renamed when
+!> it is whole, so that a file under its own name is a finished chunk; one that is damaged afterwards is recognised and computed again.
+module ek_chunk
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t
+   use ek_text, only: str
+   use ek_checksum, only: checksum_t, include, digits_of
+   use ek_file, only: read_whole
+   use ek_writer, only: writer_t, begin_file
+   implicit none(type, external)
+   private
+   public :: chunk_t, new_chunk, add_reason, reason_of, write_chunk, read_chunk, chunk_name, design_solved, design_incomplete, &
+      design_unsolvable, design_invalid, status_names
+
+   ! how a design ended
+   integer, parameter :: design_solved = 0         !! all states converged, all responses are known
+   integer, parameter :: design_incomplete = 1     !! a state did not converge, or a response has no value
+   integer, parameter :: design_unsolvable = 2     !! a mechanism or redundant constraint, or no balance
+   integer, parameter :: design_invalid = 3        !! its numbers make no model
+   character(*), parameter :: status_names(0:3) = [character(12) :: 'solved', 'incomplete', 'not_solvable', 'invalid']
+
+   character(*), parameter :: mark = 'elastokin chunk 1'
+   character(*), parameter :: line_end = new_line('a')
+
+   !> Why a design failed.
+   type :: reason_t
+      integer :: design = 0
+      character(:), allocatable :: text
+   end type reason_t
+
+   !> The results of a chunk: designs first … first + size(status) − 1.
+   type :: chunk_t
+      integer(i8) :: first = 1
+      integer, allocatable :: status(:)           !! one of design_*, per design
+      integer, allocatable :: states(:)           !! rows in `curves` of each design
+      real(wp), allocatable :: factors(:, :)      !! (factor, design), units of the deck
+      real(wp), allocatable :: responses(:, :)    !! (response, design)
+      real(wp), allocatable :: curves(:, :)       !! (swept value and columns, state of all designs)
+      integer :: rows = 0                         !! used rows of `curves`
+      type(reason_t), allocatable :: reasons(:)
+   end type chunk_t
+
+contains
+
+   !> An empty chunk.
+   pure subroutine new_chunk(first, designs, factors, responses, columns, states, self)
+      integer(i8), intent(in) :: first
+      integer, intent(in) :: designs, factors, responses, columns
+      integer, intent(in) :: states               !! expected of a design
+      type(chunk_t), intent(inout) :: self        !! its memory is used again if it fits
+
+      self%first = first
+      if (allocated(self%status)) then
+         if (size(self%status) /= designs) deallocate (self%status, self%states, self%factors, self%responses, self%curves)
+      end if
+      if (.not. allocated(self%status)) then
+         allocate (self%status(designs), self%states(designs), self%factors(factors, designs), &
+            self%responses(responses, designs), self%curves(columns, states*designs))
+      end if
+      self%status(:) = design_solved
+      self%states(:) = 0
+      self%factors(:, :) = 0.0_wp
+      self%responses(:, :) = 0.0_wp
+      self%rows = 0
+      if (allocated(self%reasons)) deallocate (self%reasons)
+      allocate (self%reasons(0))
+   end subroutine new_chunk
+
+   !> Notes why a design of the chunk failed.
+   pure subroutine add_reason(self, design, text)
+      type(chunk_t), intent(inout) :: self
+      integer, intent(in) :: design               !! in the chunk, from 1
+      character(*), intent(in) :: text
+      type(reason_t), allocatable :: more(:)
+      integer :: n
+
+      n = size(self%reasons)
+      allocate (more(n + 1))
+      more(:n) = self%reasons
+      more(n + 1)%design = design
+      more(n + 1)%text = text
+      call move_alloc(more, self%reasons)
+   end subroutine add_reason
+
+   !> Why a design failed; '' if it did not.
+   pure function reason_of(self, design) result(text)
+      type(chunk_t), intent(in) :: self
+      integer, intent(in) :: design               !! in the chunk
+      character(:), allocatable :: text
+      integer :: k
+
+      text = ''
+      do k = 1, size(self%reasons)
+         if (self%reasons(k)%design == design) text = self%reasons(k)%text
+      end do
+   end function reason_of
+
+   !> The file name of a chunk.
+   pure function chunk_name(number) result(name)
+      integer, intent(in) :: number               !! from 1
+      character(:), allocatable :: name
+      character(*), parameter :: zeros = '000000'
+
+      name = str(number)
+      name = 'chunk_'//zeros(:max(0, len(zeros) - len(name)))//name//'.bin'
+   end function chunk_name
+
+   !> Writes a chunk: the whole file, or none.
+   subroutine write_chunk(self, path, identity, error)
+      type(chunk_t), intent(in) :: self
+      character(*), intent(in) :: path
+      character(*), intent(in) :: identity        !! of the study
+      type(error_t), allocatable, intent(out) :: error
+      type(writer_t) :: writer
+      type(checksum_t) :: sum
+      integer :: k, n
+
+      n = size(self%status)
+      call begin_file(writer, path, error)
+      if (allocated(error)) return
+      call put(mark//line_end//identity//line_end)
+      call put(line_of(self)//line_end)
+      call put(bytes_of(real([1], wp)))                     ! a machine of another byte order reads another number
+      call put(bytes_of(real(self%status, wp)))
+      call put(bytes_of(real(self%states, wp)))
+      do k = 1, n
+         call put(bytes_of(self%factors(:, k)))
+         call put(bytes_of(self%responses(:, k)))
+      end do
+      do k = 1, self%rows
+         call put(bytes_of(self%curves(:, k)))
+      end do
+      do k = 1, size(self%reasons)
+         call put(str(self%reasons(k)%design)//' '//str(len(self%reasons(k)%text))//line_end//self%reasons(k)%text//line_end)
+      end do
+      call writer%add(digits_of(sum)//line_end)
+      call writer%finish(error)
+
+   contains
+
+      subroutine put(text)
+         character(*), intent(in) :: text
+         call writer%add(text)
+         call include(sum, text)
+      end subroutine put
+
+   end subroutine write_chunk
+
+   !> '1 250 2 5 3 5500 0': first design, designs, factors, responses, columns and rows of the curves, reasons.
+   pure function line_of(self) result(text)
+      type(chunk_t), intent(in) :: self
+      character(:), allocatable :: text
+
+      text = str(int(self%first))//' '//str(size(self%status))//' '//str(size(self%factors, 1))//' '// &
+         str(size(self%responses, 1))//' '//str(size(self%curves, 1))//' '//str(self%rows)//' '//str(size(self%reasons))
+   end function line_of
+
+   !> Reads a chunk. is_good is .false. if the file is absent, damaged, or of another study.
+   subroutine read_chunk(path, identity, self, is_good)
+      character(*), intent(in) :: path, identity
+      type(chunk_t), intent(inout) :: self
+      logical, intent(out) :: is_good
+      character(:), allocatable :: text
+      type(error_t), allocatable :: error
+      type(checksum_t) :: sum
+      real(wp), allocatable :: numbers(:)
+      integer :: sizes(7), at, status, k, design, length
+
+      is_good = .false.
+      call read_whole(path, text, error)
+      if (allocated(error)) return
+      at = len(text) - 17
+      if (at < len(mark)) return
+      if (index(text, mark//line_end//identity//line_end) /= 1) return
+      call include(sum, text(:at))
+      if (text(at + 1:) /= digits_of(sum)//line_end) return
+      at = len(mark) + len(identity) + 3
+      k = index(text(at:), line_end)
+      read (text(at:at + k - 2), *, iostat=status) sizes
+      if (status /= 0) return
+      at = at + k
+      call new_chunk(int(sizes(1), i8), sizes(2), sizes(3), sizes(4), sizes(5), 0, self)
+      call take(1)
+      if (abs(numbers(1) - 1.0_wp) > 0.0_wp) return
+      call take(sizes(2))
+      self%status(:) = nint(numbers)
+      call take(sizes(2))
+      self%states(:) = nint(numbers)
+      do k = 1, sizes(2)
+         call take(sizes(3))
+         self%factors(:, k) = numbers
+         call take(sizes(4))
+         self%responses(:, k) = numbers
+      end do
+      if (size(self%curves, 2) < sizes(6)) then
+         deallocate (self%curves)
+         allocate (self%curves(sizes(5), sizes(6)))
+      end if
+      do k = 1, sizes(6)
+         call take(sizes(5))
+         self%curves(:, k) = numbers
+      end do
+      self%rows = sizes(6)
+      do k = 1, sizes(7)
+         read (text(at:at + index(text(at:), line_end) - 2), *, iostat=status) design, length
+         if (status /= 0) return
+         at = at + index(text(at:), line_end)
+         call add_reason(self, design, text(at:at + length - 1))
+         at = at + length + 1
+      end do
+      is_good = .true.
+
+   contains
+
+      !> The next numbers of the file.
+      subroutine take(count)
+         integer, intent(in) :: count
+         numbers = transfer(text(at:at + 8*count - 1), numbers, count)
+         at = at + 8*count
+      end subroutine take
+
+   end subroutine read_chunk
+
+   !> The bytes of some numbers.
+   pure function bytes_of(numbers) result(text)
+      real(wp), intent(in) :: numbers(:)
+      character(8*size(numbers)) :: text
+      text = transfer(numbers, text)
+   end function bytes_of
+
+end module ek_chunk

@@ -1,0 +1,324 @@
+!> Distributions of a factor: uniform, normal, log-normal and triangular, each with optional bounds.
+!>
+!> A distribution is read through its quantile function x = F⁻¹(u), 0 < u < 1. Bounds truncate: what lies outside is left out, and
+!> the rest is scaled up to a probability of one (they do not collect what lies outside).
+!>
+!> `nominal ± tolerance` (`from_tolerance`): the tolerance is the half-width of a uniform or triangular distribution, and three
+!> standard deviations of a normal or log-normal one, of which 99.73 % (normal) lie within the tolerance. nominal is the mean, for
+!> all kinds. All values are in the unit of the factor.
+module ek_distribution
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: str
+   use ek_normal, only: normal_density, normal_probability, normal_between, normal_quantile
+   implicit none(type, external)
+   private
+   public :: distribution_t, new_distribution, from_tolerance, truncate
+   public :: quantile, quantile_of_score, mean_of, deviation_of, ends_of
+   public :: distribution_kinds, uniform_kind, normal_kind, log_normal_kind, triangular_kind
+
+   integer, parameter :: uniform_kind = 1, normal_kind = 2, log_normal_kind = 3, triangular_kind = 4
+   character(10), parameter :: distribution_kinds(4) = [character(10) :: 'uniform', 'normal', 'log_normal', 'triangular']
+
+   real(wp), parameter :: unbounded = huge(1.0_wp)
+   real(wp), parameter :: tolerance_deviations = 3.0_wp   !! standard deviations in a tolerance
+
+   type :: distribution_t
+      private
+      integer :: kind = uniform_kind
+      real(wp) :: lower = 0.0_wp, upper = 1.0_wp       !! bounds, ∓`unbounded` where there are none
+      real(wp) :: first = 0.0_wp, last = 1.0_wp        !! ends of a triangle, before it is truncated
+      real(wp) :: center = 0.5_wp                      !! mean of x (normal) or of ln x (log-normal), peak of a triangle
+      real(wp) :: deviation = 1.0_wp                   !! of x (normal) or of ln x (log-normal)
+      real(wp) :: from = 0.0_wp, to = 1.0_wp           !! F of the bounds, untruncated; reflected: 1 − F(upper), 1 − F(lower)
+      logical :: is_reflected = .false.                !! both bounds above the median of a normal: calculated from the other end
+   end type distribution_t
+
+contains
+
+   !> A distribution from its parameters:
+   !>
+   !> | kind | a | b | c |
+   !> |---|---|---|---|
+   !> | uniform | lower end | upper end | |
+   !> | normal, log-normal | mean of x | standard deviation of x | |
+   !> | triangular | lower end | peak | upper end |
+   !>
+   !> Log-normal: ln x is normal with variance s² = ln(1 + (b/a)²) and mean ln a − s²/2 (Johnson, Kotz, Balakrishnan, Continuous
+   !> univariate distributions 1, 1994, chapter 14).
+   pure subroutine new_distribution(kind, a, b, distribution, error, c)
+      integer, intent(in) :: kind                      !! one of *_kind
+      real(wp), intent(in) :: a, b
+      type(distribution_t), intent(out) :: distribution
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: c              !! triangular
+      real(wp) :: ratio
+
+      distribution%kind = kind
+      select case (kind)
+      case (uniform_kind)
+         if (.not. a < b) call fail(error, exit_deck, 'lower must be below upper, found '//str(a)//' and '//str(b))
+         distribution%lower = a
+         distribution%upper = b
+      case (triangular_kind)
+         if (.not. (a <= b .and. b <= c .and. a < c)) call fail(error, exit_deck, 'a triangular distribution requires '// &
+            'lower <= peak <= upper and lower < upper, found '//str(a)//', '//str(b)//', '//str(c))
+         distribution%lower = a
+         distribution%first = a
+         distribution%center = b
+         distribution%last = c
+         distribution%upper = c
+      case (normal_kind, log_normal_kind)
+         distribution%lower = -unbounded
+         distribution%upper = unbounded
+         distribution%center = a
+         distribution%deviation = b
+         if (.not. b > 0.0_wp) call fail(error, exit_deck, 'the standard deviation must be positive, found '//str(b))
+         if (kind == normal_kind .or. allocated(error)) return
+         distribution%lower = 0.0_wp
+         if (.not. a > 0.0_wp) call fail(error, exit_deck, 'the mean of a log-normal distribution must be positive, found '//str(a))
+         if (allocated(error)) return
+         ratio = (b/a)**2
+         distribution%deviation = sqrt(2.0_wp*atanh(ratio/(2.0_wp + ratio)))    ! ln(1 + ratio) without loss of digits
+         distribution%center = log(a) - 0.5_wp*distribution%deviation**2
+      end select
+   end subroutine new_distribution
+
+   !> The distribution of nominal ± tolerance, see the head of the file.
+   pure subroutine from_tolerance(kind, nominal, tolerance, distribution, error)
+      integer, intent(in) :: kind
+      real(wp), intent(in) :: nominal, tolerance       !! tolerance > 0
+      type(distribution_t), intent(out) :: distribution
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. tolerance > 0.0_wp) then
+         call fail(error, exit_deck, 'the tolerance must be positive, found '//str(tolerance))
+         return
+      end if
+      select case (kind)
+      case (uniform_kind)
+         call new_distribution(kind, nominal - tolerance, nominal + tolerance, distribution, error)
+      case (triangular_kind)
+         call new_distribution(kind, nominal - tolerance, nominal, distribution, error, c=nominal + tolerance)
+      case default
+         call new_distribution(kind, nominal, tolerance/tolerance_deviations, distribution, error)
+      end select
+   end subroutine from_tolerance
+
+   !> Leaves out what lies below `lower` or above `upper`. An error if hardly anything (10⁻¹² of the whole) is left.
+   pure subroutine truncate(distribution, error, lower, upper)
+      type(distribution_t), intent(inout) :: distribution
+      type(error_t), allocatable, intent(out) :: error
+      real(wp), intent(in), optional :: lower, upper
+      real(wp) :: a, b
+
+      if (present(lower)) distribution%lower = max(distribution%lower, lower)
+      if (present(upper)) distribution%upper = min(distribution%upper, upper)
+      if (distribution%lower < distribution%upper) then
+         select case (distribution%kind)
+         case (normal_kind, log_normal_kind)
+            a = score_of(distribution, distribution%lower)
+            b = score_of(distribution, distribution%upper)
+            distribution%is_reflected = a > 0.0_wp
+            distribution%from = normal_probability(merge(-b, a, a > 0.0_wp))
+            distribution%to = normal_probability(merge(-a, b, a > 0.0_wp))
+         case (triangular_kind)
+            distribution%from = triangle_probability(distribution, distribution%lower)
+            distribution%to = triangle_probability(distribution, distribution%upper)
+         end select
+         if (distribution%to - distribution%from > 1.0e-12_wp) return
+      end if
+      call fail(error, exit_deck, 'the bounds '//str(distribution%lower)//' and '//str(distribution%upper)// &
+         ' leave nothing of the distribution')
+   end subroutine truncate
+
+   !> x below which the share u of all values lies; 0 < u < 1.
+   !>
+   !> Equation (D.7) of docs/theory/sampling.md.
+   pure real(wp) function quantile(distribution, u) result(x)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(in) :: u
+      real(wp) :: p
+
+      associate (d => distribution)
+         select case (d%kind)
+         case (normal_kind, log_normal_kind)
+            if (d%is_reflected) then
+               x = of_score(d, -normal_quantile(d%from + (1.0_wp - u)*(d%to - d%from)))
+            else
+               x = of_score(d, normal_quantile(d%from + u*(d%to - d%from)))
+            end if
+         case (triangular_kind)
+            p = d%from + u*(d%to - d%from)
+            if (p*(d%last - d%first) < d%center - d%first) then
+               x = d%first + sqrt(p*(d%last - d%first)*(d%center - d%first))
+            else
+               x = d%last - sqrt((1.0_wp - p)*(d%last - d%first)*(d%last - d%center))
+            end if
+         case default
+            x = (1.0_wp - u)*d%lower + u*d%upper
+         end select
+         x = max(d%lower, min(d%upper, x))
+      end associate
+   end function quantile
+
+   !> quantile(Φ(z)): x of a standard normal number, which correlated factors are made of.
+   pure real(wp) function quantile_of_score(distribution, z) result(x)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(in) :: z
+
+      associate (d => distribution)
+         if ((d%kind == normal_kind .or. d%kind == log_normal_kind) .and. .not. (d%from > 0.0_wp .or. d%to < 1.0_wp)) then
+            x = max(d%lower, min(d%upper, of_score(d, z)))
+         else
+            x = quantile(d, normal_probability(z))
+         end if
+      end associate
+   end function quantile_of_score
+
+   !> x of a normal or log-normal distribution without bounds at z standard deviations.
+   pure real(wp) function of_score(distribution, z) result(x)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(in) :: z
+
+      x = distribution%center + distribution%deviation*z
+      if (distribution%kind == log_normal_kind) x = exp(min(x, 700.0_wp))
+   end function of_score
+
+   !> The inverse of `of_score`; ∓`unbounded` at bounds that do not exist.
+   pure real(wp) function score_of(distribution, x) result(z)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(in) :: x
+
+      z = x
+      if (abs(x) >= unbounded) return
+      if (distribution%kind == log_normal_kind) then
+         z = -unbounded
+         if (.not. x > 0.0_wp) return
+         z = log(x)
+      end if
+      z = (z - distribution%center)/distribution%deviation
+   end function score_of
+
+   !> The share of a triangular distribution, before it is truncated, below x.
+   pure real(wp) function triangle_probability(distribution, x) result(p)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(in) :: x
+
+      associate (d => distribution)
+         if (x <= d%first) then
+            p = 0.0_wp
+         else if (x >= d%last) then
+            p = 1.0_wp
+         else if (x < d%center) then
+            p = (x - d%first)**2/((d%last - d%first)*(d%center - d%first))
+         else
+            p = 1.0_wp - (d%last - x)**2/((d%last - d%first)*(d%last - d%center))
+         end if
+      end associate
+   end function triangle_probability
+
+   !> The mean.
+   pure real(wp) function mean_of(distribution) result(mean)
+      type(distribution_t), intent(in) :: distribution
+      real(wp) :: deviation
+
+      call moments(distribution, mean, deviation)
+   end function mean_of
+
+   !> The standard deviation.
+   pure real(wp) function deviation_of(distribution) result(deviation)
+      type(distribution_t), intent(in) :: distribution
+      real(wp) :: mean
+
+      call moments(distribution, mean, deviation)
+   end function deviation_of
+
+   !> Mean and standard deviation.
+   !>
+   !> Truncated normal, between the scores α and β, Z = Φ(β) − Φ(α): mean μ + σ m, m = (φ(α) − φ(β))/Z, and
+   !> variance σ²(1 + (α φ(α) − β φ(β))/Z − m²). Truncated log-normal: E xʳ = exp(rμ + r²σ²/2) (Φ(β − rσ) − Φ(α − rσ))/Z.
+   !> Both: Johnson, Kotz, Balakrishnan (1994), sections 13.10.1 and 14.
+   !>
+   !> Equation (D.8) of docs/theory/sampling.md.
+   pure subroutine moments(distribution, mean, deviation)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(out) :: mean, deviation
+      real(wp) :: alpha, beta, share, shift, s, first, second
+
+      associate (d => distribution)
+         s = d%deviation
+         alpha = score_of(d, d%lower)
+         beta = score_of(d, d%upper)
+         share = normal_between(alpha, beta)
+         select case (d%kind)
+         case (normal_kind)
+            shift = (normal_density(alpha) - normal_density(beta))/share
+            mean = d%center + s*shift
+            deviation = s*sqrt(max(0.0_wp, 1.0_wp + (weighted(alpha) - weighted(beta))/share - shift**2))
+         case (log_normal_kind)
+            first = normal_between(alpha - s, beta - s)/share
+            second = normal_between(alpha - 2*s, beta - 2*s)/share
+            mean = exp(d%center + 0.5_wp*s**2)*first
+            ! (e^(s²) − 1) first² + e^(s²) (second − first²), the first difference without loss of digits
+            deviation = exp(d%center + 0.5_wp*s**2)*sqrt(max(0.0_wp, 2.0_wp*exp(0.5_wp*s**2)*sinh(0.5_wp*s**2)*first**2 + &
+               exp(s**2)*(second - first**2)))
+         case (triangular_kind)
+            call triangle_moments(d, mean, deviation)
+         case default
+            mean = 0.5_wp*d%lower + 0.5_wp*d%upper
+            deviation = (d%upper - d%lower)/sqrt(12.0_wp)
+         end select
+      end associate
+   end subroutine moments
+
+   !> z φ(z), zero where there is no bound.
+   pure real(wp) function weighted(z)
+      real(wp), intent(in) :: z
+
+      weighted = 0.0_wp
+      if (abs(z) < unbounded) weighted = z*normal_density(z)
+   end function weighted
+
+   !> Mean and standard deviation of a truncated triangle: two Gauss points per side, exact for its cubic integrands.
+   pure subroutine triangle_moments(distribution, mean, deviation)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(out) :: mean, deviation
+      real(wp), parameter :: gauss = 0.57735026918962576451_wp     ! 1/√3
+      real(wp) :: x(4), weight(4), ends(3)
+      integer :: k
+
+      associate (d => distribution)
+         ends = [d%lower, max(d%lower, min(d%upper, d%center)), d%upper]
+         do k = 1, 2
+            x(2*k - 1:2*k) = 0.5_wp*(ends(k) + ends(k + 1)) + 0.5_wp*(ends(k + 1) - ends(k))*[-gauss, gauss]
+            weight(2*k - 1:2*k) = ends(k + 1) - ends(k)
+         end do
+         where (weight > 0.0_wp .and. x < d%center)
+            weight = weight*(x - d%first)/max(d%center - d%first, tiny(1.0_wp))
+         elsewhere (weight > 0.0_wp)
+            weight = weight*(d%last - x)/max(d%last - d%center, tiny(1.0_wp))
+         end where
+         mean = sum(weight*x)/sum(weight)
+         deviation = sqrt(sum(weight*(x - mean)**2)/sum(weight))
+      end associate
+   end subroutine triangle_moments
+
+   !> The range that grids, tornados and Morris' method explore: the bounds, and on a side without one, three standard deviations
+   !> from the mean (of ln x for a log-normal), so that a normal `nominal ± tolerance` is explored over its tolerance.
+   pure subroutine ends_of(distribution, low, high)
+      type(distribution_t), intent(in) :: distribution
+      real(wp), intent(out) :: low, high
+      real(wp) :: alpha, beta
+
+      low = distribution%lower
+      high = distribution%upper
+      if (distribution%kind /= normal_kind .and. distribution%kind /= log_normal_kind) return
+      alpha = score_of(distribution, low)
+      beta = score_of(distribution, high)
+      ! bounds further out are not the range; of a tail beyond three deviations, three more
+      if (alpha < -tolerance_deviations) low = of_score(distribution, min(-tolerance_deviations, max(alpha, beta - 3.0_wp)))
+      if (beta > tolerance_deviations) high = of_score(distribution, max(tolerance_deviations, min(beta, alpha + 3.0_wp)))
+   end subroutine ends_of
+
+end module ek_distribution

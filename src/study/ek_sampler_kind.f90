@@ -1,0 +1,31 @@
+!> The kinds of samplers: their names in a deck and what each requires. ek_sampler describes and computes them.
+module ek_sampler_kind
+   implicit none(type, external)
+   private
+   public :: sampler_kind_t, sampler_kinds
+   public :: grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, sobol_kind, saltelli_kind, monte_carlo_kind
+   public :: morris_kind
+
+   integer, parameter :: grid_kind = 1, one_at_a_time_kind = 2, list_kind = 3, latin_hypercube_kind = 4, sobol_kind = 5, &
+      saltelli_kind = 6, monte_carlo_kind = 7, morris_kind = 8
+
+   !> What a deck may give for a kind.
+   type :: sampler_kind_t
+      character(15) :: name
+      logical :: has_size          !! n: designs, base points or trajectories
+      logical :: has_levels        !! levels of a factor without values
+      logical :: has_seed
+      logical :: has_correlations
+   end type sampler_kind_t
+
+   type(sampler_kind_t), parameter :: sampler_kinds(8) = [ &
+      sampler_kind_t('grid', .false., .true., .false., .false.), &
+      sampler_kind_t('one_at_a_time', .false., .true., .false., .false.), &
+      sampler_kind_t('list', .false., .false., .false., .false.), &
+      sampler_kind_t('latin_hypercube', .true., .false., .true., .true.), &
+      sampler_kind_t('sobol', .true., .false., .true., .true.), &
+      sampler_kind_t('saltelli', .true., .false., .true., .false.), &
+      sampler_kind_t('monte_carlo', .true., .false., .true., .true.), &
+      sampler_kind_t('morris', .true., .true., .true., .false.)]
+
+end module ek_sampler_kind

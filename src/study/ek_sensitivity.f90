@@ -1,0 +1,201 @@
+!> Sensitivity of a response to the factors of a study: Sobol indices, Morris' elementary effects, the bars of a tornado.
+!>
+!> `responses` holds one number per design, in the order of the design numbers of the sampler. A design without a response (failed:
+!> not a number or infinite) leaves out the row, effect or bar that needs it; `used` counts what is left.
+module ek_sensitivity
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
+   use ek_kinds, only: wp, i8
+   use ek_contract, only: are_checked, require
+   use ek_sampler, only: sampler_t, factors_of, designs_of, is_kind, changed_factor, morris_change
+   use ek_sampler_kind, only: morris_kind, one_at_a_time_kind
+   use ek_sample_statistics, only: mean_and_deviation
+   implicit none(type, external)
+   private
+   public :: sobol_indices_t, sobol_indices, morris_effects_t, morris_effects, tornado_t, tornado
+
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+
+   !> Shares of the variance of a response. Not a number where fewer than two rows are left, or the response is constant.
+   type :: sobol_indices_t
+      integer :: used = 0                                    !! rows: base points with all k + 2 responses
+      real(wp), allocatable :: first(:), total(:)            !! index of each factor
+      real(wp), allocatable :: first_error(:), total_error(:)   !! half-width of the 95 % confidence interval
+   end type sobol_indices_t
+
+   !> Change of the response per full range of a factor, by trajectory.
+   type :: morris_effects_t
+      integer, allocatable :: used(:)            !! effects of each factor
+      real(wp), allocatable :: mean(:)           !! μ
+      real(wp), allocatable :: mean_size(:)      !! μ*, mean of the absolute values
+      real(wp), allocatable :: deviation(:)      !! σ, with n − 1: 0 for a factor that acts linearly and alone
+   end type morris_effects_t
+
+   !> The smallest and the largest response when one factor changes alone, the nominal design included.
+   type :: tornado_t
+      real(wp) :: nominal = 0.0_wp
+      integer, allocatable :: used(:)            !! designs of each factor with a response
+      real(wp), allocatable :: lowest(:), highest(:)
+   end type tornado_t
+
+contains
+
+   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in its order (for each row
+   !> A, AB₁ … AB_k, B, as SALib without second order writes it). With f_A, f_B, f_i the responses of row r in the blocks
+   !> A, B and AB_i (A with factor i from B), less the mean of all, and V the variance of f_A and f_B together:
+   !>
+   !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
+   !>     T_i = ⟨(f_A − f_i)²⟩ / (2 V)          Jansen, Comput. Phys. Commun. 117 (1999) 35–43; table 2 (f) of the former
+   !>
+   !> Confidence by the jackknife: with θ_r the index without row r, the standard error is √((n − 1)/n Σ (θ_r − θ̄)²) (B. Efron,
+   !> C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random ones, the interval is too wide.
+   !>
+   !> Equation (D.10) of docs/theory/sampling.md.
+   subroutine sobol_indices(factors, responses, indices)
+      integer, intent(in) :: factors                         !! k
+      real(wp), intent(in) :: responses(:)
+      type(sobol_indices_t), intent(out) :: indices
+      real(wp), allocatable :: f(:, :)                       ! (0: A, i: AB_i, k + 1: B; row)
+      real(wp) :: nan
+      integer :: k, i, r, first, last
+
+      k = factors
+      if (are_checked) call require(mod(size(responses), k + 2) == 0, 'sobol_indices: responses of another design')
+      nan = ieee_value(nan, ieee_quiet_nan)
+      allocate (indices%first(k), indices%total(k), indices%first_error(k), indices%total_error(k))
+      allocate (f(0:k + 1, size(responses)/(k + 2)))
+      do r = 1, size(f, 2)
+         last = r*(k + 2)
+         first = last - k - 1
+         if (.not. all(ieee_is_finite(responses(first:last)))) cycle
+         indices%used = indices%used + 1
+         f(:, indices%used) = responses(first:last)
+      end do
+      ! the products of S_i then carry no constant
+      if (indices%used > 0) f(:, :indices%used) = f(:, :indices%used) - sum(f(:, :indices%used))/size(f(:, :indices%used))
+      do i = 1, k
+         indices%first(i) = nan
+         indices%total(i) = nan
+         indices%first_error(i) = nan
+         indices%total_error(i) = nan
+         if (indices%used < 2) cycle
+         associate (a => f(0, :indices%used), b => f(k + 1, :indices%used), ab => f(i, :indices%used))
+            call estimate(a, b, b*(ab - a), indices%first(i), indices%first_error(i))
+            call estimate(a, b, 0.5_wp*(a - ab)**2, indices%total(i), indices%total_error(i))
+         end associate
+      end do
+   end subroutine sobol_indices
+
+   !> ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
+   !>
+   !> Equation (D.11) of docs/theory/sampling.md.
+   pure subroutine estimate(a, b, share, index, error)
+      real(wp), intent(in) :: a(:), b(:), share(:)           !! one number per row, two rows or more
+      real(wp), intent(inout) :: index
+      real(wp), intent(inout) :: error                       !! half of the 95 % interval
+      real(wp) :: sums(3), mean, square, without
+      integer :: n, r
+
+      n = size(a)
+      sums = [sum(share), sum(a**2 + b**2), sum(a + b)]
+      if (.not. variance(sums, n) > 0.0_wp) return
+      index = sums(1)/n/variance(sums, n)
+      mean = 0.0_wp
+      square = 0.0_wp
+      do r = 1, n
+         without = without_row(r)
+         mean = mean + (without - index)/n
+         square = square + (without - index)**2
+      end do
+      error = normal_95*sqrt(max(0.0_wp, (n - 1.0_wp)/n*(square - n*mean**2)))
+
+   contains
+
+      !> The index without one row.
+      pure real(wp) function without_row(r) result(value)
+         integer, intent(in) :: r
+         real(wp) :: rest(3)
+
+         rest = sums - [share(r), a(r)**2 + b(r)**2, a(r) + b(r)]
+         value = 0.0_wp
+         if (variance(rest, n - 1) > 0.0_wp) value = rest(1)/(n - 1)/variance(rest, n - 1)
+      end function without_row
+
+   end subroutine estimate
+
+   !> V of n rows from Σ(a² + b²) and Σ(a + b).
+   pure real(wp) function variance(sums, n)
+      real(wp), intent(in) :: sums(3)
+      integer, intent(in) :: n
+
+      variance = sums(2)/(2.0_wp*n) - (sums(3)/(2.0_wp*n))**2
+   end function variance
+
+   !> Elementary effects: the response changes by d_r = (f(x + Δ range_i e_i) − f(x))/Δ at a step of factor i on trajectory r;
+   !>
+   !>     μ_i = ⟨d⟩,   μ*_i = ⟨|d|⟩,   σ_i² = Σ (d − μ_i)²/(n − 1)
+   !>
+   !> Sources: M. D. Morris, Technometrics 33 (1991) 161–174; μ*: F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22
+   !> (2007) 1509–1518. Not a number for a factor without effects.
+   !>
+   !> Equation (D.12) of docs/theory/sampling.md.
+   subroutine morris_effects(sampler, responses, effects)
+      type(sampler_t), intent(in) :: sampler                 !! of kind morris
+      real(wp), intent(in) :: responses(:)
+      type(morris_effects_t), intent(out) :: effects
+      real(wp), allocatable :: d(:, :)                       ! (effect, factor)
+      integer :: k, i, n
+      integer(i8) :: design
+
+      if (are_checked) call require(is_kind(sampler, morris_kind) .and. size(responses, kind=i8) == designs_of(sampler), &
+         'morris_effects: responses of another sampler')
+      k = factors_of(sampler)
+      allocate (effects%used(k), effects%mean(k), effects%mean_size(k), effects%deviation(k), d(size(responses)/(k + 1), k))
+      effects%used(:) = 0
+      do design = 2, size(responses)
+         i = changed_factor(sampler, design)
+         if (i == 0) cycle
+         if (.not. all(ieee_is_finite(responses(design - 1:design)))) cycle
+         effects%used(i) = effects%used(i) + 1
+         d(effects%used(i), i) = (responses(design) - responses(design - 1))/morris_change(sampler, design, i)
+      end do
+      do i = 1, k
+         n = effects%used(i)
+         effects%mean(i) = ieee_value(1.0_wp, ieee_quiet_nan)
+         effects%mean_size(i) = effects%mean(i)
+         effects%deviation(i) = effects%mean(i)
+         if (n == 0) cycle
+         call mean_and_deviation(d(:n, i), effects%mean(i), effects%deviation(i))
+         effects%mean_size(i) = sum(abs(d(:n, i)))/n
+      end do
+   end subroutine morris_effects
+
+   !> The range of the response when each factor changes alone.
+   subroutine tornado(sampler, responses, bars)
+      type(sampler_t), intent(in) :: sampler                 !! of kind one_at_a_time
+      real(wp), intent(in) :: responses(:)
+      type(tornado_t), intent(out) :: bars
+      integer(i8) :: design
+      integer :: i, k
+
+      if (are_checked) call require(is_kind(sampler, one_at_a_time_kind) .and. size(responses, kind=i8) == designs_of(sampler), &
+         'tornado: responses of another sampler')
+      k = factors_of(sampler)
+      allocate (bars%used(k), bars%lowest(k), bars%highest(k))
+      bars%nominal = responses(1)
+      bars%used(:) = 0
+      bars%lowest(:) = responses(1)
+      bars%highest(:) = responses(1)
+      do design = 2, size(responses)
+         i = changed_factor(sampler, design)
+         if (.not. ieee_is_finite(responses(design))) cycle
+         bars%used(i) = bars%used(i) + 1
+         if (.not. ieee_is_finite(bars%lowest(i))) then      ! the nominal design failed
+            bars%lowest(i) = responses(design)
+            bars%highest(i) = responses(design)
+         end if
+         bars%lowest(i) = min(bars%lowest(i), responses(design))
+         bars%highest(i) = max(bars%highest(i), responses(design))
+      end do
+   end subroutine tornado
+
+end module ek_sensitivity

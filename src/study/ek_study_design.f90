@@ -1,0 +1,382 @@
+!> Solves one design of a study: the factors become a model, its cases are solved, and the observations become a row of responses
+!> and the rows of the curves.
+!>
+!> What a design costs is numbers only. Where words are needed (a design that fails, one that must be read from the text) they are
+!> made by one thread at a time: gfortran keeps the length of a text that a function returns in one place for all threads.
+module ek_study_design
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
+   use ek_text, only: str, quoted
+   use ek_deck, only: deck_t, set_value
+   use ek_parameter, only: find_parameters
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
+   use ek_sweep_table, only: sweep_columns
+   use ek_table, only: table_t, column_index, name_length
+   use ek_study, only: study_t, by_delta, by_scale, not_given
+   use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
+   use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
+   use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
+   implicit none(type, external)
+   private
+   public :: designer_t, new_designer, solve_design, label_of, shortest
+
+   !> What one thread keeps from design to design.
+   type :: designer_t
+      type(worker_t) :: worker
+      type(factor_paths_t), allocatable :: paths(:)        !! of the factors
+      character(name_length), allocatable :: case_names(:) !! of the cases that are solved; '': the first of the deck
+      type(solve_options_t), allocatable :: options(:)     !! of each case: its columns
+      type(case_result_t), allocatable :: results(:)       !! of each case, of the present design
+      type(reading_t), allocatable :: readings(:)
+      integer, allocatable :: case_of(:)                   !! of each response
+      integer :: states = 0                                !! of the first case, in the first design
+      character(name_length), allocatable :: units(:)      !! of the responses, '' if unknown
+   end type designer_t
+
+contains
+
+   !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
+   subroutine new_designer(study, deck, home, designer, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: home                     !! folder of the study with its slash
+      type(designer_t), intent(out) :: designer
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the study
+      integer :: k
+
+      call list_cases(study, designer)
+      call check_paths(study, deck, error)
+      if (allocated(error)) return
+      call make_worker(deck, designer%case_names, designer%worker, error)
+      if (allocated(error)) return
+      allocate (designer%paths(size(study%factors)))
+      do k = 1, size(study%factors)
+         call find_paths(study, k, designer)
+      end do
+      allocate (designer%options(size(designer%case_names)), designer%results(size(designer%case_names)))
+      do k = 1, size(designer%case_names)
+         call list_columns(study, designer, k)
+         designer%options(k)%has_remarks = .false.
+         call solve_case(designer%worker%suspension, designer%worker%cases(k)%case, designer%options(k), designer%results(k), &
+            observer=designer%worker%cases(k)%observer)
+         if (.not. designer%results(k)%is_run()) call failure_of(designer%results(k), error)
+         if (allocated(error)) return
+      end do
+      designer%states = size(designer%results(1)%table%values, 2)
+      call check_columns(study, home, designer, error)
+   end subroutine new_designer
+
+   !> The cases: that of the study first, then those of its responses.
+   subroutine list_cases(study, designer)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(inout) :: designer
+      integer :: k
+
+      designer%case_names = [character(name_length) :: study%case]
+      allocate (designer%case_of(size(study%responses)))
+      do k = 1, size(study%responses)
+         if (study%responses(k)%case /= '' .and. .not. any(designer%case_names == study%responses(k)%case)) &
+            designer%case_names = [designer%case_names, [character(name_length) :: study%responses(k)%case]]
+         designer%case_of(k) = 1
+         if (study%responses(k)%case /= '') &
+            designer%case_of(k) = findloc(designer%case_names == study%responses(k)%case, .true., dim=1)
+      end do
+   end subroutine list_cases
+
+   !> The columns that are computed of a case.
+   subroutine list_columns(study, designer, case)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(inout) :: designer
+      integer, intent(in) :: case
+      character(name_length), allocatable :: wanted(:)
+      integer :: k
+
+      allocate (wanted(merge(size(study%columns), 0, case == 1)))
+      if (case == 1) wanted(:) = study%columns
+      do k = 1, size(study%responses)
+         if (designer%case_of(k) == case) call needed_columns(study%responses(k), wanted)
+      end do
+      designer%options(case)%columns = wanted
+   end subroutine list_columns
+
+   !> Every path must lead to something in the deck that takes a number.
+   subroutine check_paths(study, deck, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: given = '--set '
+      type(deck_t) :: changed
+      type(error_t), allocatable :: fault
+      type(message_list_t) :: mistakes
+      integer :: f, k
+
+      do f = 1, size(study%factors)
+         associate (factor => study%factors(f))
+            do k = 1, size(factor%paths)
+               changed = deck
+               call set_value(changed, trim(factor%paths(k)), setting_of(factor%change, 1.0_wp), fault)
+               if (.not. allocated(fault)) cycle
+               ! a mistake of the study, not of the command line
+               if (index(fault%message, given) == 1) fault%message = factor%where//': factor '//quoted(factor%name)//': '// &
+                  fault%message(len(given) + 1:)
+               call mistakes%add(fault%message)
+            end do
+         end associate
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine check_paths
+
+   !> The numbers of the deck to which the paths of a factor lead; none if one of them is no number of the design space.
+   subroutine find_paths(study, f, designer)
+      type(study_t), intent(in) :: study
+      integer, intent(in) :: f
+      type(designer_t), intent(inout) :: designer
+      type(factor_paths_t) :: one
+      integer :: k
+
+      associate (factor => study%factors(f), paths => designer%paths(f), design => designer%worker%design)
+         paths%change = factor%change
+         allocate (paths%found(0))
+         do k = 1, size(factor%paths)
+            call find_parameters(design%parameters, design%records, trim(factor%paths(k)), one%found)
+            if (size(one%found) == 0) then
+               deallocate (paths%found)
+               allocate (paths%found(0))
+               return
+            end if
+            paths%found = [paths%found, one%found]
+         end do
+      end associate
+   end subroutine find_paths
+
+   !> Checks that all columns named by the study are in the tables of the first design and that its responses can be read.
+   subroutine check_columns(study, home, designer, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: home
+      type(designer_t), intent(inout) :: designer
+      type(error_t), allocatable, intent(out) :: error   !! exit_deck, every mistake
+      type(message_list_t) :: mistakes
+      character(name_length), allocatable :: heads(:)    ! all columns of the results
+      character(:), allocatable :: message
+      integer :: j, k
+
+      associate (first => designer%results(1))
+         call sweep_columns(first%suspension, first%case, heads)
+         do k = 1, size(study%columns)
+            if (column_index(first%table, trim(study%columns(k))) == 0) &
+               call mistakes%add(study%where//': columns: '//no_column(trim(study%columns(k)), heads))
+         end do
+      end associate
+      allocate (designer%readings(size(study%responses)))
+      do k = 1, size(study%responses)
+         associate (result => designer%results(designer%case_of(k)), readings => designer%readings)
+            call sweep_columns(result%suspension, result%case, heads)
+            call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home)
+            if (message /= '') call mistakes%add(message)
+            do j = 1, k - 1
+               if (readings(j)%head == readings(k)%head) call mistakes%add(readings(k)%asked%where//': response '// &
+                  quoted(readings(k)%asked%name)//': its column would have the name '//quoted(readings(k)%head)// &
+                  ', like that of response '//quoted(readings(j)%asked%name)//'; rename one')
+            end do
+         end associate
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine check_columns
+
+   !> Solves design k of a chunk, whose factors the chunk has, and fills its row.
+   subroutine solve_design(study, deck, designer, k, chunk)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(designer_t), intent(inout) :: designer
+      integer, intent(in) :: k
+      type(chunk_t), intent(inout) :: chunk
+      logical :: is_done
+      integer :: faults(size(designer%readings)), case
+
+      chunk%responses(:, k) = not_given()
+      call change_design(designer%paths, chunk%factors(:, k), designer%worker, is_done)
+      if (.not. is_done) then
+         !$omp critical (ek_words)
+         call solve_from_text(study, deck, designer, k, chunk)
+         !$omp end critical (ek_words)
+         return
+      end if
+      do case = 1, size(designer%options)
+         call solve_case(designer%worker%suspension, designer%worker%cases(case)%case, designer%options(case), &
+            designer%results(case), observer=designer%worker%cases(case)%observer)
+      end do
+      call take_row(study, designer, designer%results, k, chunk, faults)
+      if (chunk%status(k) == design_solved) return
+      !$omp critical (ek_words)
+      call explain(designer, designer%results, k, faults, chunk)
+      !$omp end critical (ek_words)
+   end subroutine solve_design
+
+   !> Solves a design that is read from the deck with its factors as settings, with a worker of its own.
+   subroutine solve_from_text(study, deck, designer, k, chunk)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(designer_t), intent(in) :: designer
+      integer, intent(in) :: k
+      type(chunk_t), intent(inout) :: chunk
+      type(deck_t) :: changed
+      type(worker_t) :: worker
+      type(case_result_t) :: results(size(designer%options))
+      type(error_t), allocatable :: error
+      integer :: faults(size(designer%readings)), f, j, case
+
+      changed = deck
+      do f = 1, size(study%factors)
+         do j = 1, size(study%factors(f)%paths)
+            if (.not. allocated(error)) call set_value(changed, trim(study%factors(f)%paths(j)), &
+               setting_of(study%factors(f)%change, chunk%factors(f, k)), error)
+         end do
+      end do
+      if (.not. allocated(error)) call make_worker(changed, designer%case_names, worker, error)
+      if (allocated(error)) then
+         chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)
+         call add_reason(chunk, k, error%message)
+         return
+      end if
+      do case = 1, size(results)
+         call solve_case(worker%suspension, worker%cases(case)%case, designer%options(case), results(case), &
+            observer=worker%cases(case)%observer)
+      end do
+      call take_row(study, designer, results, k, chunk, faults)
+      if (chunk%status(k) /= design_solved) call explain(designer, results, k, faults, chunk)
+   end subroutine solve_from_text
+
+   !> The responses and the curves of a design. A response of a case that lost a state has no value.
+   subroutine take_row(study, designer, results, k, chunk, faults)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(case_result_t), intent(in) :: results(:)
+      integer, intent(in) :: k
+      type(chunk_t), intent(inout) :: chunk
+      integer, intent(out) :: faults(:)           !! of each response, see read_response
+      integer :: j
+
+      do j = 1, size(results)
+         if (.not. is_whole(results(j))) chunk%status(k) = design_incomplete
+      end do
+      faults = 0
+      do j = 1, size(designer%readings)
+         associate (result => results(designer%case_of(j)))
+            if (.not. is_whole(result)) cycle
+            call read_response(designer%readings(j), result%table, chunk%responses(j, k), faults(j))
+            if (.not. ieee_is_finite(chunk%responses(j, k))) chunk%status(k) = design_incomplete
+         end associate
+      end do
+      if (results(1)%is_run()) call take_curves(study, results(1)%table, k, chunk)
+   end subroutine take_row
+
+   !> Whether all states of a case converged.
+   pure logical function is_whole(result)
+      type(case_result_t), intent(in) :: result
+
+      is_whole = result%is_run()
+      if (is_whole) is_whole = all(result%path%failure%state == 0)
+   end function is_whole
+
+   !> Appends the states of a design; columns that its model does not define are nan.
+   pure subroutine take_curves(study, table, k, chunk)
+      type(study_t), intent(in) :: study
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: k
+      type(chunk_t), intent(inout) :: chunk
+      real(wp), allocatable :: more(:, :)
+      integer :: place, j, rows
+
+      if (size(study%columns) == 0) return
+      rows = size(table%values, 2)
+      if (chunk%rows + rows > size(chunk%curves, 2)) then
+         allocate (more(size(chunk%curves, 1), 2*(chunk%rows + rows)))
+         more(:, :chunk%rows) = chunk%curves(:, :chunk%rows)
+         call move_alloc(more, chunk%curves)
+      end if
+      associate (curves => chunk%curves(:, chunk%rows + 1:chunk%rows + rows))
+         curves(1, :) = table%values(2, :)
+         do j = 1, size(study%columns)
+            place = column_index(table, study%columns(j))
+            if (place > 0) curves(1 + j, :) = table%values(place, :)
+            if (place == 0) curves(1 + j, :) = not_given()
+         end do
+      end associate
+      chunk%states(k) = rows
+      chunk%rows = chunk%rows + rows
+   end subroutine take_curves
+
+   !> Says why a design is incomplete.
+   subroutine explain(designer, results, k, faults, chunk)
+      type(designer_t), intent(in) :: designer
+      type(case_result_t), intent(in) :: results(:)
+      integer, intent(in) :: k, faults(:)
+      type(chunk_t), intent(inout) :: chunk
+      type(message_list_t) :: words
+      type(error_t), allocatable :: error
+      integer :: j, side
+
+      do j = 1, size(results)
+         if (.not. results(j)%is_run()) then
+            call failure_of(results(j), error)
+            call words%add(error%message)
+            cycle
+         end if
+         associate (path => results(j)%path)
+            do side = 1, 2
+               if (path%failure(side)%state > 0) call words%add('case '//quoted(results(j)%case%name)// &
+                  ': no equilibrium at factor '//str(path%value(path%failure(side)%state)/results(j)%case%unit))
+            end do
+         end associate
+      end do
+      do j = 1, size(faults)
+         if (faults(j) /= 0) call words%add('response '//quoted(designer%readings(j)%asked%name)//': '// &
+            fault_text(designer%readings(j), results(designer%case_of(j))%table, faults(j)))
+      end do
+      if (words%count() == 0) call words%add('a response has no value')
+      call add_reason(chunk, k, words%text())
+   end subroutine explain
+
+   !> The setting of a factor, as --set takes it behind the path and =: 5, +5 or *5.
+   function setting_of(change, value) result(text)
+      integer, intent(in) :: change
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+
+      text = shortest(value)
+      if (change == by_delta) text = '+'//text
+      if (change == by_scale) text = '*'//text
+   end function setting_of
+
+   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that make a design from the deck.
+   function label_of(study, values) result(label)
+      type(study_t), intent(in) :: study
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: label
+      integer :: f, j
+
+      label = ''
+      do f = 1, size(values)
+         do j = 1, size(study%factors(f)%paths)
+            label = label//' '//trim(study%factors(f)%paths(j))//'='//setting_of(study%factors(f)%change, values(f))
+         end do
+      end do
+      label = label(2:)
+   end function label_of
+
+   !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
+   function shortest(value) result(text)
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+      real(wp) :: again
+      integer :: digits, status
+
+      do digits = 9, 17
+         text = str(value, digits)
+         read (text, *, iostat=status) again
+         if (status == 0 .and. abs(again - value) <= 0.0_wp) return
+      end do
+   end function shortest
+
+end module ek_study_design

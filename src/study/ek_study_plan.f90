@@ -1,0 +1,144 @@
+!> The plan of a study: the designs by number, how they are divided into chunks, and what identifies them.
+module ek_study_plan
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, fail, exit_deck, exit_file
+   use ek_text, only: str, quoted
+   use ek_checksum, only: checksum_t, include, digits_of
+   use ek_version, only: version
+   use ek_csv, only: read_csv
+   use ek_table, only: table_t, column_index, name_length
+   use ek_deck, only: deck_t, deck_checksum
+   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of
+   use ek_sampler_kind, only: list_kind
+   use ek_sampler_settings, only: sampler_settings_t, factor_t
+   use ek_study, only: study_t, define_factor
+   use ek_worker, only: deck_value
+   use ek_study_design, only: designer_t
+   use ek_chunk, only: chunk_t, new_chunk
+   implicit none(type, external)
+   private
+   public :: study_plan_t, new_plan, begin_chunk
+
+   integer, parameter :: most_designs = 2000000000
+   integer, parameter :: usual_chunks = 400       !! of a large study
+   integer, parameter :: least_chunk = 50, most_chunk = 5000       !! designs
+
+   !> What all workers of a study share.
+   type :: study_plan_t
+      type(sampler_t) :: sampler
+      integer :: designs = 0, chunk = 1, chunks = 0          !! designs in all, per chunk; chunks
+      character(name_length), allocatable :: heads(:)        !! of the responses
+      character(name_length), allocatable :: units(:)        !! of the responses
+      integer :: columns = 0                                 !! of a row of the curves: the swept value and those of the study
+      integer :: states = 0                                  !! of a design, usually
+      character(:), allocatable :: deck_sum                  !! checksum of the deck
+      character(:), allocatable :: identity                  !! two studies with the same one have the same results
+   end type study_plan_t
+
+contains
+
+   !> Makes the plan, from a designer that has the design of the deck.
+   subroutine new_plan(study, deck, home, designer, plan, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: home                     !! folder of the study with its slash
+      type(designer_t), intent(in) :: designer
+      type(study_plan_t), intent(out) :: plan
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
+      type(sampler_settings_t) :: settings
+      type(factor_t) :: factors(size(study%factors))
+      type(checksum_t) :: sum
+      integer :: f, k
+
+      settings = study%settings
+      if (study%kind == list_kind) call read_list(study, home, settings%rows, error)
+      do f = 1, size(factors)
+         if (.not. allocated(error)) call define_factor(study%factors(f), study%kind, &
+            deck_value(designer%worker, designer%paths(f)), factors(f), error)
+      end do
+      if (.not. allocated(error)) then
+         call new_sampler(settings, factors, plan%sampler, error)
+         if (allocated(error)) error%message = study%where//': '//error%message
+      end if
+      if (allocated(error)) return
+      if (designs_of(plan%sampler) > most_designs) then
+         call fail(error, exit_deck, study%where//': the study has more than '//str(most_designs)//' designs')
+         return
+      end if
+      plan%designs = int(designs_of(plan%sampler))
+      plan%chunk = study%chunk
+      if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, least_chunk), most_chunk)
+      plan%chunks = (plan%designs + plan%chunk - 1)/plan%chunk
+      plan%columns = merge(size(study%columns) + 1, 0, size(study%columns) > 0)
+      plan%states = designer%states
+      allocate (plan%heads(size(designer%readings)))
+      do k = 1, size(plan%heads)
+         plan%heads(k) = designer%readings(k)%head
+      end do
+      plan%deck_sum = deck_checksum(deck)
+      sum = study%sum
+      call include(sum, version//' '//plan%deck_sum//' '//str(plan%designs)//' '//str(plan%chunk))
+      call include_numbers(settings%rows)
+      do k = 1, size(designer%readings)
+         call include_numbers(designer%readings(k)%curve)
+      end do
+      plan%identity = digits_of(sum)
+
+   contains
+
+      !> Files beside the study.
+      subroutine include_numbers(numbers)
+         real(wp), allocatable, intent(in) :: numbers(:, :)
+         integer :: j
+         if (.not. allocated(numbers)) return
+         do j = 1, size(numbers, 2)
+            call include(sum, transfer(numbers(:, j), repeat(' ', 8*size(numbers, 1))))
+         end do
+      end subroutine include_numbers
+
+   end subroutine new_plan
+
+   !> Reads the designs of a list: a column per factor, of its name; other columns are not used.
+   subroutine read_list(study, home, rows, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: home
+      real(wp), allocatable, intent(out) :: rows(:, :)     !! (factor, design)
+      type(error_t), allocatable, intent(out) :: error
+      type(table_t) :: table
+      character(:), allocatable :: path
+      integer :: f, at
+
+      path = study%list
+      if (index(path, '/') /= 1) path = home//path
+      call read_csv(path, table, error)
+      if (allocated(error)) return
+      allocate (rows(size(study%factors), size(table%values, 2)))
+      do f = 1, size(study%factors)
+         at = column_index(table, study%factors(f)%name)
+         if (at == 0) then
+            call fail(error, exit_file, path//': there is no column '//quoted(study%factors(f)%name)//' for the factor in '// &
+               study%factors(f)%where)
+            return
+         end if
+         rows(f, :) = table%values(at, :)
+      end do
+      if (size(rows, 2) == 0) call fail(error, exit_file, path//': there is no design')
+   end subroutine read_list
+
+   !> An empty chunk with the factors of its designs.
+   subroutine begin_chunk(plan, number, chunk)
+      type(study_plan_t), intent(in) :: plan
+      integer, intent(in) :: number               !! from 1
+      type(chunk_t), intent(inout) :: chunk
+      integer(i8) :: first
+      integer :: k
+
+      first = int(number - 1, i8)*plan%chunk + 1
+      call new_chunk(first, int(min(int(plan%chunk, i8), plan%designs - first + 1)), factors_of(plan%sampler), size(plan%heads), &
+         plan%columns, plan%states, chunk)
+      do k = 1, size(chunk%status)
+         call sample(plan%sampler, first + k - 1, chunk%factors(:, k))
+      end do
+   end subroutine begin_chunk
+
+end module ek_study_plan

@@ -1,0 +1,262 @@
+!> Runs the designs of a study in chunks, by several threads, and keeps what is finished.
+!>
+!> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
+!> study that was stopped, or killed at any moment, goes on where it was. Which thread computes a chunk has no influence on it.
+module ek_study_run
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_file
+   use ek_text, only: str
+   use ek_clock, only: seconds
+   use ek_interrupt, only: is_stop_asked
+   use ek_file, only: make_folder, join_path, read_whole, write_whole, file_exists, remove_file
+   use ek_writer, only: remove_stale, remove_empty_folder
+   use ek_deck, only: deck_t
+   use ek_study, only: study_t
+   use ek_study_design, only: designer_t, solve_design
+   use ek_study_plan, only: study_plan_t, begin_chunk
+   use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
+   implicit none(type, external)
+   private
+   public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, remove_parts
+
+   character(*), parameter :: identity_name = 'study.txt'
+   character(*), parameter :: line_end = new_line('a')
+
+   !> How a study is run.
+   type :: run_options_t
+      integer :: jobs = 1                         !! threads
+      integer :: shard = 1, shards = 1            !! this run computes the chunks shard, shard + shards, …
+      real(wp) :: time_limit = huge(1.0_wp)       !! s
+   end type run_options_t
+
+   !> How far a run is.
+   type :: run_state_t
+      integer :: wanted = 0                       !! designs of this run
+      integer :: before = 0                       !! of these, done before it began
+      integer :: done = 0                         !! and by now
+      integer :: failed = 0                       !! of those computed now
+      real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
+      logical :: is_stopped = .false.             !! by a signal, or at the time limit
+   end type run_state_t
+
+   abstract interface
+      !> Reports progress, after every chunk; called by one thread at a time.
+      subroutine report_procedure(state)
+         import :: run_state_t
+         implicit none(type, external)
+         type(run_state_t), intent(in) :: state
+      end subroutine report_procedure
+   end interface
+
+   !> What the threads of a run share.
+   type :: shared_t
+      character(:), allocatable :: folder         !! of the chunks
+      integer, allocatable :: pending(:)          !! numbers of the chunks that are missing
+      integer :: next = 0                         !! place in `pending` of the chunk handed out last
+      real(wp) :: longest = 0.0_wp                !! time of a chunk [s]
+      type(run_state_t) :: state
+      type(error_t), allocatable :: error         !! of the first chunk that could not be written
+   end type shared_t
+
+contains
+
+   !> The folder of the chunks.
+   pure function parts_folder(study, out) result(folder)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: out
+      character(:), allocatable :: folder
+      folder = join_path(out, study%name//'.parts')
+   end function parts_folder
+
+   !> Opens the folder of the chunks. One that holds another study is refused.
+   subroutine open_parts(study, plan, out, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(error_t), allocatable, intent(out) :: error     !! exit_file
+      character(:), allocatable :: folder, text
+
+      folder = parts_folder(study, out)
+      call make_folder(folder, error)
+      if (allocated(error)) return
+      if (file_exists(join_path(folder, identity_name))) then
+         call read_whole(join_path(folder, identity_name), text, error)
+         if (allocated(error)) return
+         if (text /= content()) call fail(error, exit_file, folder//' holds designs of another study, deck, or version of '// &
+            'this program; remove that folder to begin anew, or choose another one with --out')
+      else
+         call write_whole(join_path(folder, identity_name), content(), error)
+      end if
+
+   contains
+
+      function content() result(lines)
+         character(:), allocatable :: lines
+         lines = 'elastokin study '//study%name//line_end//'identity '//plan%identity//line_end//'designs '// &
+            str(plan%designs)//' in chunks of '//str(plan%chunk)//line_end
+      end function content
+
+   end subroutine open_parts
+
+   !> The designs whose chunks are there and whole.
+   subroutine count_parts(study, plan, out, done)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      integer, intent(out) :: done                !! designs
+      type(shared_t) :: shared
+
+      shared%folder = parts_folder(study, out)
+      call list_pending(plan, run_options_t(), shared)
+      done = shared%state%before
+   end subroutine count_parts
+
+   !> Removes the chunks, after the tables were written from them.
+   subroutine remove_parts(study, plan, out)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      character(:), allocatable :: folder
+      integer :: k
+
+      folder = parts_folder(study, out)
+      do k = 1, plan%chunks
+         call remove_file(join_path(folder, chunk_name(k)))
+      end do
+      call remove_file(join_path(folder, identity_name))
+      call remove_stale(folder)
+      call remove_empty_folder(folder)
+   end subroutine remove_parts
+
+   !> Computes the chunks that are missing, or as many as there is time for.
+   subroutine run_chunks(study, plan, deck, out, options, designer, state, report, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: out
+      type(run_options_t), intent(in) :: options
+      type(designer_t), intent(in) :: designer             !! with the design of the deck
+      type(run_state_t), intent(out) :: state
+      procedure(report_procedure) :: report
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: a chunk could not be written
+      type(shared_t) :: shared
+      integer :: threads
+
+      shared%folder = parts_folder(study, out)
+      call list_pending(plan, options, shared)
+      shared%state%begun = seconds()
+      shared%state%now = shared%state%begun
+      threads = max(1, min(options%jobs, size(shared%pending)))
+      !$omp parallel num_threads(threads) default(shared)
+      call work(study, plan, deck, options, designer, shared, report)
+      !$omp end parallel
+      state = shared%state
+      if (allocated(shared%error)) call move_alloc(shared%error, error)
+   end subroutine run_chunks
+
+   !> The chunks of this run whose files are missing, damaged or of another study.
+   subroutine list_pending(plan, options, shared)
+      type(study_plan_t), intent(in) :: plan
+      type(run_options_t), intent(in) :: options
+      type(shared_t), intent(inout) :: shared     !! with the folder
+      type(chunk_t) :: chunk
+      logical :: is_pending(plan%chunks), is_good
+      integer :: k, designs
+
+      is_pending = .false.
+      do k = options%shard, plan%chunks, options%shards
+         designs = min(plan%chunk, plan%designs - (k - 1)*plan%chunk)
+         shared%state%wanted = shared%state%wanted + designs
+         is_good = file_exists(join_path(shared%folder, chunk_name(k)))
+         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, chunk, is_good)
+         is_pending(k) = .not. is_good
+         if (is_good) shared%state%before = shared%state%before + designs
+      end do
+      shared%pending = pack([(k, k=1, plan%chunks)], is_pending)
+      shared%state%done = shared%state%before
+   end subroutine list_pending
+
+   !> One thread: takes chunks until there is none left.
+   subroutine work(study, plan, deck, options, designer, shared, report)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      type(deck_t), intent(in) :: deck
+      type(run_options_t), intent(in) :: options
+      type(designer_t), intent(in) :: designer
+      type(shared_t), intent(inout) :: shared
+      procedure(report_procedure) :: report
+      type(designer_t), allocatable :: mine
+      type(chunk_t) :: chunk
+      real(wp) :: begun
+      integer :: number, k
+      logical :: is_whole
+
+      allocate (mine)
+      !$omp critical (ek_words)
+      mine = designer
+      !$omp end critical (ek_words)
+      do
+         !$omp critical (ek_words)
+         call take_chunk(options, shared, number)
+         !$omp end critical (ek_words)
+         if (number == 0) exit
+         begun = seconds()
+         call begin_chunk(plan, number, chunk)
+         is_whole = .true.
+         do k = 1, size(chunk%status)
+            call solve_design(study, deck, mine, k, chunk)
+            is_whole = .not. is_stop_asked()
+            if (.not. is_whole) exit
+         end do
+         !$omp critical (ek_words)
+         call put_chunk(plan, number, chunk, is_whole, seconds() - begun, shared, report)
+         !$omp end critical (ek_words)
+      end do
+   end subroutine work
+
+   !> The next chunk; 0 if there is none, or no time for it.
+   subroutine take_chunk(options, shared, number)
+      type(run_options_t), intent(in) :: options
+      type(shared_t), intent(inout) :: shared
+      integer, intent(out) :: number
+      real(wp), parameter :: reserve = 1.5_wp        ! a chunk may take this much longer than the longest so far
+      real(wp) :: passed
+
+      number = 0
+      if (allocated(shared%error) .or. shared%next >= size(shared%pending)) return
+      passed = seconds() - shared%state%begun
+      if (is_stop_asked()) shared%state%is_stopped = .true.
+      if (passed + reserve*shared%longest > options%time_limit) shared%state%is_stopped = .true.
+      if (shared%state%is_stopped) return
+      shared%next = shared%next + 1
+      number = shared%pending(shared%next)
+   end subroutine take_chunk
+
+   !> Keeps a finished chunk.
+   subroutine put_chunk(plan, number, chunk, is_whole, time, shared, report)
+      type(study_plan_t), intent(in) :: plan
+      integer, intent(in) :: number
+      type(chunk_t), intent(in) :: chunk
+      logical, intent(in) :: is_whole
+      real(wp), intent(in) :: time
+      type(shared_t), intent(inout) :: shared
+      procedure(report_procedure) :: report
+      type(error_t), allocatable :: error
+
+      if (.not. is_whole) then
+         shared%state%is_stopped = .true.
+         return
+      end if
+      call write_chunk(chunk, join_path(shared%folder, chunk_name(number)), plan%identity, error)
+      if (allocated(error)) then
+         if (.not. allocated(shared%error)) call move_alloc(error, shared%error)
+         return
+      end if
+      shared%longest = max(shared%longest, time)
+      shared%state%done = shared%state%done + size(chunk%status)
+      shared%state%failed = shared%state%failed + count(chunk%status /= 0)
+      shared%state%now = seconds()
+      call report(shared%state)
+   end subroutine put_chunk
+
+end module ek_study_run

@@ -1,0 +1,191 @@
+!> The tables of a finished study, from its chunks: one row per design, and one row per state of every design.
+!>
+!> The chunks are read one after the other, so that a million designs need the memory of one chunk.
+module ek_study_tables
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_file
+   use ek_text, only: str, plural
+   use ek_version, only: version
+   use ek_file, only: join_path
+   use ek_table, only: table_t, new_table, name_length
+   use ek_csv, only: csv_head, csv_row
+   use ek_writer, only: writer_t, begin_file
+   use ek_study, only: study_t, kind_names
+   use ek_sampler_kind, only: sampler_kinds, grid_kind
+   use ek_study_design, only: label_of
+   use ek_study_plan, only: study_plan_t
+   use ek_study_run, only: parts_folder
+   use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, status_names
+   implicit none(type, external)
+   private
+   public :: study_counts_t, write_tables, responses_name, curves_name
+
+   integer, parameter :: most_reasons = 10        !! that are printed; all are in the table
+
+   !> How the designs of a study ended.
+   type :: study_counts_t
+      integer :: designs(0:ubound(status_names, 1)) = 0      !! per status
+      type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
+   end type study_counts_t
+
+contains
+
+   !> The name of the table of designs.
+   pure function responses_name(study) result(name)
+      type(study_t), intent(in) :: study
+      character(:), allocatable :: name
+      name = study%name//'_responses.csv'
+   end function responses_name
+
+   !> That of the states.
+   pure function curves_name(study) result(name)
+      type(study_t), intent(in) :: study
+      character(:), allocatable :: name
+      name = study%name//'_curves.csv'
+   end function curves_name
+
+   !> Writes both tables as CSV: the whole files, or none.
+   !>
+   !> gnuplot needs an empty line after every curve, and in the table of responses after every block of a grid.
+   subroutine write_tables(study, plan, out, counts, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(study_counts_t), intent(out) :: counts
+      type(error_t), allocatable, intent(out) :: error
+      type(writer_t) :: rows, curves
+      type(chunk_t) :: chunk
+      logical :: is_good, has_curves, is_begun
+      integer :: k
+
+      is_begun = .false.
+      has_curves = plan%columns > 0
+      call begin_file(rows, join_path(out, responses_name(study)), error)
+      if (.not. allocated(error) .and. has_curves) call begin_file(curves, join_path(out, curves_name(study)), error)
+      if (.not. allocated(error)) then
+         call rows%add(head_of(study, plan, [character(name_length) :: plan%heads, 'status', 'reason']))
+         if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: 'factor', study%columns]))
+         do k = 1, plan%chunks
+            call read_chunk(join_path(parts_folder(study, out), chunk_name(k)), plan%identity, chunk, is_good)
+            if (.not. is_good) then
+               call fail(error, exit_file, join_path(parts_folder(study, out), chunk_name(k))//': the chunk is missing or damaged')
+               exit
+            end if
+            call add_rows(study, chunk, rows, counts)
+            if (has_curves) call add_curves(chunk, is_begun, curves)
+         end do
+      end if
+      if (.not. allocated(error)) call rows%finish(error)
+      if (.not. allocated(error) .and. has_curves) call curves%finish(error)
+      call rows%abandon()                                    ! no effect on a finished table
+      call curves%abandon()
+   end subroutine write_tables
+
+   !> Header lines and column names.
+   function head_of(study, plan, last) result(text)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: last(:)         !! columns behind the factors
+      character(:), allocatable :: text
+      type(table_t) :: table
+      character(name_length) :: names(size(study%factors))
+      integer :: f
+
+      do f = 1, size(names)
+         names(f) = study%factors(f)%name
+      end do
+      table = new_table([character(name_length) :: 'design', names, last], 0)
+      call table%header%add('study '//study%name//', kind '//trim(kind_names(study%kind))//', '// &
+         plural(plan%designs, 'design', 'designs')//seed_of(study))
+      call table%header%add('elastokin '//version//', deck checksum '//plan%deck_sum//', study '//plan%identity)
+      text = csv_head(table)
+   end function head_of
+
+   !> ', seed 1' for a kind that draws numbers.
+   function seed_of(study) result(text)
+      type(study_t), intent(in) :: study
+      character(:), allocatable :: text
+
+      text = ''
+      if (sampler_kinds(study%kind)%has_seed) text = ', seed '//str(int(study%settings%seed))
+   end function seed_of
+
+   !> The rows of a chunk.
+   subroutine add_rows(study, chunk, rows, counts)
+      type(study_t), intent(in) :: study
+      type(chunk_t), intent(in) :: chunk
+      type(writer_t), intent(inout) :: rows
+      type(study_counts_t), intent(inout) :: counts
+      character(:), allocatable :: line
+      real(wp) :: values(1 + size(chunk%factors, 1) + size(chunk%responses, 1) + 1)
+      integer :: k, n, block
+
+      n = size(values)
+      block = block_of(study)
+      do k = 1, size(chunk%status)
+         values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k), real(chunk%status(k), wp)]
+         if (block > 0 .and. chunk%first + k > 2) then
+            if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
+         end if
+         line = csv_row(values, [.true., spread(.false., 1, n - 2), .true.])
+         call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
+         counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
+         if (chunk%status(k) == 0) cycle
+         if (counts%reasons%count() < most_reasons) call counts%reasons%add('design '//str(int(chunk%first) + k - 1)//' ('// &
+            label_of(study, chunk%factors(:, k))//'): '//reason_of(chunk, k))
+      end do
+   end subroutine add_rows
+
+   !> Designs between two empty lines of the table of responses; 0: there is none.
+   pure integer function block_of(study)
+      type(study_t), intent(in) :: study
+
+      block_of = 0
+      if (study%kind /= grid_kind .or. size(study%factors) < 2) return
+      block_of = study%settings%levels
+      if (allocated(study%factors(size(study%factors))%values)) block_of = size(study%factors(size(study%factors))%values)
+   end function block_of
+
+   !> A text as a field of CSV (RFC 4180): quoted if there is one, on one line.
+   pure function quoted_field(text) result(field)
+      character(*), intent(in) :: text
+      character(:), allocatable :: field
+      integer :: k
+
+      field = ''
+      if (text == '') return
+      do k = 1, len(text)
+         select case (text(k:k))
+         case ('"')
+            field = field//'""'
+         case (new_line('a'))
+            field = field//'; '
+         case default
+            field = field//text(k:k)
+         end select
+      end do
+      field = '"'//field//'"'
+   end function quoted_field
+
+   !> The states of the designs of a chunk.
+   subroutine add_curves(chunk, is_begun, curves)
+      type(chunk_t), intent(in) :: chunk
+      logical, intent(inout) :: is_begun          !! a curve precedes
+      type(writer_t), intent(inout) :: curves
+      integer :: k, j, row, n
+
+      n = 1 + size(chunk%factors, 1) + size(chunk%curves, 1)
+      row = 0
+      do k = 1, size(chunk%status)
+         if (chunk%states(k) == 0) cycle
+         if (is_begun) call curves%add(new_line('a'))
+         is_begun = .true.
+         do j = 1, chunk%states(k)
+            row = row + 1
+            call curves%add(csv_row([real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%curves(:, row)], &
+               [.true., spread(.false., 1, n - 1)]))
+         end do
+      end do
+   end subroutine add_curves
+
+end module ek_study_tables

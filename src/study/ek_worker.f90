@@ -1,0 +1,185 @@
+!> One design after the other of a deck: the design space, the cases that are solved, and the present design.
+!>
+!> The first design is read from the text (make_worker); the others are numbers (change_design), and only a design outside the
+!> range of the blueprint, or one that may have a defect, is read again, for the message or another topology. change_design calls
+!> no function with a text result: gfortran keeps the length of such a text in one place for all threads.
+module ek_worker
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_deck, exit_model
+   use ek_text, only: quoted
+   use ek_deck, only: deck_t
+   use ek_reader, only: design_t, read_design
+   use ek_parameter, only: choice_t, in_range
+   use ek_realise, only: new_design, realise, realise_cases
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_case_inputs, only: check_inputs
+   use ek_balance, only: balance
+   use ek_diagnosis, only: diagnosis_t
+   use ek_sweep_table, only: observer_t
+   use ek_examination, only: examine_case, known_case_t
+   use ek_study, only: by_value, by_delta, not_given
+   implicit none(type, external)
+   private
+   public :: worker_t, worker_case_t, factor_paths_t, make_worker, change_design, deck_value
+
+   !> The parameters of one factor.
+   type :: factor_paths_t
+      integer :: change = by_value                !! see ek_study
+      type(choice_t), allocatable :: found(:)
+   end type factor_paths_t
+
+   !> One of the cases that are solved.
+   type :: worker_case_t
+      type(case_t) :: case                        !! of the present design, as in the deck
+      integer :: number = 0                       !! in the deck
+      type(known_case_t) :: known                 !! what the first design has proved about the others
+      type(observer_t), allocatable :: observer   !! of the columns of its results, for solve_case
+   end type worker_case_t
+
+   !> One design after the other of a deck.
+   type :: worker_t
+      type(suspension_t) :: suspension            !! of the present design, balanced
+      type(worker_case_t), allocatable :: cases(:)
+      type(design_t) :: design
+      real(wp), allocatable :: x(:)               !! of the present design
+   end type worker_t
+
+contains
+
+   !> Builds the model of a deck, examines it on the rig of each case ('': the first of the deck) and balances it.
+   !>
+   !> A study passes the same worker with each design of a deck: what does not change between designs is then checked once.
+   subroutine make_worker(deck, case_names, worker, error)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: case_names(:)
+      type(worker_t), intent(inout) :: worker
+      type(error_t), allocatable, intent(out) :: error
+      type(diagnosis_t) :: diagnosis
+      logical :: is_good
+      integer :: k
+
+      if (allocated(worker%cases)) then
+         if (size(worker%cases) /= size(case_names)) deallocate (worker%cases)
+      end if
+      if (.not. allocated(worker%cases)) allocate (worker%cases(size(case_names)))
+      call read_design(deck, worker%design, error)
+      if (allocated(error)) return
+      call new_design(worker%design%plan, worker%suspension)
+      call realise(worker%design%plan, worker%design%parameters%x, worker%suspension, is_good)
+      worker%x = worker%design%parameters%x
+      do k = 1, size(case_names)
+         call take_case(deck%file, trim(case_names(k)), worker%design%cases, worker%suspension, worker%cases(k), error)
+         if (allocated(error)) return
+      end do
+      do k = 1, size(worker%cases)
+         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known)
+         if (diagnosis%is_solvable()) cycle
+         call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//diagnosis%words())
+         return
+      end do
+      call balance(worker%suspension, worker%cases(1)%case%tolerance, error)
+   end subroutine make_worker
+
+   !> Finds a case of the deck.
+   subroutine take_case(file, name, cases, suspension, found, error)
+      character(*), intent(in) :: file, name
+      type(case_t), intent(in) :: cases(:)
+      type(suspension_t), intent(in) :: suspension
+      type(worker_case_t), intent(inout) :: found
+      type(error_t), allocatable, intent(out) :: error
+      integer :: k
+
+      if (allocated(found%observer)) deallocate (found%observer)
+      allocate (found%observer)
+      do k = 1, size(cases)
+         if (len(name) == 0 .or. cases(k)%name == name) exit
+      end do
+      if (k > size(cases)) then
+         call fail(error, exit_deck, file//': there is no case '//quoted(name))
+         return
+      end if
+      if (cases(k)%follows_arc) then
+         call fail(error, exit_deck, file//': case '//quoted(cases(k)%name)//' has follow = ''arc'', where a factor '// &
+            'may have several states; a study needs a case with follow = ''factor''')
+         return
+      end if
+      call check_inputs(suspension, cases(k:k), error, is_whole=.not. found%known%is_known)
+      if (allocated(error)) return
+      found%number = k
+      found%case = cases(k)
+   end subroutine take_case
+
+   !> The design with these values of the factors, from the numbers alone. is_done is .false. if it must be read from the text:
+   !> a factor is no number of the design space, a value is outside its range, or the design may have a defect.
+   subroutine change_design(factors, values, worker, is_done)
+      type(factor_paths_t), intent(in) :: factors(:)
+      real(wp), intent(in) :: values(:)                    !! in the units of the deck
+      type(worker_t), intent(inout) :: worker
+      logical, intent(out) :: is_done
+      type(error_t), allocatable :: error
+      type(diagnosis_t) :: diagnosis
+      logical :: is_in_doubt
+      integer :: f, k
+
+      worker%x(:) = worker%design%parameters%x
+      is_done = .true.
+      do f = 1, size(factors)
+         call put_factor(factors(f), values(f), worker)
+         is_done = is_done .and. size(factors(f)%found) > 0 .and. in_range(worker%design%parameters, factors(f)%found, worker%x)
+      end do
+      if (is_done) call realise(worker%design%plan, worker%x, worker%suspension, is_done)
+      if (is_done) call realise_cases(worker%design%plan, worker%x, worker%design%cases, is_done)
+      if (.not. is_done) return
+      do k = 1, size(worker%cases)
+         worker%cases(k)%case = worker%design%cases(worker%cases(k)%number)
+         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known, is_in_doubt=is_in_doubt)
+         is_done = .not. is_in_doubt
+         if (.not. is_done) return
+      end do
+      call balance(worker%suspension, worker%cases(1)%case%tolerance, error, is_terse=.true.)
+      is_done = .not. allocated(error)
+   end subroutine change_design
+
+   !> Writes a factor into x; relative to the numbers of the deck, or instead of them. The right side of an axle takes the value
+   !> with its sign (ek_parameter).
+   pure subroutine put_factor(factor, value, worker)
+      type(factor_paths_t), intent(in) :: factor
+      real(wp), intent(in) :: value
+      type(worker_t), intent(inout) :: worker
+      integer :: j
+
+      do j = 1, size(factor%found)
+         associate (number => factor%found(j)%number, sign => factor%found(j)%sign)
+            associate (unit => worker%design%parameters%list(number)%unit, at => worker%x(number))
+               select case (factor%change)
+               case (by_value)
+                  at = (sign*value)*unit
+               case (by_delta)
+                  at = at + (sign*value)*unit
+               case default
+                  at = at*value
+               end select
+            end associate
+         end associate
+      end do
+   end subroutine put_factor
+
+   !> The number of the deck that a factor changes, in the unit of the deck; NaN if there are several that differ.
+   pure real(wp) function deck_value(worker, factor) result(value)
+      type(worker_t), intent(in) :: worker
+      type(factor_paths_t), intent(in) :: factor
+      real(wp) :: this
+      integer :: j
+
+      value = not_given()
+      do j = 1, size(factor%found)
+         associate (number => factor%found(j)%number)
+            this = factor%found(j)%sign*worker%design%parameters%x(number)/worker%design%parameters%list(number)%unit
+         end associate
+         if (j == 1) value = this
+         if (abs(this - value) > 1.0e-12_wp*abs(value)) value = not_given()
+      end do
+   end function deck_value
+
+end module ek_worker
