@@ -16,7 +16,7 @@ module ek_study_command
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
-   use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name
+   use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name, has_limits
    use ek_chunk, only: status_names
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
@@ -88,7 +88,7 @@ contains
             'what is missing), or elastokin study '//line%files%line(1))
          return
       end if
-      call finish(this, tables, error)
+      call finish(line%has('--quiet'), this, tables, error)
       call show(line, this, tables, error)
    end subroutine run_merge_command
 
@@ -192,7 +192,7 @@ contains
             plural(state%wanted, 'design', 'designs')//'; when all are, elastokin merge '//line%files%line(1))
          return
       end if
-      call finish(this, tables, error)
+      call finish(is_quiet, this, tables, error)
 
    contains
 
@@ -254,7 +254,8 @@ contains
    end subroutine print_status
 
    !> Writes the tables, removes the chunks, and counts the designs that failed.
-   subroutine finish(this, tables, error)
+   subroutine finish(is_quiet, this, tables, error)
+      logical, intent(in) :: is_quiet
       type(opened_t), intent(in) :: this
       type(message_list_t), intent(inout) :: tables
       type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
@@ -268,6 +269,8 @@ contains
       call remove_parts(this%study, this%plan, this%out)
       if (this%plan%columns > 0) call tables%add(curves_name(this%study))
       call tables%add(responses_name(this%study))
+      if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
+         'design keeps', 'designs keep')//' all limits')
       failed = sum(counts%designs(1:))
       if (failed == 0) return
       list = ''

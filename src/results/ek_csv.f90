@@ -131,14 +131,18 @@ contains
    end subroutine tell_csv
 
    !> Reads a table. All lines with # go to the header; empty lines are skipped.
-   subroutine read_csv(path, table, error, may_stream)
+   subroutine read_csv(path, table, error, may_stream, has_text)
       character(*), intent(in) :: path
       type(table_t), intent(out) :: table
       type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line
       logical, intent(in), optional :: may_stream        !! see read_whole
+      logical, intent(in), optional :: has_text          !! .true.: fields that are empty or in quotes are read as nan
       character(:), allocatable :: text, content
+      logical :: skips
       integer :: first, last, line, rows
 
+      skips = .false.
+      if (present(has_text)) skips = has_text
       table = new_table([character(1) ::], 0)
       call read_whole(path, text, error, may_stream)
       if (allocated(error)) return
@@ -161,7 +165,7 @@ contains
             rows = 0
          else if (len_trim(content) > 0) then
             rows = rows + 1
-            call take_row(content, path//':'//str(line)//': ', rows, table, error)
+            call take_row(content, path//':'//str(line)//': ', rows, skips, table, error)
             if (allocated(error)) return
          end if
          first = last + 2
@@ -173,13 +177,19 @@ contains
       table%values = table%values(:, :rows)
    end subroutine read_csv
 
-   !> The places of the commas of a line, and those before and after it.
+   !> The places of the commas of a line outside quotes, and those before and after it.
    pure subroutine find_commas(content, at)
       character(*), intent(in) :: content
       integer, allocatable, intent(out) :: at(:)
+      logical :: is_comma(len(content)), is_inside
       integer :: k
 
-      allocate (at, source=[0, pack([(k, k=1, len(content))], [(content(k:k) == ',', k=1, len(content))]), len(content) + 1])
+      is_inside = .false.
+      do k = 1, len(content)
+         if (content(k:k) == '"') is_inside = .not. is_inside
+         is_comma(k) = content(k:k) == ',' .and. .not. is_inside
+      end do
+      allocate (at, source=[0, pack([(k, k=1, len(content))], is_comma), len(content) + 1])
    end subroutine find_commas
 
    !> Creates the table from the line of column names.
@@ -203,10 +213,11 @@ contains
    end subroutine take_names
 
    !> Reads one line of numbers.
-   pure subroutine take_row(content, where, row, table, error)
+   pure subroutine take_row(content, where, row, skips, table, error)
       character(*), intent(in) :: content
       character(*), intent(in) :: where                  !! 'file:line: ' for messages
       integer, intent(in) :: row
+      logical, intent(in) :: skips                       !! texts are nan
       type(table_t), intent(inout) :: table
       type(error_t), allocatable, intent(out) :: error
       integer, allocatable :: at(:)
@@ -220,6 +231,9 @@ contains
          return
       end if
       do k = 1, size(table%columns)
+         if (skips) then
+            if (content(at(k) + 1:at(k + 1) - 1) == '' .or. index(content(at(k) + 1:at(k + 1) - 1), '"') == 1) cycle
+         end if
          call get_decimal(content(at(k) + 1:at(k + 1) - 1), table%values(k, row), is_number)
          if (is_number) cycle
          call fail(error, exit_file, where//'column '//quoted(table%columns(k))//': '// &

@@ -45,7 +45,7 @@ module ek_study
       character(:), allocatable :: over           !! column over which the slope is taken; '': the travel of the wheel
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
       character(:), allocatable :: file           !! rms: CSV of the curve from which the column deviates
-      real(wp) :: lower, upper                    !! limits that a good design keeps; NaN: none
+      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits that a good design keeps
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
 

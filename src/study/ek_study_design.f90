@@ -236,6 +236,15 @@ contains
       if (.not. allocated(error)) call make_worker(changed, designer%case_names, worker, error)
       if (allocated(error)) then
          chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)
+         do f = 1, size(study%factors)          ! a number of the study, not of the command line
+            associate (factor => study%factors(f))
+               do j = 1, size(factor%paths)
+                  call replace(error%message, '--set '//trim(factor%paths(j))//'='// &
+                     setting_of(factor%change, chunk%factors(f, k)), &
+                     factor%where//': factor '//quoted(factor%name)//' = '//shortest(chunk%factors(f, k)))
+               end do
+            end associate
+         end do
          call add_reason(chunk, k, error%message)
          return
       end if
@@ -364,6 +373,22 @@ contains
       end do
       label = label(2:)
    end function label_of
+
+   !> Replaces every occurrence of a text by another.
+   pure subroutine replace(text, old, new)
+      character(:), allocatable, intent(inout) :: text
+      character(*), intent(in) :: old, new
+      integer :: first, at
+
+      first = 1
+      do
+         at = index(text(first:), old)
+         if (at == 0) return
+         at = first + at - 1
+         text = text(:at - 1)//new//text(at + len(old):)
+         first = at + len(new)
+      end do
+   end subroutine replace
 
    !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
    function shortest(value) result(text)

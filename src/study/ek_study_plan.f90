@@ -110,7 +110,7 @@ contains
 
       path = study%list
       if (index(path, '/') /= 1) path = home//path
-      call read_csv(path, table, error)
+      call read_csv(path, table, error, has_text=.true.)
       if (allocated(error)) return
       allocate (rows(size(study%factors), size(table%values, 2)))
       do f = 1, size(study%factors)

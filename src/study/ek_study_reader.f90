@@ -267,7 +267,7 @@ contains
       type(study_t), intent(in) :: study
       type(study_factor_t), intent(in) :: this
 
-      if (study%kind == list_kind .or. study%kind == 0) return        ! its values are in the list
+      if (study%kind == list_kind) return        ! its values are in the list
       if (is_given(this%lower) .and. is_given(this%upper) .and. .not. this%lower < this%upper) then
          call complain(draft, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
       else if (is_given(this%tolerance) .and. is_given(this%deviation)) then
@@ -323,12 +323,12 @@ contains
       this%at = number_of(draft, 'at', 0.0_wp)
       this%window = number_of(draft, 'window', this%window)
       this%file = text_of(draft, 'file')
-      this%lower = number_of(draft, 'lower', not_given())
-      this%upper = number_of(draft, 'upper', not_given())
+      this%lower = number_of(draft, 'lower', this%lower)
+      this%upper = number_of(draft, 'upper', this%upper)
       this%where = where_of(draft)
       if ((this%of == 'rms') .neqv. (this%file /= '')) call complain(draft, merge('file', '    ', has_key(draft, 'file')), &
          'of = ''rms'' and file, a CSV of the curve from which the column deviates, belong together')
-      if (is_given(this%lower) .and. is_given(this%upper) .and. .not. this%lower <= this%upper) &
+      if (this%lower > this%upper) &
          call complain(draft, 'upper', 'the limits leave no value: lower is above upper')
       study%responses = [study%responses, this]
    end subroutine take_response

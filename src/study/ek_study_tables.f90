@@ -18,13 +18,14 @@ module ek_study_tables
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, status_names
    implicit none(type, external)
    private
-   public :: study_counts_t, write_tables, responses_name, curves_name
+   public :: study_counts_t, write_tables, responses_name, curves_name, has_limits
 
    integer, parameter :: most_reasons = 10        !! that are printed; all are in the table
 
    !> How the designs of a study ended.
    type :: study_counts_t
       integer :: designs(0:ubound(status_names, 1)) = 0      !! per status
+      integer :: within = 0                                  !! designs that keep all limits of the responses
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
    end type study_counts_t
 
@@ -63,7 +64,7 @@ contains
       call begin_file(rows, join_path(out, responses_name(study)), error)
       if (.not. allocated(error) .and. has_curves) call begin_file(curves, join_path(out, curves_name(study)), error)
       if (.not. allocated(error)) then
-         call rows%add(head_of(study, plan, [character(name_length) :: plan%heads, 'status', 'reason']))
+         call rows%add(head_of(study, plan, [character(name_length) :: plan%heads, last_columns(study)]))
          if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: 'factor', study%columns]))
          do k = 1, plan%chunks
             call read_chunk(join_path(parts_folder(study, out), chunk_name(k)), plan%identity, chunk, is_good)
@@ -117,17 +118,22 @@ contains
       type(writer_t), intent(inout) :: rows
       type(study_counts_t), intent(inout) :: counts
       character(:), allocatable :: line
-      real(wp) :: values(1 + size(chunk%factors, 1) + size(chunk%responses, 1) + 1)
+      real(wp), allocatable :: values(:)
       integer :: k, n, block
+      logical :: is_within
 
-      n = size(values)
+      n = 1 + size(chunk%factors, 1) + size(chunk%responses, 1)
       block = block_of(study)
       do k = 1, size(chunk%status)
-         values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k), real(chunk%status(k), wp)]
+         is_within = keeps_limits(study, chunk%responses(:, k))
+         values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k)]
+         if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, is_within)]
+         values = [values, real(chunk%status(k), wp)]
+         if (is_within) counts%within = counts%within + 1
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
          end if
-         line = csv_row(values, [.true., spread(.false., 1, n - 2), .true.])
+         line = csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)])
          call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
          counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
          if (chunk%status(k) == 0) cycle
@@ -135,6 +141,30 @@ contains
             label_of(study, chunk%factors(:, k))//'): '//reason_of(chunk, k))
       end do
    end subroutine add_rows
+
+   !> The columns behind the responses.
+   pure function last_columns(study) result(names)
+      type(study_t), intent(in) :: study
+      character(name_length), allocatable :: names(:)
+
+      names = [character(name_length) :: 'status', 'reason']
+      if (has_limits(study)) names = [character(name_length) :: 'within', names]
+   end function last_columns
+
+   !> Whether a response has a limit.
+   pure logical function has_limits(study)
+      type(study_t), intent(in) :: study
+      has_limits = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
+   end function has_limits
+
+   !> Whether a design keeps all limits; one without a value for a response that has a limit does not.
+   pure logical function keeps_limits(study, responses)
+      type(study_t), intent(in) :: study
+      real(wp), intent(in) :: responses(:)
+
+      keeps_limits = all((responses >= study%responses%lower .or. .not. study%responses%lower > -huge(1.0_wp)) .and. &
+         (responses <= study%responses%upper .or. .not. study%responses%upper < huge(1.0_wp)))
+   end function keeps_limits
 
    !> Designs between two empty lines of the table of responses; 0: there is none.
    pure integer function block_of(study)
