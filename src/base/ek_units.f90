@@ -6,7 +6,7 @@ module ek_units
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: units_t, new_units, pi, degree, millimetre
+   public :: units_t, pi, degree, millimetre
 
    real(wp), parameter :: pi = acos(-1.0_wp)
    real(wp), parameter :: degree = pi/180.0_wp      !! rad
@@ -18,18 +18,5 @@ module ek_units
       real(wp) :: force = 1.0_wp        !! N per deck force unit
       real(wp) :: angle = degree        !! rad per deck angle unit
    end type units_t
-
-contains
-
-   !> Units by their legal names.
-   pure type(units_t) function new_units(length, force, angle) result(units)
-      character(*), intent(in) :: length   !! 'mm' or 'm'
-      character(*), intent(in) :: force    !! 'N' or 'kN'
-      character(*), intent(in) :: angle    !! 'deg' or 'rad'
-
-      if (length == 'm') units%length = 1.0_wp
-      if (force == 'kN' .or. force == 'kn') units%force = 1000.0_wp
-      if (angle == 'rad') units%angle = 1.0_wp
-   end function new_units
 
 end module ek_units

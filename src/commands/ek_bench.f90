@@ -19,8 +19,7 @@ module ek_bench
    use ek_rig, only: mount
    use ek_examination, only: examination_t
    use ek_sweep_table, only: sweep_table
-   use ek_table, only: table_t
-   use ek_csv, only: csv_text
+   use ek_table, only: table_t, csv_text
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, read_changed
    use ek_deck, only: deck_t
@@ -28,7 +27,7 @@ module ek_bench
    use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
    use ek_case_result, only: case_result_t, solve_options_t, solve_case
    use ek_wheel_side, only: prefix_of
-   use ek_json, only: json_t
+   use ek_json, only: json_t, json_string, json_number
    use ek_console, only: print_text
    implicit none(type, external)
    private
@@ -157,22 +156,22 @@ contains
       integer :: m
 
       call json%open('{')
-      call json%text_item('model', suspension%name)
-      call json%text_item('case', case%name)
-      call json%integer_item('increments', case%increments)
-      call json%integer_item('n', n)
-      call json%number_item('unit_us', figures%unit*1.0e6_wp)
+      call json%item('model', json_string(suspension%name))
+      call json%item('case', json_string(case%name))
+      call json%item('increments', str(case%increments))
+      call json%item('n', str(n))
+      call json%item('unit_us', json_number(figures%unit*1.0e6_wp))
       do m = 1, 3
-         call json%number_item(trim(method_names(m))//'_units', figures%increment(m)/figures%unit)
+         call json%item(trim(method_names(m))//'_units', json_number(figures%increment(m)/figures%unit))
       end do
-      call json%number_item('states_per_s', 1.0_wp/figures%increment(3))
-      call json%number_item('factorisations_per_state', figures%factorisations)
-      call json%integer_item('max_factorisations', figures%most)
-      call json%number_item('distance_mm', figures%distance*1000.0_wp)
+      call json%item('states_per_s', json_number(1.0_wp/figures%increment(3)))
+      call json%item('factorisations_per_state', json_number(figures%factorisations))
+      call json%item('max_factorisations', str(figures%most))
+      call json%item('distance_mm', json_number(figures%distance*1000.0_wp))
       if (figures%design > 0.0_wp) then
-         call json%number_item('design_us', figures%design*1.0e6_wp)
-         call json%number_item('design_states_us', figures%states*1.0e6_wp)
-         call json%number_item('designs_per_s', 1.0_wp/figures%design)
+         call json%item('design_us', json_number(figures%design*1.0e6_wp))
+         call json%item('design_states_us', json_number(figures%states*1.0e6_wp))
+         call json%item('designs_per_s', json_number(1.0_wp/figures%design))
       end if
       call json%close('}')
       text = json%text()

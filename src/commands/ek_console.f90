@@ -3,8 +3,7 @@ module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
    use ek_file, only: is_terminal, write_standard_output, write_standard_error
-   use ek_table, only: table_t
-   use ek_csv, only: write_csv
+   use ek_table, only: table_t, write_csv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_balance, only: balance_words

@@ -12,8 +12,7 @@ module ek_run
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
-   use ek_table, only: table_t
-   use ek_csv, only: tell_csv
+   use ek_table, only: table_t, tell_csv
    use ek_plot, only: run_figures
    use ek_gnuplot, only: figure_t, draw_figures
    use ek_command_line, only: command_line_t

@@ -7,8 +7,7 @@ module ek_draft
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_units, only: units_t
-   use ek_complaint, only: complaints_t, place_t, place_in
-   use ek_record, only: record_t, entry_index, is_given, place_of, line_words
+   use ek_record, only: complaints_t, place_in, record_t, entry_index, is_given, place_of, line_words
    use ek_group, only: group_names, record_head, word_length
    use ek_blueprint, only: blueprint_t
    use ek_parameter, only: parameters_t, add_parameter
@@ -47,15 +46,12 @@ contains
       type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: key, what
       integer, intent(in), optional :: at
-      type(place_t) :: place
-      integer :: entry, k
+      integer :: k
 
       k = draft%k
       if (present(at)) k = at
-      entry = 0
-      if (key /= '') entry = entry_index(draft%records(k), key, 0)
-      call place_of(draft%records(k), entry, place)
-      call draft%complaints%add(place, record_head(draft%cards(k)%group, draft%cards(k)%name)//what)
+      call draft%complaints%add(place_of(draft%records(k), entry_index(draft%records(k), key, 0)), &
+         record_head(draft%cards(k)%group, draft%cards(k)%name)//what)
       draft%cards(k)%is_good = .false.
    end subroutine complain
 
@@ -74,10 +70,7 @@ contains
    subroutine complain_of_all(draft, what)
       type(draft_t), intent(inout) :: draft
       character(*), intent(in) :: what
-      type(place_t) :: place
-
-      call place_in(draft%file, 0, 0, place)
-      call draft%complaints%add(place, what)
+      call draft%complaints%add(place_in(draft%file, 0, 0), what)
    end subroutine complain_of_all
 
    !> Whether a group that may occur once has occurred before; reports it as a mistake.

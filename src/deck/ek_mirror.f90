@@ -10,9 +10,8 @@
 module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_complaint, only: place_t, complaints_t, has_side, left_side, right_side, side_prefix
-   use ek_record, only: record_t, entry_t, value_t, add_record, add_value, element, entry_index, place_of, line_words, role_of, &
-      sign_of_image, turns
+   use ek_record, only: complaints_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
+      add_value, element, entry_index, place_of, line_words, role_of, sign_of_image, turns
    use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, &
       number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
@@ -358,12 +357,9 @@ contains
    !> Exchanges the two points of an axis.
    subroutine exchange_ends(entry)
       type(entry_t), intent(inout) :: entry
-      type(value_t) :: kept
 
       if (entry%used == 2 .and. entry%first == 1) then
-         kept = entry%values(1)
-         entry%values(1) = entry%values(2)
-         entry%values(2) = kept
+         entry%values(:2) = entry%values([2, 1])
       else if (entry%used == 1 .and. entry%first <= 2) then
          entry%first = 3 - entry%first
       end if
@@ -374,13 +370,8 @@ contains
       type(complaints_t), intent(inout) :: complaints
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key, what
-      type(place_t) :: place
-      integer :: entry
-
-      entry = 0
-      if (key /= '') entry = entry_index(record, key, 0)
-      call place_of(record, entry, place)
-      call complaints%add(place, record_head(group_number(record%group), element(record, 'name', 1))//what)
+      call complaints%add(place_of(record, entry_index(record, key, 0)), &
+         record_head(group_number(record%group), element(record, 'name', 1))//what)
    end subroutine complain
 
 end module ek_mirror

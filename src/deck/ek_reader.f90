@@ -6,23 +6,20 @@ module ek_reader
    use ek_kinds, only: wp
    use ek_text, only: lower
    use ek_error, only: error_t, fail, exit_deck
-   use ek_units, only: new_units
-   use ek_complaint, only: place_t, single
-   use ek_record, only: record_t, element, place_of, own_name
+   use ek_units, only: units_t, millimetre, degree
+   use ek_record, only: single, record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_groups, case_group, &
+      measure_group, joint_group, bushing_group, spring_groups, spring_group, damper_group, stop_group, torsion_group, case_group, &
       curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
       word_length, record_head, did_you_mean, has_results
-   use ek_namelist, only: check_record
+   use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_draft, only: draft_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
       number_of, is_second, slot
    use ek_parameter, only: parameters_t
-   use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
-   use ek_reader_bodies, only: read_point, read_body, read_mass, read_load
+   use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
-   use ek_reader_elements, only: read_curve, read_elastic, read_bushing
-   use ek_reader_axle, only: read_wheel, read_axle, read_steering
+   use ek_reader_elements, only: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t, point_t
@@ -169,6 +166,14 @@ contains
          call read_joint(draft)
       case (bushing_group)
          call read_bushing(draft)
+      case (spring_group)
+         call read_spring(draft)
+      case (damper_group)
+         call read_damper(draft)
+      case (stop_group)
+         call read_stop(draft)
+      case (torsion_group)
+         call read_torsion(draft)
       case (wheel_group)
          call read_wheel(draft)
       case (axle_group)
@@ -177,8 +182,6 @@ contains
          call read_steering(draft)
       case (load_group)
          call read_load(draft)
-      case default
-         call read_elastic(draft)
       end select
    end subroutine read_record
 
@@ -215,7 +218,6 @@ contains
    subroutine check_names(draft)
       type(draft_t), intent(inout) :: draft
       character(:), allocatable :: name
-      type(place_t) :: place
       integer :: group
 
       associate (card => draft%cards(draft%k), record => draft%records(draft%k))
@@ -225,8 +227,7 @@ contains
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
          if (group == 0) then
-            call place_of(record, 0, place)
-            if (record%group /= '') call draft%complaints%add(place, 'there is no group &'//record%group// &
+            if (record%group /= '') call draft%complaints%add(place_of(record, 0), 'there is no group &'//record%group// &
                did_you_mean(record%group, names_of_groups(of_deck=.true.)))
             return
          end if
@@ -235,12 +236,8 @@ contains
          name = own_name(record)
          if (name == '') name = trim(card%name)
       end associate
-      if (.not. is_legal_name(name)) then
-         call complain(draft, 'name', illegal_name(name))
-      else
-         name = reserved_because(name, has_results(group))
-         if (name /= '') call complain(draft, 'name', name)
-      end if
+      name = name_fault(name, has_results(group))
+      if (name /= '') call complain(draft, 'name', name)
       if (group /= model_group) call check_new(draft)
    end subroutine check_names
 
@@ -281,18 +278,17 @@ contains
    !> &model: names, units, axes.
    subroutine read_model(draft)
       type(draft_t), intent(inout) :: draft
-      character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
-         angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
-         balances(3) = [character(6) :: 'none', 'spring', 'all']
+      character(*), parameter :: balances(3) = [character(6) :: 'none', 'spring', 'all']
       integer :: length, force, angle, frame, balance, gravity
 
       if (is_second(draft)) return
-      call choice(draft, 'length', lengths, length, default=1)
-      call choice(draft, 'force', forces, force, default=1)
-      call choice(draft, 'angle', angles, angle, default=1)
-      call choice(draft, 'axes', frames, frame, default=1)
+      call choice(draft, 'length', [character(2) :: 'mm', 'm'], length, default=1)
+      call choice(draft, 'force', [character(2) :: 'N', 'kN'], force, default=1)
+      call choice(draft, 'angle', ['deg', 'rad'], angle, default=1)
+      call choice(draft, 'axes', [character(6) :: 'x-rear', 'iso'], frame, default=1)
       call choice(draft, 'balance', balances, balance, default=1)
-      draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
+      draft%units = units_t(merge(1.0_wp, millimetre, length == 2), merge(1000.0_wp, 1.0_wp, force == 2), &
+         merge(1.0_wp, degree, angle == 2))
       draft%plan%length_unit = draft%units%length
       draft%plan%force_unit = draft%units%force
       draft%plan%angle_unit = draft%units%angle

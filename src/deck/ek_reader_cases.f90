@@ -5,8 +5,7 @@ module ek_reader_cases
    use ek_units, only: millimetre
    use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rolls, steers, loads_wheels, takes_table
    use ek_case, only: case_t, method_names, follow_names, most_increments
-   use ek_complaint, only: right_side
-   use ek_record, only: value_t, element, is_given, own_name
+   use ek_record, only: value_t, right_side, element, is_given, own_name
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
    use ek_blueprint, only: case_plan_t

@@ -5,20 +5,20 @@ module ek_reader_elements
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
-   use ek_complaint, only: right_side
+   use ek_record, only: right_side
    use ek_curve, only: curve_t, new_curve, look_up_curve, curve_kinds, least_step
    use ek_measure, only: measure_t, distance, rotation, is_of_angle
    use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element
    use ek_elastic, only: bushing_t
    use ek_blueprint, only: element_plan_t, curve_plan_t, vector_t, bushing_plan_t, chosen, chosen_right
    use ek_design_vector, only: marker_axes
-   use ek_group, only: measure_group, spring_group, damper_group, stop_group, torsion_group, word_length
+   use ek_group, only: measure_group, word_length
    use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, numbers_of, &
       value_count, refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
-   public :: read_curve, read_elastic, read_bushing
+   public :: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
 
    real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
@@ -54,22 +54,6 @@ contains
       call slot(draft, 'y', 1.0_wp, plan%y, count=plan%points)
       draft%plan%curves(size(draft%plan%curves)) = plan
    end subroutine read_curve
-
-   !> An elastic element of one measure.
-   subroutine read_elastic(draft)
-      type(draft_t), intent(inout) :: draft
-
-      select case (draft%cards(draft%k)%group)
-      case (spring_group)
-         call read_spring(draft)
-      case (damper_group)
-         call read_damper(draft)
-      case (stop_group)
-         call read_stop(draft)
-      case (torsion_group)
-         call read_torsion(draft)
-      end select
-   end subroutine read_elastic
 
    !> &spring: between two points, or on a measure.
    subroutine read_spring(draft)

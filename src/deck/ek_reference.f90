@@ -4,8 +4,7 @@
 module ek_reference
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted
-   use ek_complaint, only: has_side, single, left_side
-   use ek_record, only: element, own_name
+   use ek_record, only: element, own_name, has_side, single, left_side
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
    use ek_design_vector, only: find_vectors
@@ -51,6 +50,7 @@ contains
             names(j) = own_name(draft%records(j))
          end if
       end do
+      if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
    !> The record to which a key refers; 0, with a message, if there is none.
@@ -66,13 +66,8 @@ contains
       if (found > 0) return
       draft%cards(draft%k)%is_good = .false.
       if (may_be_meant(draft, group, name)) return
-      if (group == body_group) then
-         call complain(draft, key, key//': there is no body '//quoted(name)// &
-            did_you_mean(name, [names_of(draft, group, name), [character(word_length) :: 'chassis']]))
-      else
-         call complain(draft, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
-            did_you_mean(name, names_of(draft, group, name)))
-      end if
+      call complain(draft, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
+         did_you_mean(name, names_of(draft, group, name)))
    end subroutine look_up
 
    !> Whether an unknown name may belong to a record whose own name or group was already rejected:

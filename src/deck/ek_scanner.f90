@@ -12,14 +12,12 @@ module ek_scanner
    use ek_letters, only: is_wide, with_line_ends, save_as_utf8
    use ek_cursor, only: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, &
       take_anything, take_line, drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
-   use ek_complaint, only: place_t, complaints_t, place_in
-   use ek_record, only: entry_t, record_t, add_value, add_entry, add_record, entry_index
+   use ek_record, only: complaints_t, place_in, entry_t, record_t, add_value, add_entry, add_record, entry_index
    implicit none(type, external)
    private
    public :: scan_text, scan_values
 
    integer, parameter :: most_repeats = 1000   !! n in n*value; no key takes so many values
-   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
 
 contains
 
@@ -46,7 +44,6 @@ contains
          return
       end if
       text = with_line_ends(written)
-      if (index(text(:min(3, len(text))), byte_order_mark) == 1) cursor%at = 4
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) exit
@@ -156,20 +153,19 @@ contains
             lost%used = 0
             after_comma = .true.
             call scan_value(text, cursor, record, lost, after_comma, complaints)
-            call complain(complaints, record, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
+            call complain_of(complaints, record, start%line, 'found '//quoted(lost%values(1)%text)// &
                " where a key and '=' were expected")
          else if (c == '(') then
             call take_subscript(text, cursor, word)
             call add_value(entry, '('//word//')', .false.)
          else if (c == '=' .or. c == ')') then
-            call complain(complaints, record, cursor%line, '&'//record%group//': unexpected '//quoted(c)//' after '// &
-               quoted(entry%key))
+            call complain_of(complaints, record, cursor%line, 'unexpected '//quoted(c)//' after '//quoted(entry%key))
             cursor%at = cursor%at + 1
          else
             call scan_value(text, cursor, record, entry, after_comma, complaints)
             if (after_comma) cycle
             call drop_unit(text, cursor, entry, word)
-            if (word /= '') call complain(complaints, record, cursor%line, '&'//record%group//': '//unit_message(entry, word))
+            if (word /= '') call complain_of(complaints, record, cursor%line, unit_message(entry, word))
          end if
       end do
       if (is_open) call close_entry(entry, record, complaints)
@@ -195,26 +191,19 @@ contains
          if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
             read (subscript, *, iostat=status) entry%first
          if (status /= 0 .or. entry%first < 1) then
-            call complain_here(': the subscript of '//quoted(entry%key)//' must be one positive whole number, found ('// &
-               subscript//')')
+            call complain_of(complaints, record, entry%line, 'the subscript of '//quoted(entry%key)// &
+               ' must be one positive whole number, found ('//subscript//')')
             entry%first = 1
          end if
          call skip_blanks(text, cursor)
       end if
       if (next_character(text, cursor) == ':') then
-         call complain_here(': expected = after '//quoted(entry%key)//', found :')
+         call complain_of(complaints, record, entry%line, 'expected = after '//quoted(entry%key)//', found :')
          cursor%at = cursor%at + 1
       else if (next_character(text, cursor) /= '=') then
-         call complain_here(': the = after '//quoted(entry%key)//' is missing')
+         call complain_of(complaints, record, entry%line, 'the = after '//quoted(entry%key)//' is missing')
       end if
       if (next_character(text, cursor) == '=') cursor%at = cursor%at + 1
-
-   contains
-
-      subroutine complain_here(what)
-         character(*), intent(in) :: what
-         call complain(complaints, record, entry%line, '&'//record%group//what)
-      end subroutine complain_here
 
    end subroutine open_entry
 
@@ -225,15 +214,14 @@ contains
       type(complaints_t), intent(inout) :: complaints
       integer :: k, before
 
-      if (entry%used == 0) call complain(complaints, record, entry%line, '&'//record%group//': '//quoted(entry%key)// &
-         ' has no value')
+      if (entry%used == 0) call complain_of(complaints, record, entry%line, quoted(entry%key)//' has no value')
       before = 0
       do k = 1, max(entry%used, 1)
          if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
       end do
       if (before > 0) then
-         call complain(complaints, record, entry%line, '&'//record%group//': '//quoted(entry%key)// &
-            ' is given twice, first in line '//str(record%entries(before)%line))
+         call complain_of(complaints, record, entry%line, quoted(entry%key)//' is given twice, first in line '// &
+            str(record%entries(before)%line))
       else
          call add_entry(record, entry)
       end if
@@ -317,16 +305,22 @@ contains
 
    end subroutine scan_value
 
+   !> Reports a mistake in a group: '&spring: what'.
+   subroutine complain_of(complaints, record, line, what)
+      type(complaints_t), intent(inout) :: complaints
+      type(record_t), intent(in) :: record
+      integer, intent(in) :: line
+      character(*), intent(in) :: what
+      call complain(complaints, record, line, '&'//record%group//': '//what)
+   end subroutine complain_of
+
    !> Reports a mistake in a line of the file of a record.
    subroutine complain(complaints, record, line, what)
       type(complaints_t), intent(inout) :: complaints
       type(record_t), intent(in) :: record
       integer, intent(in) :: line
       character(*), intent(in) :: what
-      type(place_t) :: place
-
-      call place_in(record%file, record%source, line, place)
-      call complaints%add(place, what)
+      call complaints%add(place_in(record%file, record%source, line), what)
    end subroutine complain
 
 end module ek_scanner

@@ -7,7 +7,7 @@ module ek_case_result
    use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
-   use ek_memory, only: has_memory, memory_words
+   use ek_system, only: has_memory, memory_words
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_kkt, only: kkt_t, new_kkt

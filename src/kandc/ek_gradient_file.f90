@@ -4,7 +4,7 @@ module ek_gradient_file
    use ek_text, only: str, quoted
    use ek_decimal, only: decimal, get_decimal
    use ek_file, only: write_whole
-   use ek_json, only: json_t
+   use ek_json, only: json_t, json_string, json_number, json_numbers
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    use ek_gradient, only: gradient_t
    implicit none(type, external)
@@ -61,24 +61,24 @@ contains
       integer :: k
 
       call json%open('{')
-      call json%text_item('model', model)
-      call json%text_item('checksum', checksum)
+      call json%item('model', json_string(model))
+      call json%item('checksum', json_string(checksum))
       call json%open('[', 'gradients')
       do k = 1, size(gradients)
          associate (g => gradients(k))
             call json%open('{')
-            call json%text_item('test', g%test)
-            call json%text_item('quantity', g%quantity)
-            call json%text_item('side', g%side)
-            call json%number_item('value', g%value)
-            call json%text_item('unit', g%unit)
-            call json%text_item('sign', g%sign)
-            call json%text_item('window', g%window)
-            call json%numbers_item('window_limits', [-g%window_half, g%window_half])
-            call json%integer_item('points', g%points)
-            call json%text_item('column', g%column)
-            call json%text_item('over', g%over)
-            if (len(g%note) > 0) call json%text_item('note', g%note)
+            call json%item('test', json_string(g%test))
+            call json%item('quantity', json_string(g%quantity))
+            call json%item('side', json_string(g%side))
+            call json%item('value', json_number(g%value))
+            call json%item('unit', json_string(g%unit))
+            call json%item('sign', json_string(g%sign))
+            call json%item('window', json_string(g%window))
+            call json%item('window_limits', json_numbers([-g%window_half, g%window_half]))
+            call json%item('points', str(g%points))
+            call json%item('column', json_string(g%column))
+            call json%item('over', json_string(g%over))
+            if (len(g%note) > 0) call json%item('note', json_string(g%note))
             call json%close('}')
          end associate
       end do

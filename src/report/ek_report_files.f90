@@ -5,7 +5,7 @@ module ek_report_files
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
    use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
-   use ek_csv, only: read_csv
+   use ek_table, only: read_csv
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of

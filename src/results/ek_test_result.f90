@@ -66,9 +66,8 @@ contains
       integer, intent(in), optional :: side      !! of a single wheel; absent: left
       integer :: k, place
 
-      if (allocated(test%prefixes)) deallocate (test%prefixes)
-      if (allocated(test%sides)) deallocate (test%sides)
-      allocate (test%prefixes(0), test%sides(0))
+      test%prefixes = [character(name_length) ::]
+      test%sides = [integer ::]
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(travel_column)
          if (place < 0) cycle
@@ -221,11 +220,8 @@ contains
       place = column_index(table, 'factor')
       if (place == 0) return
       is_good = converged_rows(table) .and. ieee_is_finite(table%values(place, :))
-      do row = size(is_good), 1, -1
-         if (.not. is_good(row)) cycle
-         if (abs(table%values(place, row)) <= 0.0_wp) return
-      end do
-      row = 0
+      where (is_good) is_good = abs(table%values(place, :)) <= 0.0_wp
+      row = findloc(is_good, .true., dim=1, back=.true.)
    end function design_row
 
    !> 'left' for 'left_'; '' for a single wheel.

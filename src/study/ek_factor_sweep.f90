@@ -5,19 +5,18 @@
 module ek_factor_sweep
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp, i8
-   use ek_memory, only: ask_memory
+   use ek_system, only: ask_memory
    use ek_error, only: error_t, fail, exit_deck, exit_convergence, message_list_t
    use ek_text, only: str, quoted
    use ek_deck, only: deck_t, set_value
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_sweep_table, only: sweep_columns
-   use ek_table, only: table_t, new_table, column_index, name_length
+   use ek_table, only: table_t, new_table, column_index, name_length, csv_head, csv_row
    use ek_study, only: study_t
    use ek_sampler, only: design_count, sample
    use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response
    use ek_subject, only: subject_t, factor_paths_t, make_subject, change_subject
    use ek_parameter, only: find_parameters
-   use ek_csv, only: csv_head, csv_row
    use ek_writer, only: writer_t
    implicit none(type, external)
    private

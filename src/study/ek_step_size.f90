@@ -19,8 +19,7 @@ module ek_step_size
    use ek_path, only: path_t, new_path, walk
    use ek_rig, only: mount
    use ek_attitude, only: attitude_t, wheel_attitude
-   use ek_table, only: new_table
-   use ek_csv, only: csv_head, csv_row
+   use ek_table, only: new_table, csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
    use ek_subject, only: subject_t, make_subject

@@ -9,12 +9,10 @@ module ek_study
    use ek_case, only: method_names, most_increments
    use ek_factor, only: factor_t
    use ek_sampler, only: kind_t, kinds
-   use ek_complaint, only: place_t
    use ek_record, only: element, place_of
    use ek_group, only: group_number, study_group, factor_group, response_group, record_head, word_length, most_values, &
       did_you_mean, is_deck_group, names_of_groups
-   use ek_reserved_name, only: is_legal_name
-   use ek_namelist, only: check_record
+   use ek_namelist, only: check_record, is_legal_name
    use ek_deck, only: deck_t, read_deck
    use ek_draft, only: draft_t, complain, complain_of_all, choice, choose, has_key, where_of, line_of, text_of, &
       texts_of, number_of, numbers_of, whole_of, value_count
@@ -52,7 +50,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: file
       type(draft_t) :: draft
-      type(place_t) :: place
       integer :: k, studies
 
       call read_deck(path, file, error, is_study=.true.)
@@ -78,8 +75,7 @@ contains
          associate (card => draft%cards(k), record => draft%records(k))
             card%group = group_number(record%group)
             if (card%group == 0 .or. is_deck_group(card%group)) then
-               call place_of(record, 0, place)
-               call draft%complaints%add(place, 'there is no group &'//record%group//' in a study'// &
+               call draft%complaints%add(place_of(record, 0), 'there is no group &'//record%group//' in a study'// &
                   did_you_mean(record%group, names_of_groups(of_deck=.false.)))
                card%group = 0
                cycle
