@@ -171,28 +171,40 @@ contains
       integer, intent(in) :: decade
       character(*), intent(inout) :: buffer
       integer, intent(inout) :: used
-      character(*), parameter :: zeros = '0.0000'
       integer :: last, rest
 
       do last = kept, 2, -1
          if (text(last:last) /= '0') exit
       end do
       if (decade >= 0 .and. decade < kept) then
-         call put(text(:decade + 1), buffer, used)
-         if (last > decade + 1) call put('.', buffer, used)
-         call put(text(decade + 2:last), buffer, used)
+         buffer(used + 1:used + kept) = text
+         if (last <= decade + 1) then
+            used = used + decade + 1
+         else
+            buffer(used + decade + 2:used + decade + 2) = '.'
+            buffer(used + decade + 3:used + kept + 1) = text(decade + 2:)
+            used = used + last + 1
+         end if
       else if (decade < 0 .and. decade >= -5) then
-         call put(zeros(:1 - decade), buffer, used)
-         call put(text(:last), buffer, used)
+         buffer(used + 1:used + 6) = '0.0000'
+         used = used + 1 - decade
+         buffer(used + 1:used + kept) = text
+         used = used + last
       else
-         call put(text(1:1), buffer, used)
-         if (last > 1) call put('.', buffer, used)
-         call put(text(2:last), buffer, used)
-         call put('e', buffer, used)
-         call put(merge('-', '+', decade < 0), buffer, used)
+         buffer(used + 1:used + 1) = text(1:1)
+         buffer(used + 2:used + 2) = '.'
+         buffer(used + 3:used + kept + 1) = text(2:)
+         used = used + merge(1, last + 1, last == 1)
+         buffer(used + 1:used + 1) = 'e'
+         buffer(used + 2:used + 2) = merge('-', '+', decade < 0)
+         used = used + 2
          rest = abs(decade)
-         if (rest >= 100) call put(achar(iachar('0') + rest/100), buffer, used)
-         call put(pair(mod(rest, 100)), buffer, used)
+         if (rest >= 100) then
+            buffer(used + 1:used + 1) = achar(iachar('0') + rest/100)
+            used = used + 1
+         end if
+         buffer(used + 1:used + 2) = pair(mod(rest, 100))
+         used = used + 2
       end if
    end subroutine put_digits
 

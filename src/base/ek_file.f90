@@ -214,11 +214,8 @@ contains
       integer :: slash
 
       slash = index(path, '/', back=.true.)
-      if (slash == 0) then
-         folder = '.'
-      else
-         folder = path(:max(1, slash - 1))
-      end if
+      folder = '.'
+      if (slash > 0) folder = path(:max(1, slash - 1))
    end function folder_name
 
    !> The name without folder and extension: 'c' for 'a/b/c.nml', 'c.x' for 'c.x.nml', '.rc' for 'a/.rc'.

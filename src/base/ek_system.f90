@@ -61,9 +61,12 @@ contains
       integer(c_int), parameter :: the_link = 256       ! AT_SYMLINK_NOFOLLOW
       integer(c_int), parameter :: basic = 2047         ! STATX_BASIC_STATS
       integer(i8), parameter :: kind_bits = 61440       ! S_IFMT, octal 170000
+      integer(i8), parameter :: modes(*) = [32768_i8, 16384_i8, 8192_i8, 24576_i8, 40960_i8]
+      integer, parameter :: kinds(*) = [regular_file, folder_file, device_file, device_file, link_file]
       character(kind=c_char) :: buffer(256)             ! struct statx
       procedure(statx_procedure), pointer :: statx
       type(c_funptr) :: address
+      integer :: k
 
       address = c_dlsym(c_null_ptr, 'statx'//c_null_char)
       if (.not. c_associated(address)) return
@@ -73,18 +76,9 @@ contains
          if (any(error_number() == [no_such_entry, no_folder])) facts%kind = no_file
          return
       end if
-      select case (iand(number_at(28, 2), kind_bits))
-      case (32768)
-         facts%kind = regular_file
-      case (16384)
-         facts%kind = folder_file
-      case (8192, 24576)
-         facts%kind = device_file
-      case (40960)
-         facts%kind = link_file
-      case default
-         facts%kind = other_file
-      end select
+      facts%kind = other_file
+      k = findloc(modes == iand(number_at(28, 2), kind_bits), .true., dim=1)
+      if (k > 0) facts%kind = kinds(k)
       facts%inode = number_at(32, 8)
       facts%changed = number_at(112, 8)
       facts%device = number_at(136, 4)*2_i8**31 + number_at(140, 4)

@@ -120,11 +120,8 @@ contains
       character(*), intent(in) :: singular, many
       character(:), allocatable :: text
 
-      if (count == 1) then
-         text = str_integer(count)//' '//singular
-      else
-         text = str_integer(count)//' '//many
-      end if
+      text = str_integer(count)//' '//many
+      if (count == 1) text = '1 '//singular
    end function plural
 
    !> The candidate most similar to a mistyped name, or '' if none is similar

@@ -22,23 +22,16 @@ contains
    subroutine read_point(draft)
       type(draft_t), intent(inout) :: draft
       type(vector_t) :: vector
-      real(wp) :: at(3)
       integer :: number
 
       vector%kind = hardpoint
       call slot(draft, 'at', draft%units%length, vector%first, default=0.0_wp, count=3)
       call new_vector(draft, vector, number)
       draft%cards(draft%k)%index = number
-      at = draft%vectors(:, number)
-      associate (stays => draft%plan%vectors(number)%stays)
-         select case (draft%records(draft%k)%side)
-         case (left_side)
-            stays = off_left
-         case (right_side)
-            stays = off_right
-         case default
-            if (abs(at(2)) < plane .and. any(draft%records%side /= single)) stays = in_plane
-         end select
+      associate (stays => draft%plan%vectors(number)%stays, side => draft%records(draft%k)%side)
+         if (side == left_side) stays = off_left
+         if (side == right_side) stays = off_right
+         if (side == single .and. abs(draft%vectors(2, number)) < plane .and. any(draft%records%side /= single)) stays = in_plane
       end associate
    end subroutine read_point
 
@@ -127,7 +120,7 @@ contains
          quoted(text_of(draft, 'side'))//', but the centre '//quoted(text_of(draft, 'centre'))// &
          ' lies on the other side (y points '//trim(merge('left ', 'right', draft%plan%is_iso))//')')
       if (has_centre .and. has_contact) then
-         height = dot_product(centre - draft%vectors(:, plan%contact), [0.0_wp, 0.0_wp, 1.0_wp])
+         height = centre(3) - draft%vectors(3, plan%contact)
          if (.not. height > 0.0_wp) call complain(draft, 'contact', &
             'the contact point must lie below the wheel centre, found it '//str(-height/draft%units%length)//' above')
       end if

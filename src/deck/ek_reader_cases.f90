@@ -244,16 +244,10 @@ contains
       if (wheels(1) == 0) this%wheel = max(wheels(2), 1)
       call find_wheel(draft, of_one_wheel(test), "with test = 'single_travel'", this%wheel)
 
-      select case (test%unit)
-      case ('mm')
-         unit = merge(draft%units%force, draft%units%length, this%vertical == 'force')
-      case ('deg')
-         unit = draft%units%angle
-      case ('N')
-         unit = draft%units%force
-      case default
-         unit = 1.0_wp          ! N m, as on every rig
-      end select
+      unit = 1.0_wp          ! N m, as on every rig
+      if (test%unit == 'mm') unit = merge(draft%units%force, draft%units%length, this%vertical == 'force')
+      if (test%unit == 'deg') unit = draft%units%angle
+      if (test%unit == 'N') unit = draft%units%force
       if (test%action == rolls .and. max(abs(from), abs(to))*unit > steepest_roll) call complain(draft, 'to', &
          'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
       if (test%action == steers) call find_steering(draft, this%drive, unit)

@@ -57,11 +57,8 @@ contains
       integer :: place
 
       place = column_index(table, name)
-      if (place > 0) then
-         values = table%values(place, :)
-      else
-         allocate (values(0))
-      end if
+      allocate (values(0))
+      if (place > 0) values = table%values(place, :)
    end function column
 
    !> Minimum and maximum finite value of a column; both nan if it has none or does not exist.
