@@ -13,8 +13,7 @@ module ek_report
    use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t
    use ek_test_charts, only: test_charts
-   use ek_gradient, only: test_gradients
-   use ek_gradient_file, only: write_gradients
+   use ek_gradient, only: test_gradients, write_gradients
    use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
    use ek_report_page, only: report_t, report_page, add_fact
    use ek_report_pictures, only: draw_pictures
@@ -28,10 +27,8 @@ module ek_report
    public :: report
 
    type, extends(deck_settings_t) :: settings_t
-      character(:), allocatable :: out, method       !! method: '' as in the deck
-      integer :: increments = 0                      !! 0: as in the deck
       type(windows_t) :: windows                     !! of gradients
-      logical :: has_plots = .true., is_animated = .false., is_quiet = .false.
+      logical :: has_plots = .true., is_animated = .false.
    end type settings_t
 
 contains
@@ -55,7 +52,7 @@ contains
       if (allocated(error)) return
       all_cases = cases                                     ! of a model without a wheel
       if (size(suspension%wheels) > 0) call standard_tests(suspension, cases, all_cases)
-      call chosen_cases(settings, settings%method, settings%increments, all_cases, chosen, error)
+      call chosen_cases(settings, all_cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out
@@ -115,12 +112,8 @@ contains
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
 
       call read_deck_settings(line, settings)
-      settings%out = line%value('--out', 'out')
-      settings%method = line%value('--method')
-      settings%increments = line%number('--increments')
       settings%has_plots = .not. line%has('--no-plots')
       settings%is_animated = line%has('--animate')
-      settings%is_quiet = line%has('--quiet')
       call refuse_stream(line, error)
       if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
          call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
