@@ -136,7 +136,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! exit_model
 
       call examine_cases(suspension, chosen, found)
-      if (.not. found%none_solvable()) return
+      if (size(chosen) == 0 .or. any(found%is_solvable)) return
       if (size(chosen) == 1) then
          call fail(error, exit_model, found%faults%line(1))
       else

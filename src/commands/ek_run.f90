@@ -10,7 +10,7 @@ module ek_run
    use ek_balance, only: balance
    use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
-   use ek_compliance_table, only: compliance_table
+   use ek_sweep_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t
    use ek_csv, only: tell_csv

@@ -33,17 +33,9 @@ module ek_examination
       logical, allocatable :: is_solvable(:)     !! true also if a case cannot be mounted: that is reported when it is run
       type(message_list_t) :: faults             !! one per case, '' if it can be solved
       type(message_list_t) :: distinct           !! defects, each once for all cases
-   contains
-      procedure :: none_solvable
    end type examination_t
 
 contains
-
-   !> Whether no case can be solved.
-   pure logical function none_solvable(self)
-      class(examination_t), intent(in) :: self
-      none_solvable = size(self%is_solvable) > 0 .and. .not. any(self%is_solvable)
-   end function none_solvable
 
    !> Examines all cases. A defect of several cases is described in the first of them only.
    subroutine examine_cases(base, cases, found)
@@ -224,32 +216,28 @@ contains
       character(name_length), allocatable :: columns(:)
       type(case_t) :: this
       character(:), allocatable :: owners, place
-      integer :: j, k, m
+      integer :: k, m
 
       if (size(cases) == 0) return
       this%has_all = .true.
       call sweep_columns(suspension, this, columns)
       do k = 2, size(columns)
-         do j = 1, k - 1
-            if (columns(j) /= columns(k)) cycle
-            owners = ''
-            place = cases(1)%where(:index(cases(1)%where, ':', back=.true.) - 1)
-            do m = 1, suspension%scalars
-               call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
-            end do
-            do m = 1, size(suspension%readouts)
-               call add_owner(suspension%readouts(m)%name, suspension%readouts(m)%where)
-            end do
-            do m = suspension%scalars + 1, size(suspension%elements)
-               call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
-            end do
-            do m = 1, size(suspension%joints)
-               call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
-            end do
-            call mistakes%add(place//': two columns of the results would have the name '//quoted(columns(k))// &
-               owners//'; rename one')
-            exit
+         if (.not. any(columns(:k - 1) == columns(k))) cycle
+         owners = ''
+         place = cases(1)%where(:index(cases(1)%where, ':', back=.true.) - 1)
+         do m = 1, suspension%scalars
+            call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
          end do
+         do m = 1, size(suspension%readouts)
+            call add_owner(suspension%readouts(m)%name, suspension%readouts(m)%where)
+         end do
+         do m = suspension%scalars + 1, size(suspension%elements)
+            call add_owner(suspension%elements(m)%name, suspension%elements(m)%where)
+         end do
+         do m = 1, size(suspension%joints)
+            call add_owner(suspension%joints(m)%name, suspension%joints(m)%where)
+         end do
+         call mistakes%add(place//': two columns of the results would have the name '//quoted(columns(k))//owners//'; rename one')
       end do
 
    contains

@@ -23,13 +23,12 @@ module ek_geometry_columns
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
    real(wp), parameter :: least_compliance = 1.0e-12_wp      !! m/N, as in ek_characteristics
-   real(wp), parameter :: least_turn = 1.0e-12_wp            !! rad/(N m), or rad/m of a rack: carrier does not steer
    real(wp), parameter :: least_ratio = 1.0e-6_wp            !! stop is independent of the wheels
 
    real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle of spin and steer axis: parallel below
 
    ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
-   real(wp), parameter :: least_by_moment = 1.0e-12_wp   !! rad/(N m)
+   real(wp), parameter :: least_turn = 1.0e-12_wp        !! rad/(N m); also of a quotient, by moment or by rack
    real(wp), parameter :: least_by_rack = 1.0e-6_wp      !! rad/m
 
 contains
@@ -209,7 +208,7 @@ contains
 
       twist = locked_twist(compliance, place, .false.)
       turn = twist(4:6)
-      least = merge(least_by_rack, least_by_moment, compliance%has_drive)
+      least = merge(least_by_rack, least_turn, compliance%has_drive)
       if (norm2(turn) <= least) return
       axis = steer_axis_of(side, centre + cross(turn, twist(1:3))/dot_product(turn, turn), turn, centre, contact)
    end function instant_axis

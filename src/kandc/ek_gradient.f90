@@ -136,16 +136,10 @@ contains
    !> lever of 500 mm and 1e-3 N at 10 kN/mm; ten times that.
    pure real(wp) function noise_of(column) result(noise)
       character(*), intent(in) :: column
+      character(4), parameter :: endings(4) = [character(4) :: '_mm', '_deg', '_n', '_nm']
+      real(wp), parameter :: noises(0:4) = [1.0e-12_wp, 1.0e-6_wp, 1.0e-7_wp, 1.0e-2_wp, 1.0e-2_wp]    ! first: any other
 
-      noise = 1.0e-12_wp
-      select case (column(index(column, '_', back=.true.):))
-      case ('_mm')
-         noise = 1.0e-6_wp
-      case ('_deg')
-         noise = 1.0e-7_wp
-      case ('_n', '_nm')
-         noise = 1.0e-2_wp
-      end select
+      noise = noises(findloc(endings, column(index(column, '_', back=.true.):), dim=1))
    end function noise_of
 
    !> s_y/s_x of a wheel.

@@ -39,11 +39,8 @@ module ek_remark
    type :: remark_list_t
       type(remark_t), allocatable, private :: remarks(:)
    contains
-      procedure :: add => list_add
-      procedure :: count => list_count
-      procedure :: item => list_item
-      procedure :: failures => list_failures
-      procedure :: has_failed => list_has_failed
+      procedure :: add => list_add, count => list_count, item => list_item, failures => list_failures, &
+         has_failed => list_has_failed
    end type remark_list_t
 
 contains
@@ -151,15 +148,11 @@ contains
    !> Whether the deck has a spring that carries the car: a spring, or a torsion spring against the chassis.
    pure logical function has_spring(suspension)
       type(suspension_t), intent(in) :: suspension
-      integer :: k
 
-      has_spring = .false.
-      do k = 1, size(suspension%elements)
-         associate (kind => suspension%elements(k)%kind, m => suspension%elements(k)%measure)
-            has_spring = has_spring .or. element_kinds(kind)%carries .or. &
-               (kind == torsion_spring .and. min(m%body_i, m%body_j) == 0)
-         end associate
-      end do
+      associate (e => suspension%elements)
+         has_spring = any(element_kinds(e%kind)%carries .or. &
+            (e%kind == torsion_spring .and. min(e%measure%body_i, e%measure%body_j) == 0))
+      end associate
    end function has_spring
 
    !> Warns of a deck without a spring: its equilibrium rests on bushings and stops. Cases that only prescribe a wheel
