@@ -227,6 +227,8 @@ contains
       character(:), allocatable, intent(out) :: kind
       real(wp), intent(out) :: factor_size      !! load at `factor` = 1 [N or N m]
       real(wp), parameter :: mostly = 0.99_wp   ! share of the load along one axis
+      character(15), parameter :: kinds(6) = [character(15) :: 'braking', 'lateral_force', 'vertical_force', '', '', &
+         'aligning_torque']
       real(wp) :: load(6)
       integer :: k, axis
 
@@ -241,12 +243,9 @@ contains
       load = [suspension%loads(k)%force, suspension%loads(k)%moment]
       if (norm2(load(:3)) > 0.0_wp .and. norm2(load(4:)) > 0.0_wp) return
       axis = maxloc(abs(load), dim=1)
-      if (.not. abs(load(axis)) > mostly*norm2(load) .or. axis == 4 .or. axis == 5) return
+      if (.not. abs(load(axis)) > mostly*norm2(load) .or. kinds(axis) == '') return
       factor_size = load(axis)
-      if (axis == 1) kind = 'braking'
-      if (axis == 2) kind = 'lateral_force'
-      if (axis == 3) kind = 'vertical_force'
-      if (axis == 6) kind = 'aligning_torque'
+      kind = trim(kinds(axis))
       if (axis /= 1 .or. .not. is_at_centre(suspension, k)) return
       kind = 'traction'
       factor_size = -load(1)

@@ -206,10 +206,9 @@ contains
          end do
          model = suspension%title
          if (len(model) == 0) model = suspension%name
-         if (.not. is_vertical(suspension, case)) then       ! otherwise no label is passed: over the wheel travel
-            label = case%place_name
-            if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
-         end if
+         label = case%place_name
+         if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
+         if (is_vertical(suspension, case)) label = ''      ! over the wheel travel
          call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, label, elements, &
             case%test == 'table')
       end associate

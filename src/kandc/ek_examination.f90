@@ -133,8 +133,8 @@ contains
       end do
    end function without_numbers
 
-   !> Collects the mistakes of every table, which was read with the deck, finds the column of every target, compares all heads of the
-   !> results; all errors are reported together.
+   !> Collects the mistakes of every table, which was read with the deck, finds the column of every target, compares all heads of
+   !> the results; all errors are reported together.
    !>
    !> A message on a table gives the line in the file and the line of the case in the deck:
    !> `loads.csv:7: column 'fz_n': expected a number, found 'two'; in case 'bench' (front.nml:41)`.

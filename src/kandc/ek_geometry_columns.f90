@@ -1,5 +1,5 @@
-!> Geometry of wheels, steer axes and steering, and of the elements whose length is no port of the compliance matrix: the values of the
-!> sections wheel_geometry and axle_geometry of ek_quantity, in SI. A quantity without a value at a state is not a number.
+!> Geometry of wheels, steer axes and steering, and of the elements whose length is no port of the compliance matrix: the values
+!> of the sections wheel_geometry and axle_geometry of ek_quantity, in SI. A quantity without a value at a state is not a number.
 module ek_geometry_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
    use ek_kinds, only: wp
@@ -196,9 +196,9 @@ contains
       twist = moves(6*place - 5:6*place, 1)
    end function locked_twist
 
-   !> The instant steer axis of a wheel: the line about which its carrier rotates when it steers with its springs at constant length,
-   !> ω/|ω| through p + ω×v/|ω|² for the twist (v, ω) at the wheel centre p (the pitch of the screw is ignored). is_known is false
-   !> if the carrier does not rotate, or for a horizontal axis.
+   !> The instant steer axis of a wheel: the line about which its carrier rotates when it steers with its springs at constant
+   !> length, ω/|ω| through p + ω×v/|ω|² for the twist (v, ω) at the wheel centre p (the pitch of the screw is ignored).
+   !> is_known is false if the carrier does not rotate, or for a horizontal axis.
    !> Equation (S.9) of docs/theory/suspension.md.
    pure type(steer_axis_t) function instant_axis(compliance, place, side, centre, contact) result(axis)
       type(compliance_t), intent(in) :: compliance     !! known

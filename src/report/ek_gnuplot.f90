@@ -216,7 +216,7 @@ contains
       character(*), intent(in) :: model, case_name          !! for the titles
       character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
       type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without extension>_<quantity>
-      character(*), intent(in), optional :: factor_label    !! label of the load factor, with its unit
+      character(*), intent(in), optional :: factor_label    !! label of the load factor, with its unit; '' as if absent
       character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all
       logical, intent(in), optional :: has_points           !! the states are independent: points without a line
       type(test_result_t) :: test
@@ -228,10 +228,9 @@ contains
       test%name = base_name(csv_name)
       test%table = table
       test%kind = 'other'
-      if (present(factor_label)) then
-         test%abscissa = 'factor'
-         test%label = factor_label
-      end if
+      test%label = ''
+      if (present(factor_label)) test%label = factor_label
+      if (len(test%label) > 0) test%abscissa = 'factor'
       if (present(has_points)) test%kind = trim(merge('table', 'other', has_points))
       call find_wheels(test)
       call choose_abscissa(test)
