@@ -139,7 +139,7 @@ contains
       character(4), parameter :: endings(4) = [character(4) :: '_mm', '_deg', '_n', '_nm']
       real(wp), parameter :: noises(0:4) = [1.0e-12_wp, 1.0e-6_wp, 1.0e-7_wp, 1.0e-2_wp, 1.0e-2_wp]    ! first: any other
 
-      noise = noises(findloc(endings, column(index(column, '_', back=.true.):), dim=1))
+      noise = noises(findloc(endings == column(index(column, '_', back=.true.):), .true., dim=1))
    end function noise_of
 
    !> s_y/s_x of a wheel.
