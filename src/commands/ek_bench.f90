@@ -40,10 +40,6 @@ module ek_bench
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
    integer, parameter :: designs = 40         !! timed together
 
-   type, extends(deck_settings_t) :: settings_t
-      integer :: increments = 0               !! 0: as in the deck
-   end type settings_t
-
    !> What was measured.
    type :: figures_t
       real(wp) :: unit = 0.0_wp              !! dsysv [s]
@@ -61,7 +57,7 @@ contains
    subroutine bench(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      type(settings_t) :: settings
+      type(deck_settings_t) :: settings
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -72,7 +68,6 @@ contains
       integer :: k, m
 
       call read_deck_settings(line, settings)
-      settings%increments = line%number('--increments')
       call load_case(settings, suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
@@ -180,7 +175,7 @@ contains
    !> Times whole designs, as a study runs them: numbers to suspension, examination, balance, states and one column; and the
    !> states alone. The first given number of the deck is changed in its tenth digit.
    subroutine time_designs(settings, case_name, figures, error)
-      type(settings_t), intent(in) :: settings
+      type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: case_name
       type(figures_t), intent(inout) :: figures
       type(error_t), allocatable, intent(out) :: error
@@ -231,7 +226,7 @@ contains
 
    !> The first chosen case of a deck on the rig, examined and balanced.
    subroutine load_case(settings, suspension, case, error)
-      type(settings_t), intent(in) :: settings
+      type(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
@@ -241,7 +236,7 @@ contains
       character(:), allocatable :: checksum
 
       call load_deck(settings, base, cases, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, '', settings%increments, cases, chosen, error)
+      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, base, chosen(1:1), found, error)
       if (.not. allocated(error)) call balance(base, chosen(1)%tolerance, error)
       if (allocated(error)) return
@@ -340,7 +335,7 @@ contains
 
    !> Times all steps from deck to CSV text within this process.
    subroutine whole_way(settings, error)
-      type(settings_t), intent(in) :: settings
+      type(deck_settings_t), intent(in) :: settings
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
       type(case_t) :: case

@@ -55,7 +55,7 @@ contains
       if (allocated(error)) return
       allocate (chosen(0))
       if (size(cases) > 0) then
-         call chosen_cases(settings, '', 0, cases, chosen, error)
+         call chosen_cases(settings, cases, chosen, error)
          if (allocated(error)) return
       end if
 

@@ -8,8 +8,7 @@ module ek_console
    use ek_case, only: case_t
    use ek_balance, only: balance_words
    use ek_plausibility, only: doubt
-   use ek_model_remarks, only: patch_words, spring_words, preload_words
-   use ek_remark, only: remark_t, remark_list_t, note, warning
+   use ek_remark, only: remark_t, remark_list_t, note, warning, patch_words, spring_words, preload_words
    implicit none(type, external)
    private
    public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &

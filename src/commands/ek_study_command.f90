@@ -39,11 +39,7 @@ contains
       call read_changed(join_path(home, study%deck), line%values('--set'), deck, error)
       if (.not. allocated(error)) call make_folder(out, error)
       if (allocated(error)) return
-      if (study%kind == 'step_size') then
-         call run_step_size(study, deck, out, tables, error)
-      else
-         call run_sweep(study, deck, out, tables, error)
-      end if
+      call run_study(study, deck, out, tables, error)
       if (tables%count() == 0) return
       do k = 1, tables%count()
          call print_path(join_path(out, tables%line(k)), unprinted)
@@ -56,55 +52,46 @@ contains
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine run_study_command
 
-   !> out/<study>.csv
-   subroutine run_step_size(study, deck, out, tables, error)
+   !> out/<study>.csv of a step-size study, out/<study>_curves.csv and out/<study>_responses.csv of the others.
+   subroutine run_study(study, deck, out, tables, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! names of the tables written
+      type(message_list_t), intent(inout) :: tables      !! names of the tables written: all or none
       type(error_t), allocatable, intent(out) :: error
-      type(writer_t) :: writer
-      character(:), allocatable :: text
-
-      call begin_file(writer, join_path(out, study%name//'.csv'), error, is_part=.true.)
-      if (.not. allocated(error)) call step_size_text(study, deck, text, error, writer)
-      if (.not. allocated(error)) call writer%finish(error)
-      call writer%abandon()                              ! no effect on a finished table
-      if (.not. allocated(error)) call tables%add(study%name//'.csv')
-   end subroutine run_step_size
-
-   !> out/<study>_curves.csv and out/<study>_responses.csv
-   subroutine run_sweep(study, deck, out, tables, error)
-      type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
-      character(*), intent(in) :: out
-      type(message_list_t), intent(inout) :: tables      !! names of the tables written: both or none
-      type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: endings(2) = [character(14) :: '_curves.csv', '_responses.csv']
+      type(message_list_t) :: names, troubles
       type(table_t) :: curves, responses
       type(writer_t) :: writers(2)
-      type(message_list_t) :: troubles
+      character(:), allocatable :: text
       integer :: k
 
-      do k = 1, 2
-         if (.not. allocated(error)) &
-            call begin_file(writers(k), join_path(out, study%name//trim(endings(k))), error, is_part=.true.)
+      if (study%kind == 'step_size') then
+         call names%add(study%name//'.csv')
+      else
+         call names%add(study%name//'_curves.csv')
+         call names%add(study%name//'_responses.csv')
+      end if
+      do k = 1, names%count()
+         if (.not. allocated(error)) call begin_file(writers(k), join_path(out, names%line(k)), error, is_part=.true.)
       end do
-      if (.not. allocated(error)) call sweep_factors(study, deck, curves, responses, troubles, error, writers)
-      do k = 1, 2
+      if (.not. allocated(error)) then
+         if (study%kind == 'step_size') call step_size_text(study, deck, text, error, writers(1))
+         if (study%kind /= 'step_size') call sweep_factors(study, deck, curves, responses, troubles, error, writers)
+      end if
+      do k = 1, names%count()
          if (.not. allocated(error)) call writers(k)%finish(error)
       end do
-      do k = 1, 2
+      do k = 1, names%count()
          call writers(k)%abandon()                       ! no effect on a finished table
-         if (.not. allocated(error)) call tables%add(study%name//trim(endings(k)))
       end do
+      if (.not. allocated(error)) tables = names
       if (allocated(error)) return
       do k = 1, troubles%count()
          call print_warning(troubles%line(k))
       end do
       if (troubles%count() > 0) call fail(error, exit_convergence, plural(troubles%count(), 'design of the study is', &
          'designs of the study are')//' incomplete (see the warnings above); the others were written')
-   end subroutine run_sweep
+   end subroutine run_study
 
    !> Runs the study's plot script over the tables.
    subroutine draw(is_quiet, script, tables, out, error)

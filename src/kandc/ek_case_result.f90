@@ -16,8 +16,7 @@ module ek_case_result
    use ek_wheel_side, only: single_side
    use ek_sweep_table, only: observer_t, make_observer, observe, sweep_bytes
    use ek_failure_words, only: failure_words, stability_remarks
-   use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks
-   use ek_curve_reach, only: curve_reach_remarks
+   use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
    use ek_table, only: table_t, name_length
    use ek_test_result, only: frame_line

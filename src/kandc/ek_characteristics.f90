@@ -225,7 +225,8 @@ contains
       real(wp), intent(in) :: c(:, :)               !! 12×12, left wheel first
       type(stand_t), intent(in) :: stand
       type(axle_characteristics_t) :: is
-      real(wp) :: cp(12, 12), patch(3, 2), height, moment, lift(2), tyre(2)
+      real(wp) :: cp(12, 12), patch(3, 2), height, moment, lift(2)
+      real(wp) :: wheel(2), tyre(2)      ! compliances, wheel under opposed loads [m/N]
 
       cp = read_at_patch(load_at_patch(c, stand%arm), stand%arm)
       patch = stand%centre + stand%arm
@@ -236,23 +237,16 @@ contains
       if (all(stand%tyre_rate > 0.0_wp)) then
          tyre = 1.0_wp/stand%tyre_rate
          is%total_roll_rate = quotient(moment, height + sum(tyre), least_compliance)
-         is%tramp_rate = tramp_rate(moment, [cp(3, 3) - cp(3, 9), cp(9, 9) - cp(9, 3)], tyre)
+         ! each wheel's suspension and tyre in parallel support the unsprung masses in tramp
+         wheel = [cp(3, 3) - cp(3, 9), cp(9, 9) - cp(9, 3)]
+         is%tramp_rate = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (minval(abs(wheel + tyre)) > least_compliance) &
+            is%tramp_rate = quotient(moment, sum(wheel*tyre/(wheel + tyre)), least_compliance)
          is%tyre_roll_centre = roll_centre(cp, patch, tyre)
       end if
       lift = jacking_forces(cp, [1.0_wp, 1.0_wp])
       is%force_roll_centre = -0.5_wp*dot_product(patch(2, :), lift)
    end function axle_characteristics
-
-   !> The roll rate with each wheel's suspension and tyre in parallel, which supports the unsprung masses in tramp.
-   pure real(wp) function tramp_rate(moment, wheel, tyre) result(rate)
-      real(wp), intent(in) :: moment               !! (t/cos φ)² [m²]
-      real(wp), intent(in) :: wheel(2), tyre(2)    !! compliances, wheel under opposed loads [m/N]
-      real(wp) :: both(2)
-
-      rate = ieee_value(1.0_wp, ieee_quiet_nan)
-      both = wheel + tyre
-      if (minval(abs(both)) > least_compliance) rate = quotient(moment, sum(wheel*tyre/both), least_compliance)
-   end function tramp_rate
 
    !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces to the right
    !> at the patches: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels cannot move independently in height.
@@ -285,8 +279,7 @@ contains
       real(wp) :: way
 
       way = sqrt(dh**2 + dz**2)
-      length = quotient(way, turn, max(way/longest_arm, least_compliance/longest_arm))
-      length = abs(length)
+      length = abs(quotient(way, turn, max(way, least_compliance)/longest_arm))
       angle = ieee_value(1.0_wp, ieee_quiet_nan)
       if (abs(dz) > least_compliance) angle = atan(-dh/dz)
    end subroutine swing_arm

@@ -64,7 +64,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: drives
       type(compliance_t) :: self
-      integer :: n, k, side, ports
+      integer :: n, k, ports
 
       self%wheels = size(suspension%wheels)
       self%springs = count(suspension%elements%kind == axial_spring)
@@ -73,17 +73,11 @@ contains
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
-      allocate (self%order(self%wheels), source=0)
+      associate (side => suspension%wheels%side)
+         self%order = [pack([(k, k=1, self%wheels)], side == -1), pack([(k, k=1, self%wheels)], side == 1)]
+      end associate
       allocate (self%ports(n, ports), self%columns(n, ports + merge(1, 0, drives)), source=0.0_wp)
       allocate (self%response(ports, ports + merge(1, 0, drives)), source=0.0_wp)
-      n = 0
-      do side = -1, 1, 2
-         do k = 1, self%wheels
-            if (suspension%wheels(k)%side /= side) cycle
-            n = n + 1
-            self%order(n) = k
-         end do
-      end do
    end function new_compliance
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
@@ -213,8 +207,8 @@ contains
       type(demand_t), intent(in) :: demand
       type(kkt_t), intent(in) :: kkt
       type(compliance_t), intent(inout) :: self
-      real(wp) :: force(3), moment(3), arm(3), factor, least, most
-      integer :: i, j, k, at, info
+      real(wp) :: force(3), moment(3), arm(3), factor, pivots(kkt%n)
+      integer :: j, k, at, info
 
       if (.not. allocated(self%full)) then
          allocate (self%full(kkt%n, kkt%n), source=0.0_wp)
@@ -242,13 +236,8 @@ contains
          self%full(:, j) = self%full(:, j)*(kkt%scale*kkt%scale(j))
       end do
       call dgesv(kkt%n, size(self%columns, 2), self%full, kkt%n, self%pivots, self%columns, kkt%n, info)
-      least = huge(least)
-      most = 0.0_wp
-      do i = 1, kkt%n
-         least = min(least, abs(self%full(i, i)))
-         most = max(most, abs(self%full(i, i)))
-      end do
-      self%is_known = info == 0 .and. least > singular*most
+      pivots = [(abs(self%full(j, j)), j=1, kkt%n)]
+      self%is_known = info == 0 .and. minval(pivots) > singular*maxval(pivots)
 
    contains
 

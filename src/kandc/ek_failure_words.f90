@@ -18,8 +18,7 @@ module ek_failure_words
    use ek_reach, only: failure_t
    use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
    use ek_sweep_table, only: nearly_singular
-   use ek_model_remarks, only: has_spring
-   use ek_remark, only: swept_words, remark_list_t, warning, on_stability
+   use ek_remark, only: swept_words, remark_list_t, warning, on_stability, has_spring
    implicit none(type, external)
    private
    public :: failure_words, stability_remarks

@@ -25,8 +25,7 @@ module ek_kandc_columns
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, conditions_of
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
-   use ek_steer_axis, only: instant_axis, locked_twist
-   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values
+   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values, instant_axis, locked_twist
    implicit none(type, external)
    private
    public :: kandc_t, start_kandc, same_columns, tell_kandc

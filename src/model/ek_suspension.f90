@@ -109,7 +109,7 @@ module ek_suspension
       integer :: scalars = 0   !! elements(:scalars) act along one measure: springs, dampers, stops, torsion springs, in this order
                                !! if built from a deck; the others have six components: bushings
       type(load_t), allocatable :: loads(:)
-      integer :: rig_rows = 0, rig_loads = 0   !! the last rows and loads that belong to the rig on which it stands, see ek_rig
+      integer :: rig_rows = 0                  !! the last rows, which belong to the rig on which it stands, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
       type(axle_t) :: axle = axle_t()

@@ -146,15 +146,11 @@ contains
    pure logical function slides(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
-      integer :: k
 
-      slides = .false.
-      do k = 1, size(suspension%joints)
-         associate (joint => suspension%joints(k))
-            if (joint_table(joint%number)%part == slider_part) slides = slides .or. &
-               (joint%body_i*joint%body_j > 0 .and. (joint%body_i == body .or. joint%body_j == body))
-         end associate
-      end do
+      associate (j => suspension%joints)
+         slides = any(joint_table(j%number)%part == slider_part .and. j%body_i*j%body_j > 0 .and. &
+            (j%body_i == body .or. j%body_j == body))
+      end associate
    end function slides
 
 end module ek_skeleton

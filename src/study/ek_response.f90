@@ -44,13 +44,7 @@ contains
 
       subroutine add(name)
          character(*), intent(in) :: name
-         character(len(names)), allocatable :: more(:)
-
-         if (any(names == name)) return
-         allocate (more(size(names) + 1))
-         more(:size(names)) = names
-         more(size(more)) = name
-         call move_alloc(more, names)
+         if (.not. any(names == name)) names = [character(len(names)) :: names, name]
       end subroutine add
 
    end subroutine needed_columns
