@@ -176,7 +176,7 @@ contains
             verdict = crossing
          else if (step%rest > exact .or. is_uneven(self, outcome) .or. &
             largest_motion(self%motion, kkt%length) > long*kkt%length) then
-            call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, self%is_over, &
+            call compare_orientation(self%orientation, suspension, self%before%poses, state_b%poses, kkt%scale, self%is_over, &
                self%is_singular)
             if (self%is_over) verdict = crossing
             if (self%is_singular .and. abs(width) > tiny_step*self%least) verdict = doubtful
@@ -379,17 +379,16 @@ contains
    end function is_bend
 
    !> Whether the assembly of the joints changes, or may, as its end is singular, in a predicted step that was not compared.
-   logical function is_overturning(self, suspension, predictor, demand_a, state_b, demand_b, kkt)
+   logical function is_overturning(self, suspension, predictor, state_b, scale)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor             !! its newest state is a
-      type(demand_t), intent(in) :: demand_a, demand_b
       type(state_t), intent(in) :: state_b
-      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(in) :: scale(:)                       !! D of ek_scale
       logical :: is_singular
 
       call unpack_state(predictor%packed(:, predictor%newest), self%before)
-      call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, is_overturning, &
+      call compare_orientation(self%orientation, suspension, self%before%poses, state_b%poses, scale, is_overturning, &
          is_singular)
       is_overturning = is_overturning .or. is_singular
    end function is_overturning

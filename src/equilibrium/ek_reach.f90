@@ -198,7 +198,7 @@ contains
          step%was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length, is_long)
          is_long = is_long .or. is_uneven(branch, outcome)
          if (is_long .and. .not. step%was_compared) step%was_compared = is_overturning(branch, suspension, predictor, &
-            step%demand_a, state, step%demand_b, kkt)
+            state, kkt%scale)
          if (.not. step%was_compared) return
          call compare(branch, suspension, predictor, step%demand_a, step%demand_b, step%place, state, outcome, kkt, step%verdict)
          step%iterations = step%iterations + branch%factorisations
