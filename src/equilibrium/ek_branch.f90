@@ -194,17 +194,20 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state_b
       type(kkt_t), intent(inout) :: kkt          !! factors at or near b
+      logical :: knows_a
 
       call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
-         self%chord_b, step%is_regular(at_b))
-      if (self%negative >= 0 .and. self%factors%is_kept) then
+      knows_a = self%negative >= 0 .and. self%factors%is_kept
+      if (knows_a) then
          call exchange(self%factors, kkt)
          call look_at_beginning(self, step, suspension, kkt)
          call exchange(self%factors, kkt)
-         call decide(self, step, kkt%length)
-         if (step%is_explained .or. step%is_past) return
+         if (step%is_explained) return
       end if
+      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
+         self%chord_b, step%is_regular(at_b))
+      if (knows_a) call decide(self, step, kkt%length)
+      if (step%is_past) return
       if (self%negative < 0) call look_anew_at_beginning(self, step, suspension, kkt)
       if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
          step%is_past = is_bend(self, step%width, kkt%length)
@@ -239,7 +242,7 @@ contains
       call look_at_beginning(self, step, suspension, kkt)
    end subroutine look_anew_at_beginning
 
-   !> The tangent at a, and that with the chords of bent laws, from the current factors.
+   !> The tangent at a from the current factors; if it does not explain the step, that with the chords of bent laws.
    subroutine look_at_beginning(self, step, suspension, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
@@ -248,8 +251,10 @@ contains
 
       call find_tangent(self%work, suspension, self%before, step%demand_a, step%rate, kkt, self%tangent_a)
       self%has_tangent = .true.
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_a, self%before, step%demand_a, step%rate, &
-         kkt, self%chord_a, step%is_regular(at_a))
+      step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
+      step%is_explained = step%rest <= smooth
+      if (step%is_bent .and. .not. step%is_explained) call look_along_chord(self%chord, suspension, self%work, at_a, self%before, &
+         step%demand_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
    end subroutine look_at_beginning
 
    !> Whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
