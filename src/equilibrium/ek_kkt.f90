@@ -16,7 +16,7 @@ module ek_kkt
    use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
    use ek_block, only: add_block, add_gradient, add_s_block, rotated
-   use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
+   use ek_element_force, only: element_view_t, look_element, add_element_tangent
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
@@ -176,11 +176,8 @@ contains
             at_j = 6*(j - 1)
             call look_element(element, poses(i), poses(j), element_view)
             call add_gradient(-1.0_wp, element_view%pull, at_i, at_j, rhs)     ! the force ON the bodies is −dV/dz
-            if (mode == whole_tangent) then
-               call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
-            else if (mode == material_only) then
-               call add_element_material(element, element_view, at_i, at_j, n, matrix)
-            end if
+            if (mode /= residual_only) &
+               call add_element_tangent(element, element_view, mode == material_only, at_i, at_j, n, matrix)
          end associate
       end do
 
@@ -253,12 +250,7 @@ contains
    pure real(wp) function load_factor(demand, load)
       type(demand_t), intent(in) :: demand
       integer, intent(in) :: load      !! number of the load
-      integer :: k
-
-      load_factor = 0.0_wp
-      do k = 1, demand%loads
-         if (demand%load(k) == load) load_factor = load_factor + demand%factor(k)
-      end do
+      load_factor = sum(demand%factor(:demand%loads), mask=demand%load(:demand%loads) == load)
    end function load_factor
 
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
@@ -267,28 +259,18 @@ contains
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
-      integer :: info
+      integer :: j, info
 
       if (are_checked) call require(kkt%stage == assembled, 'factorise: no matrix was assembled')
       kkt%stage = factors
       kkt%factorisations = kkt%factorisations + 1
-      call scale_lower(kkt%n, kkt%scale, kkt%matrix)
+      do j = 1, kkt%n       ! D S D
+         kkt%matrix(j:, j) = kkt%matrix(j:, j)*(kkt%scale(j)*kkt%scale(j:))
+      end do
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
-
-   !> Scales the lower triangle: D S D.
-   pure subroutine scale_lower(n, scale, matrix)
-      integer, intent(in) :: n
-      real(wp), intent(in) :: scale(n)
-      real(wp), intent(inout) :: matrix(n, n)
-      integer :: j
-
-      do j = 1, n
-         matrix(j:n, j) = matrix(j:n, j)*(scale(j)*scale(j:n))
-      end do
-   end subroutine scale_lower
 
    !> Number of negative eigenvalues, smallest over largest |eigenvalue| of the block-diagonal factor, and its determinant.
    !>

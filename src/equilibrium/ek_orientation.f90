@@ -41,8 +41,7 @@ contains
       integer :: k, n, body
 
       n = count(.not. suspension%rows%compliance > 0.0_wp)
-      allocate (self%held(n))
-      self%held(:) = pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp)
+      allocate (self%held, source=pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp))
       allocate (self%rows_a(suspension%unknowns(), n), self%rows_b(suspension%unknowns(), n), self%product(n, n), &
          self%factors(n, n), self%unit(n, 1), source=0.0_wp)
       allocate (self%pivots(n), source=0)
@@ -72,7 +71,7 @@ contains
       logical, intent(out) :: is_turned_over, is_singular
       real(wp), allocatable :: rows(:, :)
       real(wp) :: least_a, least
-      integer :: k, n
+      integer :: k, n, info
 
       n = size(self%held)
       is_turned_over = .false.
@@ -99,7 +98,13 @@ contains
          self%factors(k:, k) = self%product(k:, k) + self%product(k, k:)
       end do
       call eliminate(n, self%factors, least)
-      if (.not. least > 0.0_wp) call find_sign(self, n, is_turned_over)
+      if (least > 0.0_wp) return
+      self%unit = 0.0_wp      ! for the LU factors; without a right-hand side OpenBLAS would not compute them
+      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
+      if (info /= 0) return
+      do k = 1, n
+         if ((self%product(k, k) < 0.0_wp) .neqv. self%pivots(k) /= k) is_turned_over = .not. is_turned_over
+      end do
    end subroutine compare_orientation
 
    !> Whether poses are the same but for rounding.
@@ -154,22 +159,6 @@ contains
       end do
       least = max(least, 0.0_wp)/max(most, tiny(most))
    end subroutine eliminate
-
-   !> Whether the determinant of the product is negative. A singular one is not.
-   pure subroutine find_sign(self, n, is_negative)
-      type(orientation_t), intent(inout) :: self
-      integer, intent(in) :: n
-      logical, intent(out) :: is_negative
-      integer :: k, info
-
-      is_negative = .false.
-      self%unit = 0.0_wp      ! for the LU factors; without a right-hand side OpenBLAS would not compute them
-      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
-      if (info /= 0) return
-      do k = 1, n
-         if ((self%product(k, k) < 0.0_wp) .neqv. self%pivots(k) /= k) is_negative = .not. is_negative
-      end do
-   end subroutine find_sign
 
    !> Scaled Φq of the rigid rows.
    pure subroutine gather_rows(self, suspension, poses, scale, rows)
