@@ -138,11 +138,8 @@ contains
 
       rhs = 0.0_wp
       if (mode /= residual_only) then
-         do k = 1, n
-            matrix(k:n, k) = 0.0_wp
-            ! diagonal 3×3 blocks are added in full, including elements above the diagonal
-            if (k > 2) matrix(k - 2:k - 1, k) = 0.0_wp
-            if (k == 2) matrix(1, 2) = 0.0_wp
+         do k = 1, n    ! diagonal 3×3 blocks are added in full, including elements above the diagonal
+            matrix(max(k - 2, 1):n, k) = 0.0_wp
          end do
       end if
 
@@ -259,18 +256,28 @@ contains
    !> Equation (K.5) of docs/theory/kkt.md.
    pure subroutine factorise(kkt)
       type(kkt_t), intent(inout) :: kkt
-      integer :: j, info
+      integer :: info
 
       if (are_checked) call require(kkt%stage == assembled, 'factorise: no matrix was assembled')
       kkt%stage = factors
       kkt%factorisations = kkt%factorisations + 1
-      do j = 1, kkt%n       ! D S D
-         kkt%matrix(j:, j) = kkt%matrix(j:, j)*(kkt%scale(j)*kkt%scale(j:))
-      end do
+      call scale_lower(kkt%n, kkt%scale, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
+
+   !> Scales the lower triangle: D S D.
+   pure subroutine scale_lower(n, scale, matrix)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: scale(n)
+      real(wp), intent(inout) :: matrix(n, n)
+      integer :: j
+
+      do j = 1, n
+         matrix(j:n, j) = matrix(j:n, j)*(scale(j)*scale(j:n))
+      end do
+   end subroutine scale_lower
 
    !> Number of negative eigenvalues, smallest over largest |eigenvalue| of the block-diagonal factor, and its determinant.
    !>
