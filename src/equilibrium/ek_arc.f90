@@ -23,7 +23,7 @@
 module ek_arc
    use ek_kinds, only: wp
    use ek_measure, only: distance
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, has_symmetric_loads
    use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, demand_rate, &
       motion_between, move_as_screw
    use ek_schedule, only: schedule_t, demand_at
@@ -79,7 +79,7 @@ contains
       real(wp), intent(in) :: range          !! place, above 0
       real(wp), intent(in) :: tolerance      !! m
       type(arc_t) :: self
-      integer :: n, k
+      integer :: n
 
       n = suspension%unknowns() + suspension%constraints() + 1
       allocate (self%tangent_a(n), self%tangent_b(n), self%tangent_0(n), self%tangent(n), self%motion(n), &
@@ -90,14 +90,9 @@ contains
       self%other = self%state
       self%schedule = schedule
       self%range = range
-      self%size = length
-      do k = 1, size(suspension%elements)
-         if (suspension%elements(k)%measure%kind == distance) self%size = max(self%size, suspension%elements(k)%design_length)
-      end do
+      self%size = max(length, maxval(suspension%elements%design_length, mask=suspension%elements%measure%kind == distance))
       self%tolerance = tolerance
-      do k = 1, size(suspension%loads)
-         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
-      end do
+      self%is_symmetric = has_symmetric_loads(suspension)
    end function new_arc
 
    !> Starts at an equilibrium on the path, in either direction.

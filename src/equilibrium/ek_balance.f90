@@ -134,9 +134,7 @@ contains
       call factorise(kkt)
       if (.not. kkt%is_singular) then
          call solve(kkt)
-         do w = 1, size(height)
-            height(w) = rise(suspension, state, w, kkt%rhs)
-         end do
+         height = [(rise(suspension, state, w, kkt%rhs), w=1, size(height))]
          call lower_by(height, suspension, state, kkt, error)
          if (allocated(error)) return
       end if
@@ -190,9 +188,7 @@ contains
             call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), kkt%rhs)
          end associate
          call solve(kkt)
-         do w = 1, size(height)
-            slope(w, s) = rise(suspension, state, w, kkt%rhs)
-         end do
+         slope(:, s) = [(rise(suspension, state, w, kkt%rhs), w=1, size(height))]
       end do
       call decompose(slope, rank_share, parts)
       if (.not. parts%is_found) then
@@ -200,9 +196,9 @@ contains
          return
       end if
       call least_norm(parts, -height, change)
-      do s = 1, size(change)
-         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = suspension%elements(s)%preload + change(s)
-      end do
+      associate (springs => suspension%elements(:size(change)))
+         where (is_free(springs)) springs%preload = springs%preload + change
+      end associate
    end subroutine lower_by
 
    !> The upward motion of a wheel centre in a step of all bodies [m].
@@ -231,9 +227,7 @@ contains
       real(wp), allocatable :: root(:), column(:)
       integer :: b, k, s, t, nx, ny
 
-      do s = 1, suspension%scalars
-         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = 0.0_wp
-      end do
+      where (is_free(suspension%elements)) suspension%elements%preload = 0.0_wp
       do b = 1, size(suspension%elements) - suspension%scalars
          suspension%elements(suspension%scalars + b)%bushing%preload_force = 0.0_wp
          suspension%elements(suspension%scalars + b)%bushing%preload_moment = 0.0_wp
@@ -269,9 +263,7 @@ contains
             end associate
          end do
       end do
-      do k = 1, ny
-         free(:, k) = free(:, k)*kkt%scale(:kkt%nq)
-      end do
+      free = free*spread(kkt%scale(:kkt%nq), 2, ny)
 
       ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
       ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
@@ -292,12 +284,11 @@ contains
             kept_out(suspension))
          return
       end if
-      do s = 1, suspension%scalars
-         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = y(s)
-      end do
-      do k = 1, kkt%nc      ! the prescribed value of a driver with a stiffness compensates its deflection
-         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(suspension%scalars + k)
-      end do
+      associate (springs => suspension%elements(:suspension%scalars))
+         where (is_free(springs)) springs%preload = y(:suspension%scalars)
+      end associate
+      ! the prescribed value of a driver with a stiffness compensates its deflection
+      suspension%rows%target = suspension%rows%target - suspension%rows%compliance*y(suspension%scalars + 1:)
       do b = 1, size(suspension%elements) - suspension%scalars
          suspension%elements(suspension%scalars + b)%bushing%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
          suspension%elements(suspension%scalars + b)%bushing%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
@@ -310,32 +301,17 @@ contains
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: b, k
       real(wp), intent(out) :: column(:)
-      real(wp) :: axis(3)
-      integer :: at
+      real(wp), parameter :: none(3) = 0.0_wp
+      real(wp) :: axis(3), gradient(12)
 
       column = 0.0_wp
       associate (bushing => suspension%elements(suspension%scalars + b)%bushing, &
          measure => suspension%elements(suspension%scalars + b)%measure)
          axis = bushing%axes(:, merge(k, k - 3, k <= 3))
-         at = 6*(measure%body_j - 1)
-         if (at >= 0) call put(at, measure%arm_j, 1.0_wp)
-         at = 6*(measure%body_i - 1)
-         if (at >= 0) call put(at, measure%arm_i + bushing%gap0, -1.0_wp)
+         gradient = [none, -axis, none, axis]
+         if (k <= 3) gradient = [-axis, -cross(measure%arm_i + bushing%gap0, axis), axis, cross(measure%arm_j, axis)]
+         call add_gradient(1.0_wp, gradient, 6*(measure%body_i - 1), 6*(measure%body_j - 1), column)
       end associate
-
-   contains
-
-      subroutine put(at, arm, sign_of)
-         integer, intent(in) :: at
-         real(wp), intent(in) :: arm(3), sign_of
-         if (k <= 3) then
-            column(at + 1:at + 3) = sign_of*axis
-            column(at + 4:at + 6) = sign_of*cross(arm, axis)
-         else
-            column(at + 4:at + 6) = sign_of*axis
-         end if
-      end subroutine put
-
    end subroutine bushing_column
 
 end module ek_balance

@@ -172,9 +172,9 @@ contains
       is_regular = .true.
       tangent = 0.0_wp
       do slope = least, most
-         do k = 1, self%bends
-            self%change(k) = self%slope(slope, self%bent_law(k)) - self%own(end, self%bent_law(k))
-         end do
+         associate (laws => self%bent_law(:self%bends))
+            self%change(:self%bends) = self%slope(slope, laws) - self%own(end, laws)
+         end associate
          call set_changes(self%dyads, self%change, kkt%negative)
          is_regular = is_regular .and. self%dyads%negative == kkt%negative
          if (.not. is_regular) return

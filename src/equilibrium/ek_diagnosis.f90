@@ -22,12 +22,12 @@ module ek_diagnosis
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, demand_t
    use ek_kkt, only: kkt_t, assemble, condition, whole_tangent, material_only
-   use ek_motion_words, only: motion_words, place
+   use ek_motion_words, only: motion_words, body_parts, place
    use ek_singular_values, only: singular_values_t, decompose
    use ek_lapack, only: dsyev
    implicit none(type, external)
    private
-   public :: diagnosis_t, diagnose, softest_rate, scaled_parts
+   public :: diagnosis_t, diagnose, softest_rate, scaled_parts, modes
    public :: rank_tolerance, no_stiffness, rounding
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
@@ -303,11 +303,7 @@ contains
    pure real(wp) function bodies_in(motion) result(bodies)
       real(wp), intent(in) :: motion(:)
       real(wp) :: part(size(motion)/6)
-      integer :: k
-
-      do k = 1, size(part)
-         part(k) = norm2(motion(6*k - 5:6*k))
-      end do
+      part = body_parts(motion)
       bodies = sum(part)**2/max(sum(part**2), tiny(1.0_wp))
    end function bodies_in
 
@@ -332,15 +328,8 @@ contains
       real(wp), intent(in) :: matrix(:, :)
       logical, intent(in) :: mask(:)
       real(wp), allocatable :: columns(:, :)
-      integer :: k, used
-
-      allocate (columns(size(matrix, 1), count(mask)))
-      used = 0
-      do k = 1, size(mask)
-         if (.not. mask(k)) cycle
-         used = used + 1
-         columns(:, used) = matrix(:, k)
-      end do
+      integer :: k
+      columns = matrix(:, pack([(k, k=1, size(mask))], mask))
    end function pick
 
    !> ", 3E+10 times softer than bushing 'x'"; empty if no bushing is much stiffer.

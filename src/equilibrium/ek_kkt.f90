@@ -16,7 +16,7 @@ module ek_kkt
    use ek_measure, only: view_t, look, add_measure_hessian
    use ek_turn, only: pose_t
    use ek_block, only: add_block, add_gradient, add_s_block, rotated
-   use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
+   use ek_element_force, only: element_view_t, look_element, add_element_tangent
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
@@ -138,11 +138,8 @@ contains
 
       rhs = 0.0_wp
       if (mode /= residual_only) then
-         do k = 1, n
-            matrix(k:n, k) = 0.0_wp
-            ! diagonal 3×3 blocks are added in full, including elements above the diagonal
-            if (k > 2) matrix(k - 2:k - 1, k) = 0.0_wp
-            if (k == 2) matrix(1, 2) = 0.0_wp
+         do k = 1, n    ! diagonal 3×3 blocks are added in full, including elements above the diagonal
+            matrix(max(k - 2, 1):n, k) = 0.0_wp
          end do
       end if
 
@@ -176,11 +173,8 @@ contains
             at_j = 6*(j - 1)
             call look_element(element, poses(i), poses(j), element_view)
             call add_gradient(-1.0_wp, element_view%pull, at_i, at_j, rhs)     ! the force ON the bodies is −dV/dz
-            if (mode == whole_tangent) then
-               call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
-            else if (mode == material_only) then
-               call add_element_material(element, element_view, at_i, at_j, n, matrix)
-            end if
+            if (mode /= residual_only) &
+               call add_element_tangent(element, element_view, mode == material_only, at_i, at_j, n, matrix)
          end associate
       end do
 
@@ -253,12 +247,7 @@ contains
    pure real(wp) function load_factor(demand, load)
       type(demand_t), intent(in) :: demand
       integer, intent(in) :: load      !! number of the load
-      integer :: k
-
-      load_factor = 0.0_wp
-      do k = 1, demand%loads
-         if (demand%load(k) == load) load_factor = load_factor + demand%factor(k)
-      end do
+      load_factor = sum(demand%factor(:demand%loads), mask=demand%load(:demand%loads) == load)
    end function load_factor
 
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.

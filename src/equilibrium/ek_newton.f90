@@ -7,7 +7,7 @@ module ek_newton
    use ek_kinds, only: wp
    use ek_vector, only: add_multiple
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, move_as_screw
+   use ek_state, only: state_t, demand_t, move_as_screw, largest_motion
    use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
    implicit none(type, external)
    private
@@ -89,28 +89,10 @@ contains
       real(wp), intent(out) :: length     !! largest |Δr|, |Δπ| × characteristic length [m]
 
       call solve(kkt)
-      length = step_length(kkt%rhs(:kkt%nq), kkt%length)
+      length = largest_motion(kkt%rhs(:kkt%nq), kkt%length)
       if (.not. length < limit) return
       call add_multiple(kkt%nc, 1.0_wp, kkt%rhs(kkt%nq + 1:), state%reaction)
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine take_step
-
-   !> The largest translation or rotation × length of any body.
-   !> Equation (K.11) of docs/theory/kkt.md.
-   pure real(wp) function step_length(step, length)
-      real(wp), contiguous, intent(in) :: step(:)
-      real(wp), intent(in) :: length
-      real(wp) :: square
-      integer :: k
-
-      square = 0.0_wp
-      do k = 1, size(step), 6
-         square = max(square, step(k)**2 + step(k + 1)**2 + step(k + 2)**2, &
-            length**2*(step(k + 3)**2 + step(k + 4)**2 + step(k + 5)**2))
-         ! max() may drop a NaN: return it
-         if (.not. step(k) + step(k + 3) < huge(square)) square = huge(square)
-      end do
-      step_length = sqrt(square)
-   end function step_length
 
 end module ek_newton

@@ -16,7 +16,7 @@ module ek_path
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
    use ek_arc_survey, only: survey_t, survey, go_to, length_at, tell_limits, most_limits, arrived
-   use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
+   use ek_predictor, only: predictor_t, remember, forget, depth
    implicit none(type, external)
    private
    public :: path_t, sweep, new_path, walk, progress_procedure
@@ -60,7 +60,6 @@ module ek_path
       type(demand_t) :: demand
       type(schedule_t) :: schedule
       real(wp), allocatable :: held(:)     !! of the recursion
-      type(predictor_t) :: predictor
       type(branch_t) :: branch
       type(arc_t) :: arc
       logical :: is_along_arc = .false.
@@ -204,7 +203,7 @@ contains
          direction = sign(1, last - first)
          call restart(self, suspension, case, path, kkt)
          if (first == path%start) then
-            call seed(self%predictor, path, first, -direction)
+            call seed(self%branch%predictor, path, first, -direction)
          else
             steps = max(1, nint(abs(path%value(first))/abs(path%value(2) - path%value(1))))
             do k = 1, steps
@@ -231,7 +230,6 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       self%schedule = new_schedule(suspension, case)
-      self%predictor = new_predictor(size(path%settled))
       self%branch = new_branch(suspension)
       self%is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
       if (self%is_along_arc) self%arc = new_arc(suspension, self%schedule, kkt%length, maxval(abs(path%value)), case%tolerance)
@@ -335,9 +333,7 @@ contains
       self%here = self%schedule%rest
       call demand_at(self%schedule, self%here, self%demand)
       if (case%method == 'recursive') call start_recursion(suspension, self%state, kkt, self%held)
-      call forget(self%predictor)
-      call remember(self%predictor, self%here, path%settled)
-      call leave(self%branch, self%negative)
+      call leave(self%branch, self%here, path%settled, self%negative)
    end subroutine restart
 
    !> Uses the states of the other direction to predict the first states of this one.
@@ -372,7 +368,7 @@ contains
       type(demand_t) :: next
 
       if (case%method == 'equilibrium') then
-         call reach(suspension, self%schedule, value, case%tolerance, self%predictor, self%branch, self%state, kkt, &
+         call reach(suspension, self%schedule, value, case%tolerance, self%branch, self%state, kkt, &
             path%iterations(k), failure)
          if (failure%state > 0) failure%state = k
          return

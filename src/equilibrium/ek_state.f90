@@ -9,7 +9,7 @@ module ek_state
    implicit none(type, external)
    private
    public :: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
-   public :: demand_rate, motion_between
+   public :: demand_rate, motion_between, largest_motion
 
    !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
    type :: state_t
@@ -63,6 +63,23 @@ contains
          at = at + 6
       end do
    end subroutine motion_between
+
+   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if one is not a number.
+   !> Equation (K.11) of docs/theory/kkt.md.
+   pure real(wp) function largest_motion(motion, length) result(largest)
+      real(wp), contiguous, intent(in) :: motion(:)    !! [Δr Δπ] of each body [m, rad]
+      real(wp), intent(in) :: length                   !! m
+      integer :: k
+
+      largest = 0.0_wp
+      do k = 1, size(motion), 6
+         largest = max(largest, motion(k)**2 + motion(k + 1)**2 + motion(k + 2)**2, &
+            length**2*(motion(k + 3)**2 + motion(k + 4)**2 + motion(k + 5)**2))
+         ! max() may drop a NaN: return it
+         if (.not. motion(k) + motion(k + 3) < huge(largest)) largest = huge(largest)
+      end do
+      if (largest < huge(largest)) largest = sqrt(largest)
+   end function largest_motion
 
    !> The design position, without reactions.
    function design_state(suspension) result(state)

@@ -9,7 +9,6 @@ module ek_target
    use ek_state, only: state_t, design_state, pack_state
    use ek_schedule, only: schedule_t, new_schedule
    use ek_kkt, only: kkt_t
-   use ek_predictor, only: predictor_t, new_predictor, remember, forget
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
    use ek_branch, only: branch_t, new_branch, leave
@@ -126,7 +125,6 @@ contains
       real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer once the interval has closed
       type(path_t) :: here
       type(schedule_t) :: schedule
-      type(predictor_t) :: predictor
       type(branch_t) :: branch
       real(wp) :: low, high, f_low, f_high, middle, f, span
       integer :: first, second, step, last_side
@@ -136,7 +134,6 @@ contains
       second = min(first + 1, path%states)
       call one_state(path, first, here)
       schedule = new_schedule(suspension, case)
-      predictor = new_predictor(size(here%packed))
       branch = new_branch(suspension)
       branch%least = least_step*abs(path%value(second) - path%value(first))
       low = path%value(first)
@@ -186,10 +183,8 @@ contains
          from = first
          if (abs(path%value(second) - place) < abs(path%value(first) - place)) from = second
          state = design_state(suspension)
-         call forget(predictor)
-         call remember(predictor, path%value(from), path%packed(:, from))
-         call leave(branch, -1)
-         call reach(suspension, schedule, place, case%tolerance, predictor, branch, state, kkt, &
+         call leave(branch, path%value(from), path%packed(:, from), -1)
+         call reach(suspension, schedule, place, case%tolerance, branch, state, kkt, &
             here%iterations(1), failure)
          here%value(1) = place
          here%is_reached(1) = failure%state == 0

@@ -84,11 +84,7 @@ contains
    pure logical function scales_loads(case)
       type(case_t), intent(in) :: case
       integer :: k
-
-      scales_loads = .false.
-      do k = 1, size(case%actuations)
-         scales_loads = scales_loads .or. len(case%actuations(k)%load) > 0
-      end do
+      scales_loads = any([(len(case%actuations(k)%load) > 0, k=1, size(case%actuations))])
    end function scales_loads
 
    !> Add an actuation to a case: a load or a driver joint; the other name is empty.

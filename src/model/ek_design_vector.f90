@@ -75,11 +75,8 @@ contains
          direction = [-a(2), a(1), 0.0_wp]
          if (norm2(direction) < upright) direction = [1.0_wp, 0.0_wp, 0.0_wp] - a(1)*a
       end select
-      if (norm2(direction) > 0.0_wp) then
-         direction = unit_vector(direction)
-      else
-         is_good = .false.
-      end if
+      is_good = is_good .and. norm2(direction) > 0.0_wp
+      if (norm2(direction) > 0.0_wp) direction = unit_vector(direction)
    end subroutine find_direction
 
    !> The marker axes: z is kept, x is made perpendicular to it, y = z × x. Without directions they are the deck's global axes.

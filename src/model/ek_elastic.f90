@@ -11,7 +11,7 @@ module ek_elastic
    use ek_law, only: law_t, look_up_law
    use ek_measure, only: measure_t
    use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
-   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
+   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated, in_world
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
@@ -212,25 +212,5 @@ contains
       k = -k
       call add_block(k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_bushing_material
-
-   !> A K Aᵀ; the chassis (at_i < 0) never rotates.
-   pure function in_world(a, k, at_i) result(world)
-      real(wp), intent(in) :: a(3, 3), k(3, 3)
-      integer, intent(in) :: at_i
-      real(wp) :: world(3, 3), ak(3, 3), row(3)
-      integer :: j
-
-      if (at_i < 0) then
-         world = k
-         return
-      end if
-      do j = 1, 3
-         ak(:, j) = rotated(a, k(:, j))
-      end do
-      do j = 1, 3
-         row = ak(j, :)
-         world(j, :) = rotated(a, row)
-      end do
-   end function in_world
 
 end module ek_elastic

@@ -11,7 +11,7 @@ module ek_element_force
    use ek_element, only: element_t, bushing_element
    implicit none(type, external)
    private
-   public :: element_view_t, look_element, add_element_tangent, add_element_material, design_stiffness
+   public :: element_view_t, look_element, add_element_tangent, design_stiffness
    public :: spring_tension, add_spring_tangent, add_spring_material
 
    !> An element at one pair of poses.
@@ -54,32 +54,22 @@ contains
    end subroutine spring_tension
 
    !> Adds d²V/dz²: the material part, and force × Hessian.
-   pure subroutine add_element_tangent(element, view, at_i, at_j, ld, matrix)
+   pure subroutine add_element_tangent(element, view, is_material, at_i, at_j, ld, matrix)
       type(element_t), intent(in) :: element
       type(element_view_t), intent(in) :: view          !! of look_element
+      logical, intent(in) :: is_material                !! the material part alone, −(19) of the paper
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
 
       if (element%kind == bushing_element) then
-         call add_bushing_tangent(view%bushing, at_i, at_j, ld, matrix)
+         if (is_material) call add_bushing_material(view%bushing, at_i, at_j, ld, matrix)
+         if (.not. is_material) call add_bushing_tangent(view%bushing, at_i, at_j, ld, matrix)
+      else if (is_material) then
+         call add_spring_material(element%measure%kind, view%measure, view%slope, at_i, at_j, ld, matrix)
       else
          call add_spring_tangent(element%measure%kind, view%measure, view%tension, view%slope, at_i, at_j, ld, matrix)
       end if
    end subroutine add_element_tangent
-
-   !> Adds the material part alone, −(19) of the paper.
-   pure subroutine add_element_material(element, view, at_i, at_j, ld, matrix)
-      type(element_t), intent(in) :: element
-      type(element_view_t), intent(in) :: view          !! of look_element
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-
-      if (element%kind == bushing_element) then
-         call add_bushing_material(view%bushing, at_i, at_j, ld, matrix)
-      else
-         call add_spring_material(element%measure%kind, view%measure, view%slope, at_i, at_j, ld, matrix)
-      end if
-   end subroutine add_element_material
 
    !> Adds slope g gᵀ + tension × Hessian of the measure, g its gradient. Of a distance: Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and
    !> the arm terms, which are those of a gap along e.

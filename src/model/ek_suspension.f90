@@ -13,7 +13,7 @@ module ek_suspension
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
-   public :: allocate_lists, body_name, design_poses, driver_row, load_number
+   public :: allocate_lists, body_name, design_poses, driver_row, load_number, has_symmetric_loads
 
    !> A rigid body.
    type :: body_t
@@ -199,5 +199,12 @@ contains
          if (len(name) > 0 .and. self%loads(k)%name == name) load_number = k
       end do
    end function load_number
+
+   !> Whether no load makes the true tangent unsymmetric: none rotates with its body, none has a moment.
+   pure logical function has_symmetric_loads(self)
+      type(suspension_t), intent(in) :: self
+      integer :: k
+      has_symmetric_loads = .not. any([(self%loads(k)%follows .or. norm2(self%loads(k)%moment) > 0.0_wp, k=1, size(self%loads))])
+   end function has_symmetric_loads
 
 end module ek_suspension

@@ -6,7 +6,7 @@
 module ek_turn
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
-   use ek_block, only: add_block, add_diagonal_block, rotated
+   use ek_block, only: add_block, add_diagonal_block, rotated, in_world
    implicit none(type, external)
    private
    public :: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
@@ -127,20 +127,10 @@ contains
       do k = 1, 3
          h(k, k) = h(k, k) - half_wq
       end do
-      if (at_i < 0) then      ! the chassis never rotates: a_i is the unit matrix
-         call add_diagonal_block(h, at_j + 3, at_j, ld, matrix)
-         return
-      end if
-      do k = 1, 3
-         left(:, k) = rotated(a_i, h(:, k))
-      end do
-      do k = 1, 3
-         row = left(k, :)
-         b(k, :) = rotated(a_i, row)
-      end do
+      b = in_world(a_i, h, at_i)
       call add_diagonal_block(b, at_i + 3, at_i, ld, matrix)
-      if (at_j < 0) return
       call add_diagonal_block(b, at_j + 3, at_j, ld, matrix)
+      if (at_i < 0 .or. at_j < 0) return
       g = turn%q0*w + cross(turn%qv, w)
       g = 0.5_wp*rotated(a_i, g)
       b = -b
