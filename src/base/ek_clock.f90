@@ -5,7 +5,7 @@ module ek_clock
    use ek_posix, only: c_time, c_gmtime, c_localtime, c_strftime
    implicit none(type, external)
    private
-   public :: seconds, seconds_since_1970, date_words
+   public :: seconds, seconds_since_1970, date_text
 
 contains
 
@@ -25,7 +25,7 @@ contains
 
    !> '2026-01-31 17:05': the local time now; if the environment variable SOURCE_DATE_EPOCH is set, that time in UTC, so that
    !> the same input gives the same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
-   function date_words() result(words)
+   function date_text() result(words)
       character(16) :: words
       character(kind=c_char) :: letters(17)
       integer(c_long) :: fields(16)             ! room for a struct tm, which has 56 bytes
@@ -42,7 +42,7 @@ contains
       end if
       length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%d %H:%M'//c_null_char, fields)
       words = transfer(letters(:length), words)
-   end function date_words
+   end function date_text
 
    !> Reads SOURCE_DATE_EPOCH if it is a whole number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)

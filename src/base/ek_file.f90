@@ -15,7 +15,7 @@ module ek_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
-   integer, parameter :: most_streamed = 1000000000   !! bytes read from a pipe or a device; /dev/zero is endless
+   integer, parameter :: max_streamed = 1000000000   !! bytes read from a pipe or a device; /dev/zero is endless
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
    integer(c_int), parameter :: may_execute = 1  !! X_OK
    integer(c_int), parameter :: all_may = 511    !! 0777, reduced by the umask
@@ -101,12 +101,12 @@ contains
             reason = 'there is not enough memory for it'
             if (status == 0) read (unit, iostat=status, iomsg=reason) text
          else                             ! of a pipe the size is unknown
-            do while (bytes%length() < most_streamed .and. status == 0)
+            do while (bytes%length() < max_streamed .and. status == 0)
                read (unit, iostat=status) byte
                if (status == 0) call bytes%add(byte)
             end do
             text = bytes%text()
-            status = merge(1, 0, len(text) == most_streamed)
+            status = merge(1, 0, len(text) == max_streamed)
             reason = 'it is longer than 1 GB'
          end if
          close (unit, iostat=ignored)

@@ -6,8 +6,7 @@
 !> its unit is the end of its name. Heads, charts, key numbers and reserved names follow from the row. input/QUANTITIES.md
 !> defines each of them.
 module ek_quantity
-   use ek_kinds, only: wp
-   use ek_units, only: degree, millimetre
+   use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
    private
    public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem

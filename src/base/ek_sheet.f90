@@ -20,7 +20,7 @@ module ek_sheet
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
    real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are errors, and could overflow later
-   integer, parameter :: most_told = 100        !! errors reported in the rows of one table
+   integer, parameter :: max_reported = 100        !! errors reported in the rows of one table
 
    !> The content of a file. Rows with an error are not among the values.
    type :: sheet_t
@@ -288,7 +288,7 @@ contains
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what
 
-      if (sheet%row_mistakes%count() < most_told) then
+      if (sheet%row_mistakes%count() < max_reported) then
          call sheet%row_mistakes%add(what)
       else
          sheet%untold = sheet%untold + 1

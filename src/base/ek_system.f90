@@ -15,7 +15,7 @@ module ek_system
    private
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
    public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, system_reason, set_signal
-   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_words
+   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_remarks
    public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
    ! errno, the same on all systems
@@ -33,7 +33,7 @@ module ek_system
    end type facts_t
 
    integer, parameter :: sigpipe = 13, sigxfsz = 25  !! signals, the same on all systems
-   integer, parameter :: most_letters = 4096         !! longest path
+   integer, parameter :: max_letters = 4096         !! longest path
 
    abstract interface
       integer(c_int) function statx_procedure(folder, path, flags, mask, facts) bind(c)
@@ -195,11 +195,11 @@ contains
    !> The working folder; '.' if it has no path.
    function working_folder() result(path)
       character(:), allocatable :: path
-      character(kind=c_char) :: letters(most_letters)
+      character(kind=c_char) :: letters(max_letters)
 
       path = '.'
       letters = c_null_char
-      if (.not. c_associated(c_getcwd_raw(letters, int(most_letters, c_size_t)))) return
+      if (.not. c_associated(c_getcwd_raw(letters, int(max_letters, c_size_t)))) return
       path = text_of(letters)
    end function working_folder
 
@@ -304,7 +304,7 @@ contains
       character(*), intent(in) :: purpose                     !! who needs it: 'case 'x' with 1000 states'
       type(error_t), allocatable, intent(out) :: error        !! exit_file
 
-      if (.not. has_memory(bytes)) call fail(error, exit_file, memory_words(bytes, purpose))
+      if (.not. has_memory(bytes)) call fail(error, exit_file, memory_remarks(bytes, purpose))
    end subroutine ask_memory
 
    !> Whether a block of this many bytes can be allocated.
@@ -318,13 +318,13 @@ contains
    end function has_memory
 
    !> Says that a block of this many bytes cannot be allocated.
-   pure function memory_words(bytes, purpose) result(text)
+   pure function memory_remarks(bytes, purpose) result(text)
       integer(i8), intent(in) :: bytes
       character(*), intent(in) :: purpose
       character(:), allocatable :: text
 
       text = 'not enough memory: '//purpose//' needs '//str(int((bytes + 999999)/1000000))// &
          ' MB (a limit of the machine or of ulimit -v)'
-   end function memory_words
+   end function memory_remarks
 
 end module ek_system

@@ -11,8 +11,8 @@ module ek_bench
    use ek_lapack, only: dsysv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, method_names
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
-   use ek_schedule, only: schedule_t, new_schedule, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent
    use ek_balance, only: balance
    use ek_path, only: path_t, new_path, walk, sweep
@@ -267,7 +267,7 @@ contains
       real(wp), allocatable, intent(out) :: matrices(:, :, :)
       type(state_t) :: state
       type(schedule_t) :: schedule
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       integer :: count, k, state_number, j
 
       count = min(max(kept_numbers/kkt%n**2, 4), path%states)
@@ -276,9 +276,9 @@ contains
       schedule = new_schedule(suspension, case)
       do k = 1, count
          state_number = 1 + ((k - 1)*(path%states - 1))/max(count - 1, 1)
-         call demand_at(schedule, path%value(state_number), demand)
+         call inputs_at(schedule, path%value(state_number), inputs)
          call unpack_state(path%packed(:, state_number), state)
-         call assemble(suspension, state, demand, whole_tangent, kkt)
+         call assemble(suspension, state, inputs, whole_tangent, kkt)
          do j = 1, kkt%n
             matrices(j:, j, k) = kkt%matrix(j:, j)*kkt%scale(j)*kkt%scale(j:)
          end do

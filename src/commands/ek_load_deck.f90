@@ -6,7 +6,7 @@ module ek_load_deck
    use ek_setting, only: split_setting
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, method_names, most_increments
+   use ek_case, only: case_t, method_names, max_increments
    use ek_command_line, only: command_line_t
    use ek_examination, only: examination_t, check_inputs, examine_cases
    implicit none(type, external)
@@ -112,8 +112,8 @@ contains
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
       else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))
-      else if (settings%increments > most_increments) then
-         call fail(error, exit_usage, '--increments: expected 1 to '//str(most_increments)//', found '//str(settings%increments))
+      else if (settings%increments > max_increments) then
+         call fail(error, exit_usage, '--increments: expected 1 to '//str(max_increments)//', found '//str(settings%increments))
       end if
       if (allocated(error)) return
       do k = 1, size(chosen)

@@ -1,10 +1,9 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
-   use ek_units, only: millimetre
    use ek_text, only: str, plural, spaced
    use ek_version, only: version
-   use ek_clock, only: date_words
+   use ek_clock, only: date_text
    use ek_file, only: make_folder, write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t, default_tolerance
@@ -21,7 +20,7 @@ module ek_report
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
@@ -190,7 +189,7 @@ contains
          suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call add_fact(page, 'Deck checksum', checksum)
       call add_fact(page, 'Program', 'elastokin '//version)
-      call add_fact(page, 'Date', date_words())
+      call add_fact(page, 'Date', date_text())
    end subroutine set_head
 
    !> Name, kind and title of every test before it is run.
@@ -292,7 +291,7 @@ contains
       options%fault = fault
       options%checksum = checksum
       options%is_compared = .false.
-      options%least_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
+      options%min_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
       call solve_case(base, case, options, result)
       call failure_of(result, error)
       do topic = 1, size(topics)

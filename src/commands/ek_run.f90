@@ -12,7 +12,7 @@ module ek_run
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_sweep_table, only: compliance_table
    use ek_target, only: target_t, find_target
-   use ek_table, only: table_t, tell_csv
+   use ek_table, only: table_t, print_csv
    use ek_gnuplot, only: figure_t, run_figures, draw_figures
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
@@ -138,7 +138,7 @@ contains
       if (.not. result%is_run()) return
       name = join_path(settings%out, result%suspension%name//'_'//wanted%name)
       if (settings%out == '-') then
-         call tell_csv(result%table, trouble)
+         call print_csv(result%table, trouble)
       else
          call write_table(result%table, name//'.csv', unprinted, trouble)
          if (settings%has_plots .and. .not. allocated(trouble)) call draw(settings, result, name, undrawn)

@@ -1,15 +1,15 @@
 !> Checks one record against the table of groups: keys, types, counts, subscripts, ranges; and its name: an illegal character, or
 !> the column of a quantity that an element, a measure or a joint of this name would have as well. input/README.md lists the names.
 !>
-!> The values are read by ek_draft from the entries that pass. The compiler's namelist read is not used: it silently accepts
+!> The values are read by ek_deck_reading from the entries that pass. The compiler's namelist read is not used: it silently accepts
 !> too few values, a key given twice, `nan` and `1e999`.
 module ek_namelist
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted, plural
    use ek_letters, only: bad_byte, visible
    use ek_quantity, only: column_of_stem
-   use ek_record, only: complaints_t, record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_words, word, prose, number, whole, switch, &
+   use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, word, prose, number, whole, switch, &
       word_length, note_length
    implicit none(type, external)
    private
@@ -24,11 +24,11 @@ module ek_namelist
 contains
 
    !> Checks one record and marks the entries that are rejected.
-   subroutine check_record(record, group, head, complaints, is_good)
+   subroutine check_record(record, group, head, deck_errors, is_good)
       type(record_t), intent(inout) :: record
       integer, intent(in) :: group
       character(*), intent(in) :: head                        !! "bushing 'top_mount': " for messages
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       logical, intent(out) :: is_good
       type(key_t) :: key
       logical :: is_known
@@ -101,7 +101,7 @@ contains
          integer, intent(in) :: entry
          character(*), intent(in) :: what
 
-         call complaints%add(place_of(record, entry), head//what)
+         call deck_errors%add(place_of(record, entry), head//what)
          is_good = .false.
       end subroutine complain
 
@@ -119,7 +119,7 @@ contains
       read (entry%values(k)%text, *) value
       if (is_inside(key%range, value)) return
       if (key%least == key%most) words = element_text(key, entry%first + k - 1)
-      words = trim(key%name)//words//' '//range_words(key, str(value))
+      words = trim(key%name)//words//' '//range_text(key, str(value))
    end function out_of_range
 
    !> 'needs 3 values'

@@ -7,9 +7,9 @@ module ek_record
    use ek_group, only: group_number, key_t, find_key, polar, axial
    implicit none(type, external)
    private
-   public :: place_t, complaints_t, place_in, single, left_side, right_side, side_prefix, has_side
+   public :: place_t, deck_errors_t, place_in, single, left_side, right_side, side_prefix, has_side
    public :: value_t, entry_t, record_t
-   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_words, own_name
+   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_text, own_name
    public :: role_of, sign_of_image, turns
 
    !> The sides of the two records that &mirror creates from a record of the left half, which are in their names; or neither.
@@ -23,22 +23,22 @@ module ek_record
       integer :: side = single
    end type place_t
 
-   type :: complaint_t
+   type :: deck_error_t
       type(place_t) :: place
       character(:), allocatable :: text
-   end type complaint_t
+   end type deck_error_t
 
    !> Mistakes found so far; reported in the order of files and lines.
    !>
    !> A mistake in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
    !> side is dropped if there is one about the left side at the same location, and the prefixes are removed from the latter.
-   type :: complaints_t
+   type :: deck_errors_t
       private
       integer :: used = 0
-      type(complaint_t), allocatable :: list(:)
+      type(deck_error_t), allocatable :: list(:)
    contains
       procedure :: add => complaints_add, count => complaints_count, text => complaints_text
-   end type complaints_t
+   end type deck_errors_t
 
    !> One value as written; a string without its quotes.
    type :: value_t
@@ -173,12 +173,12 @@ contains
    end function place_of
 
    !> 'line 12' of a record; 'line 12 of wheels.nml' if the record with the message is in another file.
-   pure function line_words(record, seen_from) result(words)
+   pure function line_text(record, seen_from) result(words)
       type(record_t), intent(in) :: record, seen_from
       character(:), allocatable :: words
       words = 'line '//str(record%line)
       if (record%source /= seen_from%source) words = words//' of '//record%file
-   end function line_words
+   end function line_text
 
    !> The role of a key under y → −y, as in the table of keys; 0: the same on both sides.
    pure integer function role_of(record, key) result(role)
@@ -217,7 +217,7 @@ contains
 
    !> Record a mistake. Invisible characters in the message are shown as <U+00A0>.
    pure subroutine complaints_add(self, place, what)
-      class(complaints_t), intent(inout) :: self
+      class(deck_errors_t), intent(inout) :: self
       type(place_t), intent(in) :: place
       character(*), intent(in) :: what
       character(:), allocatable :: text
@@ -244,14 +244,14 @@ contains
 
    !> The number of recorded mistakes.
    pure integer function complaints_count(self)
-      class(complaints_t), intent(in) :: self
+      class(deck_errors_t), intent(in) :: self
       complaints_count = self%used
    end function complaints_count
 
    !> The messages, one per line, sorted by file and line number; messages about one line keep their order. The list is cut
    !> at a limit: a file with so many mistakes is probably not a deck.
    pure function complaints_text(self) result(text)
-      class(complaints_t), intent(in) :: self
+      class(deck_errors_t), intent(in) :: self
       character(:), allocatable :: text
       integer, parameter :: most = 100
       integer :: order(self%used), k, j

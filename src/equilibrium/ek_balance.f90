@@ -13,19 +13,19 @@ module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
-   use ek_measure, only: view_t, look
+   use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated, add_gradient
    use ek_element, only: axial_spring, element_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state
+   use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
    use ek_reach, only: settle, failure_t
-   use ek_singular_values, only: singular_values_t, decompose, least_norm
+   use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)
    private
-   public :: balance, balance_words, takes_part
+   public :: balance, balance_remarks, takes_part
 
    real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
    character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
@@ -73,7 +73,7 @@ contains
    end function takes_part
 
    !> Remarks about a balance: excluded drivers, preloads that are not unique.
-   subroutine balance_words(suspension, words)
+   subroutine balance_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
       integer :: k, springs
@@ -94,7 +94,7 @@ contains
             plural(size(suspension%wheels), 'wheel', 'wheels')//', so their preloads are not unique; the smallest change of '// &
             'them is used. Springs in series carry one force: set balance = .false. in the &spring that is to keep its preload')
       end select
-   end subroutine balance_words
+   end subroutine balance_remarks
 
    !> '; driver … is excluded', for an error message.
    function kept_out(suspension) result(text)
@@ -130,7 +130,7 @@ contains
       end if
       kkt = new_kkt(suspension)
       state = design_state(suspension)
-      call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+      call assemble(suspension, state, inputs_t(), whole_tangent, kkt)
       call factorise(kkt)
       if (.not. kkt%is_singular) then
          call solve(kkt)
@@ -153,7 +153,7 @@ contains
             end associate
          end do
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
-         call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+         call assemble(suspension, state, inputs_t(), whole_tangent, kkt)
          call factorise(kkt)
          call lower_by(height, suspension, state, kkt, error)
          if (allocated(error)) return
@@ -170,7 +170,7 @@ contains
       type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the tangent is singular
       type(singular_values_t) :: parts
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       real(wp) :: slope(size(suspension%wheels), suspension%scalars)
       real(wp) :: change(suspension%scalars)         ! per spring; 0 for other elements
       integer :: s, w
@@ -183,9 +183,9 @@ contains
       do s = 1, size(change)
          if (.not. is_free(suspension%elements(s))) cycle
          associate (m => suspension%elements(s)%measure)
-            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
             kkt%rhs = 0.0_wp     ! a unit preload pushes the ends apart
-            call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), kkt%rhs)
+            call add_gradient(1.0_wp, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), kkt%rhs)
          end associate
          call solve(kkt)
          slope(:, s) = [(rise(suspension, state, w, kkt%rhs), w=1, size(height))]
@@ -195,7 +195,7 @@ contains
          call fail(error, exit_convergence, "balance = 'spring': "//not_finite)
          return
       end if
-      call least_norm(parts, -height, change)
+      call min_norm(parts, -height, change)
       associate (springs => suspension%elements(:size(change)))
          where (is_free(springs)) springs%preload = springs%preload + change
       end associate
@@ -221,7 +221,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(kkt_t) :: kkt
       type(state_t) :: state
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       type(singular_values_t) :: carried, held
       real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), uncarried(:, :)
       real(wp), allocatable :: root(:), column(:)
@@ -235,7 +235,7 @@ contains
       end do
       kkt = new_kkt(suspension)
       state = design_state(suspension)
-      call assemble(suspension, state, demand_t(), residual_only, kkt)
+      call assemble(suspension, state, inputs_t(), residual_only, kkt)
       allocate (load(kkt%nq), remainder(kkt%nq))
       load = kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
       nx = 6*(size(suspension%elements) - suspension%scalars)
@@ -251,8 +251,8 @@ contains
       do s = 1, suspension%scalars
          if (.not. is_free(suspension%elements(s))) cycle
          associate (m => suspension%elements(s)%measure)
-            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, s))
+            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+            call add_gradient(1.0_wp, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, s))
          end associate
       end do
       do k = 1, kkt%nc
@@ -275,9 +275,9 @@ contains
          return
       end if
       allocate (x(nx), y(ny))
-      call least_norm(held, -matmul(uncarried, load), x)
+      call min_norm(held, -matmul(uncarried, load), x)
       remainder = -load - matmul(weighted, x)
-      call least_norm(carried, remainder, y)
+      call min_norm(carried, remainder, y)
       remainder = remainder - matmul(free, y)
       if (.not. norm2(remainder) <= 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
          call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design"// &

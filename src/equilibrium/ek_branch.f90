@@ -15,13 +15,13 @@
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state, coordinates, unpack_state, demand_rate, motion_between, move_as_screw, &
+   use ek_state, only: state_t, inputs_t, design_state, coordinates, unpack_state, inputs_rate, motion_between, move_as_screw, &
       largest_motion
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_newton, only: outcome_t
    use ek_predictor, only: predictor_t, new_predictor, forget, remember, depth
    use ek_tangent, only: tangent_t, new_tangent, find_tangent, body_motion, trapezoidal_rest, smooth
-   use ek_chord, only: chord_t, new_chord, straighten, look_along_chord, at_a, at_b
+   use ek_chord, only: chord_t, new_chord, straighten, evaluate_along_chord, at_a, at_b
    use ek_factors, only: factors_t, new_factors, mark, exchange
    use ek_orientation, only: orientation_t, new_orientation, compare_orientation
    implicit none(type, external)
@@ -36,12 +36,12 @@ module ek_branch
 
    real(wp), parameter :: same_place = 20.0_wp      !! of the width of a step across a bifurcation
 
-   integer, parameter, public :: most_crossings = 8   !! largest number of bifurcations reported
+   integer, parameter, public :: max_crossings = 8   !! largest number of bifurcations reported
 
    real(wp), parameter :: bent = 5.0e-2_wp         !! of the motion: allowed in the shortest steps
    real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
-   real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
+   real(wp), parameter :: min_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
    real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
@@ -51,7 +51,7 @@ module ek_branch
 
    !> What is known of a step from a to b.
    type :: step_t
-      type(demand_t) :: demand_a, demand_b, rate
+      type(inputs_t) :: inputs_a, inputs_b, rate
       real(wp) :: width = 0.0_wp            !! h: place of b minus place of a
       real(wp) :: rest = 0.0_wp             !! of the tangents' agreement with the motion
       integer :: negative_b = 0             !! negative eigenvalues of N at b
@@ -89,7 +89,7 @@ module ek_branch
       real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [place]
       real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [place]
       integer :: crossings = 0              !! bifurcations met so far
-      real(wp) :: crossing_place(most_crossings) = 0.0_wp
+      real(wp) :: crossing_place(max_crossings) = 0.0_wp
    end type branch_t
 
 contains
@@ -131,10 +131,10 @@ contains
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
    !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
    !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as that at a is not known.
-   subroutine compare(self, suspension, demand_a, demand_b, place, state_b, outcome, kkt, verdict)
+   subroutine compare(self, suspension, inputs_a, inputs_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: demand_a, demand_b
+      type(inputs_t), intent(in) :: inputs_a, inputs_b
       real(wp), intent(in) :: place                          !! of b
       type(state_t), intent(in) :: state_b
       type(outcome_t), intent(in) :: outcome                 !! of the iteration to b
@@ -145,7 +145,7 @@ contains
       integer :: older
 
       width = place - self%predictor%abscissa(self%predictor%newest)
-      step = step_t(demand_a, demand_b, demand_rate(demand_a, demand_b, width), width, huge(width), kkt%negative)
+      step = step_t(inputs_a, inputs_b, inputs_rate(inputs_a, inputs_b, width), width, huge(width), kkt%negative)
       self%factorisations = 0
       self%serial = kkt%factorisations
       self%missed = outcome%missed
@@ -161,7 +161,7 @@ contains
          call unpack_state(self%predictor%packed(:, older), self%shifted)
          call motion_between(self%shifted, self%before, self%motion_before)
       end if
-      call find_tangent(self%work, suspension, state_b, demand_b, step%rate, kkt, self%tangent_b)
+      call find_tangent(self%work, suspension, state_b, inputs_b, step%rate, kkt, self%tangent_b)
       if (self%has_tangent) then
          step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
       else if (abs(self%width_before) > 0.0_wp) then
@@ -174,7 +174,7 @@ contains
          if (step%rest > smooth) self%tangent_a(:kkt%nq) = self%motion_before/self%width_before
       end if
       step%is_explained = step%rest <= smooth
-      if (.not. step%is_explained) call look_closer(self, step, suspension, state_b, kkt)
+      if (.not. step%is_explained) call evaluate_closer(self, step, suspension, state_b, kkt)
       verdict = doubtful
       if (step%is_explained .or. step%is_past) then
          verdict = same_branch
@@ -194,7 +194,7 @@ contains
    end subroutine compare
 
    !> The same with what a first look lacks: the tangent at a, the chords of laws that bend, new factors at b.
-   subroutine look_closer(self, step, suspension, state_b, kkt)
+   subroutine evaluate_closer(self, step, suspension, state_b, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
       type(suspension_t), intent(in) :: suspension
@@ -206,35 +206,35 @@ contains
       knows_a = self%negative >= 0 .and. self%factors%is_kept
       if (knows_a) then
          call exchange(self%factors, kkt)
-         call look_at_beginning(self, step, suspension, .false., kkt)
+         call evaluate_beginning(self, step, suspension, .false., kkt)
          call exchange(self%factors, kkt)
          if (step%is_explained) return
       end if
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
+      if (step%is_bent) call evaluate_along_chord(self%chord, suspension, self%work, at_b, state_b, step%inputs_b, step%rate, kkt, &
          self%chord_b, step%is_regular(at_b))
       if (knows_a) call decide(self, step, kkt%length)
       if (step%is_past) return
-      if (self%negative < 0) call look_at_beginning(self, step, suspension, .true., kkt)
+      if (self%negative < 0) call evaluate_beginning(self, step, suspension, .true., kkt)
       if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
          step%is_past = is_bend(self, step%width, kkt%length)
       if (step%is_past) return
-      if (.not. step%is_new_at_a) call look_at_beginning(self, step, suspension, .true., kkt)
+      if (.not. step%is_new_at_a) call evaluate_beginning(self, step, suspension, .true., kkt)
       call decide(self, step, kkt%length)
       if (step%is_explained .or. step%is_past) return
-      call assemble(suspension, state_b, step%demand_b, whole_tangent, kkt)
+      call assemble(suspension, state_b, step%inputs_b, whole_tangent, kkt)
       call factorise(kkt)
       step%negative_b = kkt%negative
       self%factorisations = self%factorisations + 1
       self%serial = kkt%factorisations
       self%missed = 0.0_wp
-      call find_tangent(self%work, suspension, state_b, step%demand_b, step%rate, kkt, self%tangent_b)
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
+      call find_tangent(self%work, suspension, state_b, step%inputs_b, step%rate, kkt, self%tangent_b)
+      if (step%is_bent) call evaluate_along_chord(self%chord, suspension, self%work, at_b, state_b, step%inputs_b, step%rate, kkt, &
          self%chord_b, step%is_regular(at_b))
       call decide(self, step, kkt%length)
-   end subroutine look_closer
+   end subroutine evaluate_closer
 
    !> The tangent at a; if it does not explain the step, that with the chords of bent laws.
-   subroutine look_at_beginning(self, step, suspension, is_anew, kkt)
+   subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
       type(suspension_t), intent(in) :: suspension
@@ -242,19 +242,19 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       if (is_anew) then
-         call assemble(suspension, self%before, step%demand_a, whole_tangent, kkt)
+         call assemble(suspension, self%before, step%inputs_a, whole_tangent, kkt)
          call factorise(kkt)
          self%factorisations = self%factorisations + 1
          self%negative = kkt%negative
          step%is_new_at_a = .true.
       end if
-      call find_tangent(self%work, suspension, self%before, step%demand_a, step%rate, kkt, self%tangent_a)
+      call find_tangent(self%work, suspension, self%before, step%inputs_a, step%rate, kkt, self%tangent_a)
       self%has_tangent = .true.
       step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
       step%is_explained = step%rest <= smooth
-      if (step%is_bent .and. .not. step%is_explained) call look_along_chord(self%chord, suspension, self%work, at_a, self%before, &
-         step%demand_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
-   end subroutine look_at_beginning
+      if (step%is_bent .and. .not. step%is_explained) call evaluate_along_chord(self%chord, suspension, self%work, at_a, &
+         self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
+   end subroutine evaluate_beginning
 
    !> Whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
    pure subroutine decide(self, step, length)
@@ -324,7 +324,7 @@ contains
       if (self%crossings > 0) then
          if (abs(place - self%crossing_place(self%crossings)) <= same_place*self%width) return
       end if
-      self%crossings = min(self%crossings + 1, most_crossings)
+      self%crossings = min(self%crossings + 1, max_crossings)
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
 
@@ -356,7 +356,7 @@ contains
          if (body_motion(self%motion(k:k + 5), length) < takes_part*largest) cycle
          a = norm2(self%tangent_a(k:k + 5)*scale)
          b = norm2(self%tangent_b(k:k + 5)*scale)
-         if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < least_cosine*a*b) return
+         if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < min_cosine*a*b) return
       end do
       is_bend = rest <= bent*largest
    end function is_bend

@@ -7,10 +7,10 @@
 module ek_break
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state
+   use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, assemble, whole_tangent
    use ek_diagnosis, only: scaled_parts, modes
-   use ek_motion_words, only: body_parts
+   use ek_motion_text, only: body_parts
    use ek_singular_values, only: singular_values_t, decompose
    implicit none(type, external)
    private
@@ -33,18 +33,18 @@ module ek_break
 contains
 
    !> Examines the last equilibrium of a path. Cost: a few dense decompositions.
-   subroutine why_it_ends(suspension, state, demand, kkt, found)
+   subroutine why_it_ends(suspension, state, inputs, kkt, found)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state            !! the last equilibrium
-      type(demand_t), intent(in) :: demand          !! there
+      type(inputs_t), intent(in) :: inputs          !! there
       type(kkt_t), intent(inout) :: kkt             !! work space of this model
       type(break_t), intent(out) :: found
       real(wp) :: left(kkt%nc), motion(kkt%nq), closing(2), stiffness(2)
       integer :: k
 
       allocate (found%locks(size(suspension%joints)), source=.false.)
-      call examine(suspension, design_state(suspension), demand_t(), kkt, closing(1), stiffness(1), left, motion)
-      call examine(suspension, state, demand, kkt, closing(2), stiffness(2), left, motion)
+      call examine(suspension, design_state(suspension), inputs_t(), kkt, closing(1), stiffness(1), left, motion)
+      call examine(suspension, state, inputs, kkt, closing(2), stiffness(2), left, motion)
       if (closing(2) < vanished*closing(1)) then
          found%reason = lock
          do k = 1, kkt%nc
@@ -58,10 +58,10 @@ contains
    end subroutine why_it_ends
 
    !> The smallest singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z closest to zero with its motion.
-   subroutine examine(suspension, state, demand, kkt, closing, stiffness, left_vector, motion)
+   subroutine examine(suspension, state, inputs, kkt, closing, stiffness, left_vector, motion)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: closing, stiffness
       real(wp), intent(out) :: left_vector(:)       !! one element per row; 0 for rows with a stiffness
@@ -72,7 +72,7 @@ contains
       logical :: is_found
       integer :: i, m, n
 
-      call assemble(suspension, state, demand, whole_tangent, kkt)
+      call assemble(suspension, state, inputs, whole_tangent, kkt)
       call scaled_parts(suspension, kkt, rows, jacobian, tangent)
       call decompose(jacobian, 0.0_wp, parts, wants_null_space=.true.)
       left_vector = 0.0_wp

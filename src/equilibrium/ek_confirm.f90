@@ -8,8 +8,8 @@ module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_case, only: default_tolerance
-   use ek_state, only: state_t, demand_t, design_state, unpack_state, pack_state, motion_between, largest_motion
-   use ek_schedule, only: schedule_t, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state, pack_state, motion_between, largest_motion
+   use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_branch, only: branch_t, new_branch, leave
@@ -18,7 +18,7 @@ module ek_confirm
    private
    public :: confirm
 
-   integer, parameter :: most_looks = 10          !! number of comparisons per direction
+   integer, parameter :: max_evaluations = 10          !! number of comparisons per direction
    real(wp), parameter :: apart = 1.0e-6_wp       !! m: equilibria further apart are different
 
 contains
@@ -36,7 +36,7 @@ contains
       type(failure_t), intent(inout) :: failure      !! state: the first rejected state
       type(state_t) :: exact, linear
       type(branch_t) :: branch
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       type(outcome_t) :: outcome
       type(failure_t) :: lost
       real(wp) :: motion(kkt%nq)
@@ -60,7 +60,7 @@ contains
       branch%least = least
       branch%width = 1.0e3_wp*least
       call leave(branch, 0.0_wp, settled, kkt%negative)
-      stride = max(1, (abs(end - first) + most_looks)/most_looks)
+      stride = max(1, (abs(end - first) + max_evaluations)/max_evaluations)
       sure = first - direction
       k = first
       if (abs(place(first)) <= 0.0_wp) then       ! design itself
@@ -79,8 +79,8 @@ contains
             exit
          end if
          call unpack_state(packed(:, k), linear)
-         call demand_at(schedule, place(k), demand)
-         call find_equilibrium(suspension, demand, default_tolerance, linear, kkt, outcome)
+         call inputs_at(schedule, place(k), inputs)
+         call find_equilibrium(suspension, inputs, default_tolerance, linear, kkt, outcome)
          if (.not. outcome%is_converged) exit
          call motion_between(exact, linear, motion)
          if (.not. largest_motion(motion, kkt%length) <= apart) exit

@@ -4,9 +4,9 @@
 !> its determinant is proportional to the square of that of Φq. No memory is allocated after new_orientation.
 module ek_orientation
    use ek_kinds, only: wp
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_vector, only: add_multiple
-   use ek_measure, only: view_t, look
+   use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: add_gradient
    use ek_suspension, only: suspension_t
    use ek_lapack, only: dgesv
@@ -26,7 +26,7 @@ module ek_orientation
       private
       real(wp), allocatable :: rows_a(:, :), rows_b(:, :)  !! scaled Φq: (unknown, row)
       type(pose_t), allocatable :: poses_b(:)              !! of rows_b
-      real(wp) :: least_b = 0.0_wp                         !! smallest pivot of Φq Φqᵀ there, as a share of the largest
+      real(wp) :: min_b = 0.0_wp                         !! smallest pivot of Φq Φqᵀ there, as a share of the largest
       real(wp), allocatable :: product(:, :), factors(:, :), unit(:, :)
       integer, allocatable :: held(:), pivots(:)
       integer, allocatable :: touching(:, :), count(:)     !! held rows that touch a body, and how many
@@ -70,14 +70,14 @@ contains
       real(wp), intent(in) :: scale(:)                     !! of the unknowns, then of the rows: D of ek_scale
       logical, intent(out) :: is_turned_over, is_singular
       real(wp), allocatable :: rows(:, :)
-      real(wp) :: least_a, least
+      real(wp) :: min_a, least
       integer :: k, n, info
 
       n = size(self%held)
       is_turned_over = .false.
       is_singular = .false.
       if (n == 0) return
-      least_a = self%least_b
+      min_a = self%min_b
       if (are_same(poses_a, self%poses_b)) then            ! b of the last comparison
          call move_alloc(self%rows_a, rows)
          call move_alloc(self%rows_b, self%rows_a)
@@ -85,13 +85,13 @@ contains
       else
          call gather_rows(self, suspension, poses_a, scale, self%rows_a)
          call multiply_out(self, self%rows_a, self%rows_a, self%factors)
-         call eliminate(n, self%factors, least_a)
+         call eliminate(n, self%factors, min_a)
       end if
       call gather_rows(self, suspension, poses_b, scale, self%rows_b)
       call multiply_out(self, self%rows_b, self%rows_b, self%factors)
-      call eliminate(n, self%factors, self%least_b)
+      call eliminate(n, self%factors, self%min_b)
       self%poses_b(:) = poses_b
-      is_singular = self%least_b < vanished .or. self%least_b < near*least_a
+      is_singular = self%min_b < vanished .or. self%min_b < near*min_a
 
       call multiply_out(self, self%rows_a, self%rows_b, self%product)
       do k = 1, n
@@ -167,7 +167,7 @@ contains
       type(pose_t), intent(in) :: poses(0:)                  !! the chassis, then the bodies
       real(wp), intent(in) :: scale(:)
       real(wp), contiguous, intent(inout) :: rows(:, :)      !! (unknown, row)
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       integer :: k, t, nq
 
       nq = size(rows, 1)
@@ -176,8 +176,9 @@ contains
          associate (row => suspension%rows(self%held(k)))
             do t = row%first, row%first + row%terms - 1
                associate (m => suspension%terms(t)%measure)
-                  call look(m, poses(m%body_i), poses(m%body_j), view)
-                  call add_gradient(suspension%terms(t)%coefficient, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), rows(:, k))
+                  call evaluate(m, poses(m%body_i), poses(m%body_j), evaluation)
+                  call add_gradient(suspension%terms(t)%coefficient, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), &
+                     rows(:, k))
                end associate
             end do
          end associate

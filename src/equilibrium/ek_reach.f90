@@ -3,8 +3,8 @@
 module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, pack_state, unpack_state
-   use ek_schedule, only: schedule_t, demand_at
+   use ek_state, only: state_t, inputs_t, pack_state, unpack_state
+   use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_predictor, only: predictor_t, remember, predict, judge
@@ -20,7 +20,7 @@ module ek_reach
    integer, parameter :: quick = 6                    !! iterations: Newton's method needs more only where N is singular
    real(wp), parameter :: coarse = 10.0_wp            !! of branch%width: a step across a loss of rank of the joints
    real(wp), parameter :: away = 0.6_wp               !! of a step that ends at one: the next
-   integer, parameter :: most_attempts = 400          !! per increment
+   integer, parameter :: max_attempts = 400          !! per increment
 
    !> Where and how a sweep stopped.
    type :: failure_t
@@ -40,7 +40,7 @@ module ek_reach
    !> A step from the newest stored state, a, to b.
    type :: step_t
       real(wp) :: place = 0.0_wp                 !! of b
-      type(demand_t) :: demand_a, demand_b
+      type(inputs_t) :: inputs_a, inputs_b
       type(outcome_t) :: outcome                 !! of the iteration to b
       integer :: verdict = doubtful              !! of ek_branch
       logical :: was_compared = .false.
@@ -61,13 +61,13 @@ contains
       type(failure_t), intent(inout) :: failure
       type(branch_t) :: branch
       type(schedule_t) :: schedule
-      real(wp), parameter :: least_share = 1.0e-6_wp
+      real(wp), parameter :: min_share = 1.0e-6_wp
       integer :: iterations
 
-      call assemble(suspension, state, demand_t(), residual_only, kkt)
+      call assemble(suspension, state, inputs_t(), residual_only, kkt)
       kkt%imbalance = kkt%rhs(:kkt%nq)
       branch = new_branch(suspension)
-      branch%least = least_share
+      branch%least = min_share
       call store(branch%predictor, 0.0_wp, state, .true.)
       schedule%is_settling = .true.
       call reach(suspension, schedule, 1.0_wp, tolerance, branch, state, kkt, iterations, failure)
@@ -94,13 +94,13 @@ contains
       logical :: is_there, knows_beyond, is_last_try
 
       here = branch%predictor%abscissa(branch%predictor%newest)
-      call demand_at(schedule, here, step%demand_a)
+      call inputs_at(schedule, here, step%inputs_a)
       knows_beyond = .false.
       is_last_try = .false.
       beyond = 0.0_wp
       points = branch%predictor%trusted
       width = goal - here
-      do attempt = 1, most_attempts
+      do attempt = 1, max_attempts
          step%place = here + width
          if (abs(width) >= abs(goal - here)) step%place = goal
          call find_end(suspension, schedule, points, branch%has_tangent, tolerance, branch, state, kkt, step)
@@ -122,7 +122,7 @@ contains
             if (step%was_compared .and. branch%was_bent) branch%predictor%trusted = min(branch%predictor%trusted, 2)
             here = step%place
             if (abs(goal - here) <= 0.0_wp) return
-            step%demand_a = step%demand_b
+            step%inputs_a = step%inputs_b
             width = 2.0_wp*width
             if (is_last_try) knows_beyond = .false.
             is_last_try = .false.
@@ -160,7 +160,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       type(step_t), intent(inout) :: step
 
-      call demand_at(schedule, step%place, step%demand_b)
+      call inputs_at(schedule, step%place, step%inputs_b)
       if (has_tangent .and. min(points, branch%predictor%count) <= 2) then
          call go_along(branch, step%place, state)
          call pack_state(state, branch%predictor%guess)
@@ -169,7 +169,7 @@ contains
          call unpack_state(branch%predictor%guess, state)
       end if
       call keep(branch%factors, kkt)
-      call find_equilibrium(suspension, step%demand_b, tolerance, state, kkt, step%outcome)
+      call find_equilibrium(suspension, step%inputs_b, tolerance, state, kkt, step%outcome)
       step%iterations = step%iterations + step%outcome%factorisations
    end subroutine find_end
 
@@ -195,7 +195,7 @@ contains
          is_long = is_long .or. is_uneven(branch, outcome)
          if (is_long .and. .not. step%was_compared) step%was_compared = is_overturning(branch, suspension, state, kkt%scale)
          if (.not. step%was_compared) return
-         call compare(branch, suspension, step%demand_a, step%demand_b, step%place, state, outcome, kkt, step%verdict)
+         call compare(branch, suspension, step%inputs_a, step%inputs_b, step%place, state, outcome, kkt, step%verdict)
          step%iterations = step%iterations + branch%factorisations
          kkt%pivot_ratio = outcome%pivot_ratio
       end associate
@@ -220,7 +220,7 @@ contains
       step%place = goal + sign(across(branch), goal - here)
       call find_end(suspension, schedule, 2, .false., tolerance, branch, state, kkt, step)
       if (.not. step%outcome%is_converged) return
-      call compare(branch, suspension, step%demand_a, step%demand_b, step%place, state, step%outcome, kkt, step%verdict)
+      call compare(branch, suspension, step%inputs_a, step%inputs_b, step%place, state, step%outcome, kkt, step%verdict)
       step%iterations = step%iterations + branch%factorisations
       if (step%verdict == doubtful) return
       if (step%verdict == crossing) call note_crossing(branch, goal)
@@ -312,7 +312,7 @@ contains
             failure%body = k - 1
          end if
       end do
-      call assemble(suspension, state, step%demand_b, residual_only, kkt)
+      call assemble(suspension, state, step%inputs_b, residual_only, kkt)
       if (any(abs(kkt%values) > 0.0_wp)) then
          failure%row = maxloc(abs(kkt%values), dim=1)
          failure%gap = kkt%values(failure%row)

@@ -4,7 +4,7 @@ module ek_recursion
    use ek_vector, only: add_multiple
    use ek_block, only: add_gradient
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, demand_rate, move, move_as_screw
+   use ek_state, only: state_t, inputs_t, inputs_rate, move, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, material_only
    use ek_reach, only: failure_t
    implicit none(type, external)
@@ -26,7 +26,7 @@ contains
 
       allocate (held(kkt%nq), source=0.0_wp)
       state%reaction = 0.0_wp
-      call assemble(suspension, state, demand_t(), material_only, kkt)
+      call assemble(suspension, state, inputs_t(), material_only, kkt)
       call solve_and_hold(suspension, state, kkt, held)
    end subroutine start_recursion
 
@@ -39,14 +39,14 @@ contains
    !> Equations (K.8), (K.9) of docs/theory/kkt.md.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
+      type(inputs_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(inout) :: held(:)              !! of start_recursion
       integer :: k
 
       call assemble(suspension, state, before, material_only, kkt)
-      call assemble_rate(suspension, state, demand_rate(before, after, 1.0_wp), kkt)
+      call assemble_rate(suspension, state, inputs_rate(before, after, 1.0_wp), kkt)
       call add_multiple(kkt%nq, 1.0_wp, held, kkt%rhs)
       do k = 1, kkt%nc
          kkt%rhs(kkt%nq + k) = kkt%rhs(kkt%nq + k) - suspension%rows(k)%compliance*state%reaction(k)
@@ -62,7 +62,7 @@ contains
    !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine corrected_increment(suspension, after, state, kkt)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: after
+      type(inputs_t), intent(in) :: after
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
 

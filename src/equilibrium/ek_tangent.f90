@@ -2,7 +2,7 @@
 module ek_tangent
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t, has_symmetric_loads
-   use ek_state, only: state_t, demand_t, design_state, move_as_screw, largest_motion
+   use ek_state, only: state_t, inputs_t, design_state, move_as_screw, largest_motion
    use ek_kkt, only: kkt_t, assemble, assemble_rate, solve, residual_only
    use ek_dyads, only: dyads_t, correct, resist
    implicit none(type, external)
@@ -67,15 +67,15 @@ contains
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
    !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
    !> Equation (K.13) of docs/theory/kkt.md.
-   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent, dyads)
+   subroutine find_tangent(self, suspension, state, inputs, rate, kkt, tangent, dyads)
       type(tangent_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand, rate
+      type(inputs_t), intent(in) :: inputs, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)
       type(dyads_t), intent(inout), optional :: dyads     !! the matrix is N plus these
-      integer, parameter :: most_refinements = 6
+      integer, parameter :: max_refinements = 6
       real(wp), parameter :: enough = 4.0e-4_wp           ! of the motion: a tenth of what a comparison of tangents allows
       real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step
       real(wp) :: step, largest
@@ -85,11 +85,11 @@ contains
       call solve(kkt)
       if (present(dyads)) call correct(dyads, kkt%rhs)
       self%whole = kkt%rhs
-      if (self%is_symmetric .and. .not. abs(rate%relief) > 0.0_wp) then
+      if (self%is_symmetric .and. .not. abs(rate%homotopy) > 0.0_wp) then
          tangent = self%whole
          return
       end if
-      do k = 1, most_refinements
+      do k = 1, max_refinements
          largest = largest_motion(self%whole(:kkt%nq), kkt%length)
          if (.not. (largest > 0.0_wp .and. largest < huge(largest))) exit
          step = small_motion*kkt%length/largest
@@ -117,7 +117,7 @@ contains
          self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)
          self%twist = distance*self%whole(:kkt%nq)
          call move_as_screw(self%shifted, self%twist)
-         call assemble(suspension, self%shifted, demand, residual_only, kkt)
+         call assemble(suspension, self%shifted, inputs, residual_only, kkt)
       end subroutine shifted_residual
 
    end subroutine find_tangent

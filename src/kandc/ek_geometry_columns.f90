@@ -2,15 +2,14 @@
 !> of the sections wheel_geometry and axle_geometry of ek_quantity, in SI. A quantity without a value at a state is not a number.
 module ek_geometry_columns
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_is_nan, ieee_quiet_nan
-   use ek_kinds, only: wp
-   use ek_units, only: millimetre, pi
+   use ek_kinds, only: wp, millimetre, pi
    use ek_quantity, only: wheel_geometry, axle_geometry
    use ek_rotation, only: cross
-   use ek_measure, only: view_t, look, measure_value
+   use ek_measure, only: evaluation_t, evaluate, measure_value
    use ek_law, only: deflection
    use ek_element, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state
+   use ek_state, only: state_t, inputs_t, design_state
    use ek_wheel_side, only: is_axle
    use ek_compliance, only: compliance_t, lock
    use ek_characteristics, only: motion_ratio, quotient
@@ -22,14 +21,14 @@ module ek_geometry_columns
       ride_frequency
 
    real(wp), parameter :: standard_gravity = 9.80665_wp      !! m/s²
-   real(wp), parameter :: least_compliance = 1.0e-12_wp      !! m/N, as in ek_characteristics
-   real(wp), parameter :: least_ratio = 1.0e-6_wp            !! stop is independent of the wheels
+   real(wp), parameter :: min_compliance = 1.0e-12_wp      !! m/N, as in ek_characteristics
+   real(wp), parameter :: min_ratio = 1.0e-6_wp            !! stop is independent of the wheels
 
    real(wp), parameter :: parallel = 1.0e-9_wp           !! sine of the angle of spin and steer axis: parallel below
 
    ! Below these a carrier does not rotate: stiffer than any steel about z, or a rack that steers 1e-6 rad per metre
-   real(wp), parameter :: least_turn = 1.0e-12_wp        !! rad/(N m); also of a quotient, by moment or by rack
-   real(wp), parameter :: least_by_rack = 1.0e-6_wp      !! rad/m
+   real(wp), parameter :: min_rotation = 1.0e-12_wp        !! rad/(N m); also of a quotient, by moment or by rack
+   real(wp), parameter :: min_by_rack = 1.0e-6_wp      !! rad/m
 
 contains
 
@@ -50,14 +49,14 @@ contains
             now%at_contact, now%axes%spin)
          if (.not. compliance%is_known) return      ! a comparison with NaN would trap
          twist = locked_twist(compliance, place, .false.)
-         if (norm2(turn) > least_turn) values(6:9) = axis_distances(wheel%side, &
+         if (norm2(turn) > min_rotation) values(6:9) = axis_distances(wheel%side, &
             now%at_centre + cross(turn, twist(1:3))/dot_product(turn, turn), turn, now%at_centre, now%at_contact, now%axes%spin)
          at = 6*(place - 1)      ! response of the wheel centre per vertical force on every wheel [m/N, rad/N]
          column = compliance%response(at + 1:at + 6, at + 3)
          if (compliance%wheels == 2) column = column + compliance%response(at + 1:at + 6, 9 - at)
-         values(10) = 1.0e3_wp*quotient(column(1), column(3), least_compliance)
+         values(10) = 1.0e3_wp*quotient(column(1), column(3), min_compliance)
          twist = locked_twist(compliance, place, .true.)
-         values(11) = quotient(camber_rate(now%axes, turn), steer_rate(now%axes%spin, turn), least_turn)
+         values(11) = quotient(camber_rate(now%axes, turn), steer_rate(now%axes%spin, turn), min_rotation)
          mass = 0.0_wp
          if (wheel%tyre_rate > 0.0_wp) mass = mass_on(suspension, compliance%order(place))
          if (mass > 0.0_wp) values(12) = ride_frequency(1.0_wp/(column(3) + 1.0_wp/wheel%tyre_rate), mass)
@@ -128,7 +127,7 @@ contains
       real(wp), intent(in) :: gap, ratio      !! m, -
       gap_over = ieee_value(1.0_wp, ieee_quiet_nan)
       if (ieee_is_nan(ratio)) return
-      gap_over = quotient(gap, abs(ratio), least_ratio)
+      gap_over = quotient(gap, abs(ratio), min_ratio)
    end function gap_over
 
    !> Change of the length of an element per wheel travel, with equal travel of all wheels: the motion ratio of an element that
@@ -138,7 +137,7 @@ contains
       type(compliance_t), intent(in) :: compliance
       type(state_t), intent(in) :: state
       integer, intent(in) :: k                     !! number of the element
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       real(wp) :: length(6*compliance%wheels)      ! per unit of each load of C [m/N, m/(N m)]
       integer :: n, j, at
 
@@ -146,13 +145,13 @@ contains
       if (.not. compliance%is_known) return
       n = size(length)
       associate (m => suspension%elements(k)%measure)
-         call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+         call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
          length = 0.0_wp
          do j = 1, n
             at = 6*(m%body_i - 1)
-            if (at >= 0) length(j) = dot_product(view%gradient(1:6), compliance%columns(at + 1:at + 6, j))
+            if (at >= 0) length(j) = dot_product(evaluation%gradient(1:6), compliance%columns(at + 1:at + 6, j))
             at = 6*(m%body_j - 1)
-            if (at >= 0) length(j) = length(j) + dot_product(view%gradient(7:12), compliance%columns(at + 1:at + 6, j))
+            if (at >= 0) length(j) = length(j) + dot_product(evaluation%gradient(7:12), compliance%columns(at + 1:at + 6, j))
          end do
       end associate
       ratio = motion_ratio(compliance%response(:n, :n), length)
@@ -164,7 +163,7 @@ contains
       integer, intent(in) :: wheel
 
       mass = suspension%wheels(wheel)%sprung_mass
-      if (.not. mass > 0.0_wp) mass = vertical_force(suspension, design_state(suspension), demand_t(), wheel)/standard_gravity
+      if (.not. mass > 0.0_wp) mass = vertical_force(suspension, design_state(suspension), inputs_t(), wheel)/standard_gravity
    end function mass_on
 
    !> Twist (v, ω) of a wheel's carrier at the wheel centre while it steers, all springs locked or all wheels held.
@@ -208,7 +207,7 @@ contains
 
       twist = locked_twist(compliance, place, .false.)
       turn = twist(4:6)
-      least = merge(least_by_rack, least_turn, compliance%has_drive)
+      least = merge(min_by_rack, min_rotation, compliance%has_drive)
       if (norm2(turn) <= least) return
       axis = steer_axis_of(side, centre + cross(turn, twist(1:3))/dot_product(turn, turn), turn, centre, contact)
    end function instant_axis

@@ -29,7 +29,7 @@ module ek_gradient
    private
    public :: gradient_t, test_gradients, slope_over_window, gradients_csv, gradients_json, write_gradients, read_gradients
 
-   integer, parameter :: least_points = 3     !! fewer points define no fit
+   integer, parameter :: min_points = 3     !! fewer points define no fit
 
    !> One gradient of the report.
    type :: gradient_t
@@ -123,9 +123,9 @@ contains
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
          gradient%note = 'no state in the window'
-         if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(least_points)// &
+         if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(min_points)// &
             ' states in the window'
-         if (gradient%points >= least_points) gradient%note = trim(gradient%over)//' does not change'
+         if (gradient%points >= min_points) gradient%note = trim(gradient%over)//' does not change'
          return
       end if
       if (abs(slope)*gradient%window_half <= noise_of(gradient%column)) slope = 0.0_wp
@@ -174,7 +174,7 @@ contains
       is_inside = ieee_is_finite(x) .and. ieee_is_finite(y)
       where (is_inside) is_inside = abs(x) <= half*rim
       points = count(is_inside)
-      if (points < least_points) return
+      if (points < min_points) return
       if (maxval(x, mask=is_inside) - minval(x, mask=is_inside) <= 1.0e-3_wp*half) return        ! all at one x: no slope
       mean = [sum(x, mask=is_inside), sum(y, mask=is_inside)]/points
       spread = sum((x - mean(1))**2, mask=is_inside)

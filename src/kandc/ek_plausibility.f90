@@ -1,10 +1,9 @@
 !> Plausibility of a deck as a road vehicle: wrong units, swapped points, wrong bodies, a coil in tension, a motion that only
 !> preload resists. Findings are remarks, never errors; none with `plausible = .false.` in &model.
 module ek_plausibility
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, degree
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
-   use ek_units, only: degree
    use ek_measure, only: measure_t, axis_axis, rotation, distance
    use ek_element, only: element_t, axial_spring, damper, element_label
    use ek_suspension, only: suspension_t, body_name, driver_row

@@ -1,8 +1,7 @@
 !> Plausibility of the geometry of a deck: wheels, steer axes, carriers, hardpoints.
 module ek_plausible_shape
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, millimetre, degree
    use ek_text, only: str, quoted
-   use ek_units, only: millimetre, degree
    use ek_measure, only: axis_axis, rotation
    use ek_suspension, only: suspension_t, wheel_t, body_name
    use ek_plausible_range, only: doubts_t, length

@@ -14,7 +14,7 @@ module ek_target
    use ek_branch, only: branch_t, new_branch, leave
    use ek_quantity, only: unit_of
    use ek_table, only: table_t, column, column_range, row_count
-   use ek_remark, only: swept_words
+   use ek_remark, only: swept_text
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
@@ -119,8 +119,8 @@ contains
       type(target_t), intent(inout) :: found
       logical, intent(out) :: is_jump          !! the column jumps across the value, as at a pole
       type(error_t), allocatable, intent(out) :: error
-      integer, parameter :: most_steps = 80
-      real(wp), parameter :: least_step = 1.0e-6_wp   ! of the distance between the two states
+      integer, parameter :: max_steps = 80
+      real(wp), parameter :: min_step = 1.0e-6_wp   ! of the distance between the two states
       real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states
       real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer once the interval has closed
       type(path_t) :: here
@@ -135,7 +135,7 @@ contains
       call one_state(path, first, here)
       schedule = new_schedule(suspension, case)
       branch = new_branch(suspension)
-      branch%least = least_step*abs(path%value(second) - path%value(first))
+      branch%least = min_step*abs(path%value(second) - path%value(first))
       low = path%value(first)
       f_low = table%values(c, row) - found%wanted
       if (abs(f_low) <= 0.0_wp) then
@@ -148,7 +148,7 @@ contains
       f_high = table%values(c, row + 1) - found%wanted
       span = max(abs(f_low), abs(f_high))
       last_side = 0
-      do step = 1, most_steps
+      do step = 1, max_steps
          middle = high - f_high*(high - low)/(f_high - f_low)
          call look_at(middle)
          if (allocated(error)) return
@@ -198,7 +198,7 @@ contains
             f = value(1) - found%wanted
          else
             call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
-               ' has no value at '//swept_words(case, place, 9))
+               ' has no value at '//swept_text(case, place, 9))
          end if
       end subroutine look_at
 

@@ -15,11 +15,11 @@ module ek_curve
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, look_up_curve, curve_kinds, slopes_between, has_points, least_step
+   public :: curve_t, new_curve, look_up_curve, curve_kinds, slopes_between, has_points, min_step
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
 
-   real(wp), parameter :: least_step = 1.0e-30_wp   !! smallest distance of two points; with numbers below 1e30 no slope overflows
+   real(wp), parameter :: min_step = 1.0e-30_wp   !! smallest distance of two points; with numbers below 1e30 no slope overflows
 
    !> A curve, in the units of its points.
    type :: curve_t

@@ -2,7 +2,7 @@
 module ek_completion
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_measure, only: measure_t, measure_value, is_of_angle, distance
    use ek_element, only: bushing_element, set_design_value
    use ek_elastic, only: set_bushing_axes

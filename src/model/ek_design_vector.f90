@@ -10,7 +10,7 @@ module ek_design_vector
    public :: find_vectors, marker_axes, spin_of, plane
 
    real(wp), parameter :: plane = 1.0e-9_wp           !! m: a point closer to y = 0 exists once on a mirrored axle
-   real(wp), parameter :: least_angle = 0.01_wp       !! deg between x and z of a marker, below which x is undefined
+   real(wp), parameter :: min_angle = 0.01_wp       !! deg between x and z of a marker, below which x is undefined
 
 contains
 
@@ -92,7 +92,7 @@ contains
       axes(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp]
       if (.not. (norm2(z) > 0.0_wp .and. norm2(x) > 0.0_wp)) return
       angle = angle_between(x, z)
-      if (min(angle, 180.0_wp - angle) < least_angle) then
+      if (min(angle, 180.0_wp - angle) < min_angle) then
          is_good = .false.
          return
       end if

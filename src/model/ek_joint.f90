@@ -42,7 +42,7 @@ module ek_joint
    !> The properties of a kind.
    type :: joint_kind_t
       character(17) :: name
-      integer :: least_points, most_points   !! of `at`; 2 and 2: two that do not coincide
+      integer :: min_points, max_points   !! of `at`; 2 and 2: two that do not coincide
       integer :: axes, angle                 !! of those above
       integer :: part
       logical :: is_of_measures = .false.    !! made of named measures, not of points and axes

@@ -9,7 +9,7 @@
 module ek_realise
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, least_step
+   use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, min_step
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
    use ek_element, only: stop_spring
@@ -136,7 +136,7 @@ contains
             geometry%axis_i = suspension%vectors(:, this%axes(1))
             geometry%axis_j = suspension%vectors(:, this%axes(2))
             is_good = is_good .and. axes_fit(joint_table(joint%number)%angle, geometry%axis_i, geometry%axis_j)
-            if (joint_table(joint%number)%least_points == 2) &
+            if (joint_table(joint%number)%min_points == 2) &
                is_good = is_good .and. norm2(geometry%point_j - geometry%point_i) > 0.0_wp
             if (.not. is_good) return
             call joint_terms(joint%kind, geometry, terms, terms_of_row, rows)
@@ -225,7 +225,7 @@ contains
       associate (this => plan%curves(number))
          associate (at => x(this%x:this%x + this%points - 1), values => x(this%y:this%y + this%points - 1))
             if (has_points(curve, at, values, x_unit, y_unit)) return
-            is_good = is_good .and. all(at(2:) - at(:this%points - 1) >= least_step)
+            is_good = is_good .and. all(at(2:) - at(:this%points - 1) >= min_step)
             if (.not. is_good) return
             curve = new_curve(at, values, this%kind, x_unit, y_unit)
             curve%name = this%name

@@ -4,9 +4,8 @@
 !> All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
 !> body are parallel to the frame. Body 0 is the chassis.
 module ek_suspension
-   use ek_kinds, only: wp
-   use ek_units, only: units_t
-   use ek_turn, only: pose_t
+   use ek_kinds, only: wp, units_t
+   use ek_relative_rotation, only: pose_t
    use ek_measure, only: measure_t
    use ek_joint, only: joint_t, row_t, term_t
    use ek_element, only: element_t

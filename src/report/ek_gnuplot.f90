@@ -5,7 +5,7 @@ module ek_gnuplot
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str
    use ek_file, only: write_whole, join_path, base_name
-   use ek_chart, only: chart_t, palette, axes_look, range_of
+   use ek_chart, only: chart_t, palette, axes_style, range_of
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_name, gnuplot_comment
    use ek_drawing, only: run_gnuplot
    use ek_quantity, only: quantity_named
@@ -23,7 +23,7 @@ module ek_gnuplot
    character(*), parameter :: look = 'reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl// &
       'set datafile columnheaders'//nl//"set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'"//nl// &
       "set tics out nomirror textcolor rgb '#404040'"
-   character(*), parameter :: label_look = " textcolor rgb '#202020'"
+   character(*), parameter :: label_style = " textcolor rgb '#202020'"
 
    !> One script: a panel, or several in two columns.
    type :: figure_t
@@ -82,7 +82,7 @@ contains
       call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
       call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
       call script%add("if (!exists('formats')) formats = 'png svg'"//nl)
-      call script%add(look//nl//axes_look)
+      call script%add(look//nl//axes_style)
       do k = 1, size(palette)
          call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)//"' linewidth 2.6 pointtype 7 pointsize 0.7")
       end do
@@ -135,8 +135,8 @@ contains
       y = merge('x', 'y', is_upward)
       if (len(panel%title) > 0) call script%add(indent//'set title '//gnuplot_text(panel%title)// &
          " font 'sans-serif:Bold,14' textcolor rgb '#202020'")
-      call script%add(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//label_look)
-      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//label_look)
+      call script%add(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//label_style)
+      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//label_style)
       call script%add(indent//'set '//y//'range '//range_of(panel))
    end subroutine add_axes
 

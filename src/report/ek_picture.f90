@@ -3,8 +3,7 @@
 !> A body has no shape in the model: its skeleton represents it. `plain` selects fewer faces, for animations. All positions are
 !> global [m].
 module ek_picture
-   use ek_kinds, only: wp
-   use ek_units, only: pi
+   use ek_kinds, only: wp, pi
    use ek_text, only: spaced
    use ek_block, only: rotated
    use ek_rotation, only: cross

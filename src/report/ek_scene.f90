@@ -2,8 +2,7 @@
 !>
 !> All solids are made of faces, which can be sorted by depth and shaded (see ek_scene_script).
 module ek_scene
-   use ek_kinds, only: wp
-   use ek_units, only: pi
+   use ek_kinds, only: wp, pi
    use ek_rotation, only: cross
    implicit none(type, external)
    private

@@ -14,7 +14,7 @@ module ek_table
    implicit none(type, external)
    private
    public :: table_t, new_table, column_index, column, column_range, row_count, name_length
-   public :: csv_text, csv_head, csv_row, write_csv, tell_csv, read_csv
+   public :: csv_text, csv_head, csv_row, write_csv, print_csv, read_csv
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -175,7 +175,7 @@ contains
    end subroutine write_csv
 
    !> Writes the table to standard output, row by row.
-   subroutine tell_csv(table, error)
+   subroutine print_csv(table, error)
       type(table_t), intent(in) :: table
       type(error_t), allocatable, intent(out) :: error   !! exit_file; with an empty message if the reader closed the pipe
       integer, parameter :: enough = 60000               ! characters written at a time
@@ -191,7 +191,7 @@ contains
          call buffer%clear()
       end do
       call write_standard_output(buffer%text(), error)
-   end subroutine tell_csv
+   end subroutine print_csv
 
    !> Reads a table. All lines with # go to the header; empty lines are skipped.
    subroutine read_csv(path, table, error, may_stream)

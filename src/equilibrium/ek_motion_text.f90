@@ -1,7 +1,6 @@
 !> Describes a motion of the bodies as text: the bodies, the line of the motion, and the hardpoints on it.
-module ek_motion_words
-   use ek_kinds, only: wp
-   use ek_units, only: millimetre
+module ek_motion_text
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, vector_text, plural
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
@@ -10,7 +9,7 @@ module ek_motion_words
    use ek_kkt, only: kkt_t
    implicit none(type, external)
    private
-   public :: motion_words, body_parts, place
+   public :: motion_text, body_parts, place
 
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a motion
 
@@ -32,33 +31,33 @@ contains
    end function body_parts
 
    !> Text on the body that moves most, its motion, and the bodies that move with it.
-   function motion_words(suspension, state, kkt, motion) result(text)
+   function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(in) :: kkt
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       character(:), allocatable :: text
       real(wp) :: part(size(suspension%bodies))
-      integer, parameter :: most_named = 6
+      integer, parameter :: max_named = 6
       integer :: k, main, named
 
       part = body_parts(motion)
       main = maxloc(part, dim=1)
       text = 'body '//quoted(suspension%bodies(main)%name)//place(suspension%bodies(main)%where)//' '// &
-         one_body_words(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
+         one_body_text(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
       named = 0
       do k = 1, size(part)
          if (k == main .or. part(k) <= takes_part*part(main)) cycle
          named = named + 1
-         if (named > most_named) cycle
+         if (named > max_named) cycle
          text = text//'; body '//quoted(suspension%bodies(k)%name)//' '// &
-            one_body_words(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
+            one_body_text(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
       end do
-      if (named > most_named) text = text//'; and '//plural(named - most_named, 'body', 'bodies')//' more'
-   end function motion_words
+      if (named > max_named) text = text//'; and '//plural(named - max_named, 'body', 'bodies')//' more'
+   end function motion_text
 
    !> 'turns freely about the axis …' or 'slides freely along …'.
-   function one_body_words(suspension, r, kkt, motion, body) result(text)
+   function one_body_text(suspension, r, kkt, motion, body) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: r(3), motion(6)
       type(kkt_t), intent(in) :: kkt
@@ -79,7 +78,7 @@ contains
       text = 'turns freely about the axis '//vector_text(deck_frame(suspension)*tidy(axis), 3)//' through '// &
          vector_text(deck_frame(suspension)*through/millimetre, 5)//' mm'//points_on(suspension, axis, through)
       if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
-   end function one_body_words
+   end function one_body_text
 
    !> The axis with rounding errors removed and its largest component positive.
    pure function tidy(axis) result(clean)
@@ -109,4 +108,4 @@ contains
       if (found > 0) text = ' (the line of '//text//')'
    end function points_on
 
-end module ek_motion_words
+end module ek_motion_text
