@@ -79,7 +79,7 @@ contains
          steering%ratio = number_at(x, plan%steering(1))
          steering%travel = number_at(x, plan%steering(2))
       end associate
-      call settle_design(suspension)
+      if (is_good) call settle_design(suspension)
    end subroutine realise
 
    !> Reference points and masses; the centres of gravity still as points.
