@@ -89,7 +89,7 @@ anti[- ]lift|drive lift|brake lift  =>  names of quantities
 wheel lift in steer  =>  name of a quantity
 keywords?  =>  not the word list
 MemTotal  =>  a name of Linux
-`relative_turn`  =>  name of a procedure
+`relative_rotation`  =>  name of a procedure
 END
 }
 

@@ -1,9 +1,11 @@
 !> Wall-clock time for reports and benchmarks, and the date stamp of output files.
 module ek_clock
+   use, intrinsic :: iso_c_binding, only: c_char, c_long, c_null_char, c_null_ptr, c_ptr, c_size_t
    use ek_kinds, only: wp, i8
+   use ek_posix, only: c_time, c_gmtime, c_localtime, c_strftime
    implicit none(type, external)
    private
-   public :: seconds, seconds_since_1970, date_words
+   public :: seconds, seconds_since_1970, date_text
 
 contains
 
@@ -17,49 +19,30 @@ contains
    end function seconds
 
    !> Seconds since 1970-01-01 00:00 UTC, from the system clock.
-   integer(i8) function seconds_since_1970() result(passed)
-      integer :: now(8), year, month
-
-      call date_and_time(values=now)
-      year = now(1)
-      month = now(2)
-      if (month < 3) then                       ! the year starts in March, so that the leap day is its last day
-         year = year - 1
-         month = month + 12
-      end if
-      passed = 365_i8*year + year/4 - year/100 + year/400 + (153*(month - 3) + 2)/5 + now(3) - 1 - 719468
-      passed = 60*(60*(24*passed + now(5)) + now(6) - now(4)) + now(7)
+   integer(i8) function seconds_since_1970()
+      seconds_since_1970 = c_time(c_null_ptr)
    end function seconds_since_1970
 
    !> '2026-01-31 17:05': the local time now; if the environment variable SOURCE_DATE_EPOCH is set, that time in UTC, so that
    !> the same input gives the same bytes (https://reproducible-builds.org/specs/source-date-epoch/).
-   function date_words() result(words)
+   function date_text() result(words)
       character(16) :: words
-      integer(i8) :: epoch, days, left
-      integer :: now(8), century, year, month, day
+      character(kind=c_char) :: letters(17)
+      integer(c_long) :: fields(16)             ! room for a struct tm, which has 56 bytes
+      integer(i8) :: epoch
+      type(c_ptr) :: ignored
+      integer(c_size_t) :: length
       logical :: is_set
 
       call read_set_date(epoch, is_set)
       if (is_set) then
-         ! days from 0000-03-01, in eras of 400 years: https://howardhinnant.github.io/date_algorithms.html
-         days = epoch/86400 + 719468
-         left = modulo(days, 146097_i8)
-         century = int(days/146097)
-         year = int((left - left/1460 + left/36524 - left/146096)/365)
-         day = int(left - (365_i8*year + year/4 - year/100))
-         month = (5*day + 2)/153
-         day = day - (153*month + 2)/5 + 1
-         month = merge(month + 3, month - 9, month < 10)
-         year = year + 400*century + merge(1, 0, month < 3)
-         now = 0
-         now(1:3) = [year, month, day]
-         now(5) = int(modulo(epoch, 86400_i8)/3600)
-         now(6) = int(modulo(epoch, 3600_i8)/60)
+         ignored = c_gmtime(int(epoch, c_long), fields)
       else
-         call date_and_time(values=now)
+         ignored = c_localtime(c_time(c_null_ptr), fields)
       end if
-      write (words, '(i4.4,a,i2.2,a,i2.2,a,i2.2,a,i2.2)') now(1), '-', now(2), '-', now(3), ' ', now(5), ':', now(6)
-   end function date_words
+      length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%d %H:%M'//c_null_char, fields)
+      words = transfer(letters(:length), words)
+   end function date_text
 
    !> Reads SOURCE_DATE_EPOCH if it is a whole number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)

@@ -49,14 +49,9 @@ contains
    pure subroutine list_add(self, message)
       class(message_list_t), intent(inout) :: self
       character(*), intent(in) :: message
-      type(line_t), allocatable :: grown(:)
 
       if (.not. allocated(self%lines)) allocate (self%lines(8))
-      if (self%used == size(self%lines)) then
-         allocate (grown(2*self%used))
-         grown(:self%used) = self%lines
-         call move_alloc(grown, self%lines)
-      end if
+      if (self%used == size(self%lines)) self%lines = [self%lines, self%lines]      ! twice the size
       self%used = self%used + 1
       self%lines(self%used)%text = message
    end subroutine list_add

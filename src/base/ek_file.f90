@@ -3,9 +3,10 @@ module ek_file
    use, intrinsic :: iso_fortran_env, only: output_unit
    use, intrinsic :: iso_c_binding, only: c_int, c_null_char
    use ek_kinds, only: i8
+   use ek_buffer, only: buffer_t
    use ek_error, only: error_t, fail, exit_file
    use ek_posix, only: c_mkdir, c_remove, c_access, c_isatty
-   use ek_system, only: facts_t, facts_of, regular_file, device_file, other_file, error_number, system_reason, broken_pipe, &
+   use ek_system, only: facts_t, facts_of, device_file, other_file, error_number, system_reason, broken_pipe, &
       folder_exists, write_bytes
    use ek_writer, only: writer_t, begin_file, remove_stale
    implicit none(type, external)
@@ -14,7 +15,7 @@ module ek_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
-   integer, parameter :: most_streamed = 1000000000   !! bytes read from a pipe or a device; /dev/zero is endless
+   integer, parameter :: max_streamed = 1000000000   !! bytes read from a pipe or a device; /dev/zero is endless
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
    integer(c_int), parameter :: may_execute = 1  !! X_OK
    integer(c_int), parameter :: all_may = 511    !! 0777, reduced by the umask
@@ -69,26 +70,26 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       logical, intent(in), optional :: may_stream            !! if absent or .false., it must be a regular file
       type(facts_t) :: facts
+      type(buffer_t) :: bytes
       logical :: streams
       character(200) :: reason
+      character(1) :: byte
       integer(i8) :: size
       integer :: unit, status, ignored
 
       text = ''
       streams = .false.
-      if (folder_exists(path)) then
-         call fail(error, exit_file, "cannot read '"//path//"': it is a folder")
-         return
-      end if
-      facts%kind = regular_file
       if (present(may_stream)) streams = may_stream
       if (.not. streams) facts = facts_of(path, follow=.true.)
-      if (facts%kind == device_file .or. facts%kind == other_file) then
-         call fail(error, exit_file, "cannot read '"//path//"': it is a pipe or a device, not a regular file")
-         return
+      status = 1
+      if (folder_exists(path)) then
+         reason = 'it is a folder'
+      else if (facts%kind == device_file .or. facts%kind == other_file) then
+         reason = 'it is a pipe or a device, not a regular file'
+      else
+         open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
+            status='old', iostat=status, iomsg=reason)
       end if
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
-         status='old', iostat=status, iomsg=reason)
       if (status == 0) then
          inquire (unit=unit, size=size)
          if (size > huge(1)) then         ! its characters are counted in default integers
@@ -99,12 +100,14 @@ contains
             allocate (character(size) :: text, stat=status)
             reason = 'there is not enough memory for it'
             if (status == 0) read (unit, iostat=status, iomsg=reason) text
-         else
-            call read_stream(unit, text)
-            if (len(text) == most_streamed) then
-               status = 1
-               reason = 'it is longer than 1 GB'
-            end if
+         else                             ! of a pipe the size is unknown
+            do while (bytes%length() < max_streamed .and. status == 0)
+               read (unit, iostat=status) byte
+               if (status == 0) call bytes%add(byte)
+            end do
+            text = bytes%text()
+            status = merge(1, 0, len(text) == max_streamed)
+            reason = 'it is longer than 1 GB'
          end if
          close (unit, iostat=ignored)
       end if
@@ -115,29 +118,6 @@ contains
             trim(adjustl(reason(index(trim(reason), ': ', back=.true.) + 1:))))
       end if
    end subroutine read_whole
-
-   !> Read a pipe, whose size is unknown beforehand, up to the largest allowed size.
-   subroutine read_stream(unit, text)
-      integer, intent(in) :: unit
-      character(:), allocatable, intent(inout) :: text
-      character(:), allocatable :: grown
-      character(1) :: letter
-      integer :: status, used
-
-      used = 0
-      do
-         read (unit, iostat=status) letter
-         if (status /= 0 .or. used == most_streamed) exit
-         if (used == len(text)) then
-            allocate (character(min(max(4096, 2*used), most_streamed)) :: grown)
-            grown(:used) = text
-            call move_alloc(grown, text)
-         end if
-         used = used + 1
-         text(used:used) = letter
-      end do
-      text = text(:used)
-   end subroutine read_stream
 
    !> Create a folder and its parents. In an existing folder, temporary files left by dead runs are removed.
    subroutine make_folder(path, error)
@@ -234,11 +214,8 @@ contains
       integer :: slash
 
       slash = index(path, '/', back=.true.)
-      if (slash == 0) then
-         folder = '.'
-      else
-         folder = path(:max(1, slash - 1))
-      end if
+      folder = '.'
+      if (slash > 0) folder = path(:max(1, slash - 1))
    end function folder_name
 
    !> The name without folder and extension: 'c' for 'a/b/c.nml', 'c.x' for 'c.x.nml', '.rc' for 'a/.rc'.

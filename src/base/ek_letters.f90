@@ -97,18 +97,22 @@ contains
          (index(text, char(255)//char(254)) == 1 .or. index(text, char(254)//char(255)) == 1 .or. index(text, achar(0)) > 0)
    end function is_wide
 
-   !> A text with single-byte line ends: those of Windows (CR LF) and of old Macs (CR alone) become a newline.
+   !> A text without a byte order mark and with single-byte line ends: those of Windows (CR LF) and of old Macs (CR alone) become
+   !> a newline.
    pure function with_line_ends(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain
       character, parameter :: return = achar(13), newline = achar(10)
-      integer :: k, used
+      character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
+      integer :: first, k, used
 
-      plain = text
-      if (index(text, return) == 0) return
+      first = 1
+      if (index(text, byte_order_mark) == 1) first = len(byte_order_mark) + 1
+      plain = text(first:)
+      if (index(plain, return) == 0) return
       used = 0
-      do k = 1, len(text)
-         if (text(k:k) == newline .and. k > 1) then
+      do k = first, len(text)
+         if (text(k:k) == newline .and. k > first) then
             if (text(k - 1:k - 1) == return) cycle       ! the newline is already there
          end if
          used = used + 1

@@ -1,8 +1,8 @@
 !> Interfaces to the functions of the C library that this program needs and Fortran does not offer.
 !>
-!> Only POSIX functions without structures and without variable argument lists are used, so no structure layout and no
-!> processor-dependent constant is needed. `__errno_location` is the name of errno in glibc and musl. `flock` is not in
-!> POSIX, but in every Linux and BSD. Users of this module: ek_system, ek_writer, ek_process, ek_file.
+!> Only POSIX functions without variable argument lists are used, and no structure is looked into, so no structure layout and
+!> no processor-dependent constant is needed. `__errno_location` is the name of errno in glibc and musl. `flock` is not in
+!> POSIX, but in every Linux and BSD. Users of this module: ek_system, ek_writer, ek_process, ek_file, ek_clock.
 module ek_posix
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t
    implicit none(type, external)
@@ -11,57 +11,56 @@ module ek_posix
    public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
       c_close
    public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw
-   public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym
+   public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym, c_time, c_gmtime, c_localtime, c_strftime
+
+   ! Only procedures without `value` arguments: gfortran 12 passes these by reference from the second call on
+   abstract interface
+      integer(c_int) function of_path(path) bind(c)
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+      end function of_path
+      integer(c_int) function of_paths(from, to) bind(c)
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function of_paths
+      type(c_ptr) function of_time(time, fields) bind(c)
+         import :: c_long, c_ptr
+         integer(c_long), intent(in) :: time          ! s since 1970
+         integer(c_long), intent(out) :: fields(*)    ! struct tm
+      end function of_time
+   end interface
+
+   procedure(of_path), bind(c, name='remove') :: c_remove
+   procedure(of_path), bind(c, name='rmdir') :: c_rmdir
+   procedure(of_path), bind(c, name='chdir') :: c_chdir
+   procedure(of_paths), bind(c, name='rename') :: c_rename
+   procedure(of_paths), bind(c, name='symlink') :: c_symlink
+   procedure(of_time), bind(c, name='gmtime_r') :: c_gmtime
+   procedure(of_time), bind(c, name='localtime_r') :: c_localtime
 
    interface
       type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
          import :: c_ptr, c_char
          character(kind=c_char), intent(in) :: path(*), mode(*)
       end function c_fopen
+      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fileno
+      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+      end function c_fclose
       integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
          import :: c_int, c_char, c_size_t
          integer(c_int), value :: descriptor
          character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value :: count
       end function c_write
-      integer(c_int) function c_fileno(stream) bind(c, name='fileno')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fileno
       integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
          import :: c_int
          integer(c_int), value :: descriptor
       end function c_fsync
-      integer(c_int) function c_fclose(stream) bind(c, name='fclose')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-      end function c_fclose
-      integer(c_int) function c_rename(from, to) bind(c, name='rename')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: from(*), to(*)
-      end function c_rename
-      integer(c_int) function c_symlink(target, path) bind(c, name='symlink')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: target(*), path(*)
-      end function c_symlink
-      integer(c_int) function c_remove(path) bind(c, name='remove')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_remove
-      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_mkdir
-      integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_rmdir
-      integer(c_int) function c_access(path, mode) bind(c, name='access')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_access
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -82,6 +81,16 @@ module ek_posix
          import :: c_int
          integer(c_int), value :: descriptor, operation
       end function c_flock
+      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_mkdir
+      integer(c_int) function c_access(path, mode) bind(c, name='access')
+         import :: c_int, c_char
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function c_access
       type(c_ptr) function c_opendir(path) bind(c, name='opendir')
          import :: c_ptr, c_char
          character(kind=c_char), intent(in) :: path(*)
@@ -110,10 +119,6 @@ module ek_posix
          import :: c_int
          integer(c_int), value :: status
       end subroutine c_exit_now
-      integer(c_int) function c_chdir(path) bind(c, name='chdir')
-         import :: c_int, c_char
-         character(kind=c_char), intent(in) :: path(*)
-      end function c_chdir
       type(c_ptr) function c_getcwd_raw(letters, size) bind(c, name='getcwd')
          import :: c_ptr, c_char, c_size_t
          character(kind=c_char), intent(inout) :: letters(*)
@@ -168,6 +173,17 @@ module ek_posix
          type(c_ptr), value :: handle
          character(kind=c_char), intent(in) :: name(*)
       end function c_dlsym
+      integer(c_long) function c_time(place) bind(c, name='time')
+         import :: c_long, c_ptr
+         type(c_ptr), value :: place
+      end function c_time
+      integer(c_size_t) function c_strftime(text, size, form, fields) bind(c, name='strftime')
+         import :: c_char, c_long, c_size_t
+         character(kind=c_char), intent(out) :: text(*)
+         integer(c_size_t), value :: size
+         character(kind=c_char), intent(in) :: form(*)
+         integer(c_long), intent(in) :: fields(*)     ! struct tm
+      end function c_strftime
    end interface
 
 end module ek_posix

@@ -6,8 +6,7 @@
 !> its unit is the end of its name. Heads, charts, key numbers and reserved names follow from the row. input/QUANTITIES.md
 !> defines each of them.
 module ek_quantity
-   use ek_kinds, only: wp
-   use ek_units, only: degree, millimetre
+   use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
    private
    public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
@@ -308,25 +307,18 @@ contains
          if (k > 0) lower = trim(units(k)%ending)
       end if
       factor = 1.0_wp
-      select case (lower)
-      case ('mm')
-         if (upper == 'deg' .and. index(over//' ', trim(wheel_position(1)%name)//' ') > 0) then
-            lower = 'm'
-            factor = 1.0e3_wp
-         end if
-      case ('n')
-         if (upper /= 'n') then
-            lower = 'kn'
-            factor = 1.0e3_wp
-         end if
-      case ('nm')
-         if (upper /= 'nm') then
-            lower = '100nm'
-            factor = 100.0_wp
-         end if
-      case ('')
+      if (lower == 'mm' .and. upper == 'deg' .and. index(over//' ', trim(wheel_position(1)%name)//' ') > 0) then
+         lower = 'm'
+         factor = 1.0e3_wp
+      else if (lower == 'n' .and. upper /= 'n') then
+         lower = 'kn'
+         factor = 1.0e3_wp
+      else if (lower == 'nm' .and. upper /= 'nm') then
+         lower = '100nm'
+         factor = 100.0_wp
+      else if (lower == '') then
          lower = over
-      end select
+      end if
       unit = 'per_'//lower
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
@@ -335,16 +327,13 @@ contains
    pure function column_of_stem(stem) result(column)
       character(*), intent(in) :: stem      !! lower case, without left_ and right_
       character(:), allocatable :: column
-      integer :: k, e
+      integer :: k
 
       column = ''
       do k = 1, size(all_quantities)
          if (index(all_quantities(k)%name, stem) /= 1) cycle
          column = trim(all_quantities(k)%name)
-         if (column == stem) return
-         do e = 1, size(element_endings)
-            if (column == stem//element_endings(e)) return
-         end do
+         if (column == stem .or. any(column == stem//element_endings)) return
       end do
       column = ''
    end function column_of_stem

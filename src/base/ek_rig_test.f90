@@ -18,8 +18,7 @@
 !> A further test is a row here; if it has charts or gradients of its own, also a list in ek_test_charts and rows in ek_gradient.
 !> The deck reader, the rig, the standard tests, the usual ranges, the abscissa and the windows follow from the row.
 module ek_rig_test
-   use ek_kinds, only: wp
-   use ek_units, only: degree, millimetre
+   use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
    private
    public :: rig_test_t, rig_tests, rig_test, needs_both, of_one_wheel, lifts, swept_unit

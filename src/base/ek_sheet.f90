@@ -19,9 +19,8 @@ module ek_sheet
    public :: sheet_t, read_sheet, mistakes_of, head_place, take_record
 
    character(*), parameter :: line_end = new_line('a'), tab = achar(9)
-   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
    real(wp), parameter :: most = 1.0e31_wp      !! as in a deck: larger numbers are errors, and could overflow later
-   integer, parameter :: most_told = 100        !! errors reported in the rows of one table
+   integer, parameter :: max_reported = 100        !! errors reported in the rows of one table
 
    !> The content of a file. Rows with an error are not among the values.
    type :: sheet_t
@@ -59,7 +58,6 @@ contains
       end if
       text = with_line_ends(text)
       first = 1
-      if (index(text, byte_order_mark) == 1) first = len(byte_order_mark) + 1
       line = 0
       rows = 0
       do while (first <= len(text))
@@ -118,9 +116,7 @@ contains
 
       is_comment = index(content, '#') == 1 .or. index(content, '"#') == 1
       if (.not. is_comment .or. sheet%head_line == 0) return
-      do k = 1, size(cell_errors)
-         if (index(content(:min(9, len(content))), trim(cell_errors(k))) > 0) is_comment = .false.
-      end do
+      is_comment = .not. any([(index(content(:min(9, len(content))), trim(cell_errors(k))) > 0, k=1, size(cell_errors))])
    end function is_comment
 
    !> Reads the line of heads, which also defines the separator of the columns.
@@ -278,12 +274,9 @@ contains
             if (is_unnamed(k)) call sheet%head_mistakes%add(head_place(sheet)//'column '//str(k)//' has no name')
             cycle
          end if
-         do j = 1, k - 1
-            if (sheet%heads(j) /= sheet%heads(k)) cycle
-            call sheet%head_mistakes%add(head_place(sheet)//'the column '//quoted(sheet%heads(k))// &
-               ' is given twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
-            exit
-         end do
+         j = findloc(sheet%heads(:k) == sheet%heads(k), .true., dim=1)
+         if (j < k) call sheet%head_mistakes%add(head_place(sheet)//'the column '//quoted(sheet%heads(k))// &
+            ' is given twice, as column '//str(j)//' and column '//str(k)//'; remove or rename one')
       end do
       sheet%values = sheet%values(:, :rows)
       if (rows == 0 .and. sheet%row_mistakes%count() == 0) &
@@ -295,7 +288,7 @@ contains
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: what
 
-      if (sheet%row_mistakes%count() < most_told) then
+      if (sheet%row_mistakes%count() < max_reported) then
          call sheet%row_mistakes%add(what)
       else
          sheet%untold = sheet%untold + 1

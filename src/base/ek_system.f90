@@ -1,4 +1,4 @@
-!> System queries: files and folders, failures, this machine; and signals.
+!> System queries: files and folders, failures, this machine and its memory; and signals.
 !>
 !> Two items are specific to Linux, each with a fallback elsewhere: the offset of the name in a `struct dirent` (if '.' is
 !> not found there, a folder counts as empty), and the kind of a file, which comes from statx, the same on every
@@ -7,14 +7,15 @@ module ek_system
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_intptr_t, c_null_char, c_null_ptr, c_funptr, &
       c_null_funptr, c_ptr, c_size_t, c_associated, c_f_pointer, c_f_procpointer
    use ek_kinds, only: i8
-   use ek_error, only: message_list_t
+   use ek_error, only: error_t, fail, exit_file, message_list_t
+   use ek_text, only: str
    use ek_posix, only: c_opendir, c_readdir, c_closedir, c_flock, c_getcwd_raw, c_signal, c_gethostname, c_errno, &
       c_strerror, c_strlen, c_dlsym, c_write, c_access, c_close, c_dup, c_fopen
    implicit none(type, external)
    private
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
-   public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, reason_of, system_reason, set_signal
-   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe
+   public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, system_reason, set_signal
+   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_remarks
    public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
    ! errno, the same on all systems
@@ -32,7 +33,7 @@ module ek_system
    end type facts_t
 
    integer, parameter :: sigpipe = 13, sigxfsz = 25  !! signals, the same on all systems
-   integer, parameter :: most_letters = 4096         !! longest path
+   integer, parameter :: max_letters = 4096         !! longest path
 
    abstract interface
       integer(c_int) function statx_procedure(folder, path, flags, mask, facts) bind(c)
@@ -60,9 +61,12 @@ contains
       integer(c_int), parameter :: the_link = 256       ! AT_SYMLINK_NOFOLLOW
       integer(c_int), parameter :: basic = 2047         ! STATX_BASIC_STATS
       integer(i8), parameter :: kind_bits = 61440       ! S_IFMT, octal 170000
+      integer(i8), parameter :: modes(*) = [32768_i8, 16384_i8, 8192_i8, 24576_i8, 40960_i8]
+      integer, parameter :: kinds(*) = [regular_file, folder_file, device_file, device_file, link_file]
       character(kind=c_char) :: buffer(256)             ! struct statx
       procedure(statx_procedure), pointer :: statx
       type(c_funptr) :: address
+      integer :: k
 
       address = c_dlsym(c_null_ptr, 'statx'//c_null_char)
       if (.not. c_associated(address)) return
@@ -72,18 +76,9 @@ contains
          if (any(error_number() == [no_such_entry, no_folder])) facts%kind = no_file
          return
       end if
-      select case (iand(number_at(28, 2), kind_bits))
-      case (32768)
-         facts%kind = regular_file
-      case (16384)
-         facts%kind = folder_file
-      case (8192, 24576)
-         facts%kind = device_file
-      case (40960)
-         facts%kind = link_file
-      case default
-         facts%kind = other_file
-      end select
+      facts%kind = other_file
+      k = findloc(modes == iand(number_at(28, 2), kind_bits), .true., dim=1)
+      if (k > 0) facts%kind = kinds(k)
       facts%inode = number_at(32, 8)
       facts%changed = number_at(112, 8)
       facts%device = number_at(136, 4)*2_i8**31 + number_at(140, 4)
@@ -200,11 +195,11 @@ contains
    !> The working folder; '.' if it has no path.
    function working_folder() result(path)
       character(:), allocatable :: path
-      character(kind=c_char) :: letters(most_letters)
+      character(kind=c_char) :: letters(max_letters)
 
       path = '.'
       letters = c_null_char
-      if (.not. c_associated(c_getcwd_raw(letters, int(most_letters, c_size_t)))) return
+      if (.not. c_associated(c_getcwd_raw(letters, int(max_letters, c_size_t)))) return
       path = text_of(letters)
    end function working_folder
 
@@ -212,14 +207,10 @@ contains
    pure function text_of(letters) result(text)
       character(kind=c_char), intent(in) :: letters(:)
       character(:), allocatable :: text
-      integer :: k
+      integer :: length
 
-      text = repeat(' ', size(letters))
-      do k = 1, size(letters)
-         if (letters(k) == c_null_char) exit
-         text(k:k) = letters(k)
-      end do
-      text = text(:k - 1)
+      length = findloc([letters == c_null_char, .true.], .true., dim=1) - 1
+      text = transfer(letters(:length), repeat(' ', length))
    end function text_of
 
    !> Whether a name is a folder.
@@ -296,22 +287,44 @@ contains
    !> The C library's message for its last failure.
    function system_reason() result(reason)
       character(:), allocatable :: reason
-
-      reason = reason_of(error_number())
-   end function system_reason
-
-   !> The message for an error number.
-   function reason_of(number) result(reason)
-      integer, intent(in) :: number
-      character(:), allocatable :: reason
       character(kind=c_char), pointer :: letters(:)
       type(c_ptr) :: text
 
-      text = c_strerror(int(number, c_int))
+      text = c_strerror(int(error_number(), c_int))
       reason = 'unknown reason'
       if (.not. c_associated(text)) return
       call c_f_pointer(text, letters, [c_strlen(text)])
       reason = text_of(letters)
-   end function reason_of
+   end function system_reason
+
+   !> Fails if a block of this many bytes cannot be allocated: asked before hours of work begin, so that a shortage gives a message
+   !> and an exit status instead of a crash at the allocation that fails. The block is released at once; only address space is used.
+   subroutine ask_memory(bytes, purpose, error)
+      integer(i8), intent(in) :: bytes
+      character(*), intent(in) :: purpose                     !! who needs it: 'case 'x' with 1000 states'
+      type(error_t), allocatable, intent(out) :: error        !! exit_file
+
+      if (.not. has_memory(bytes)) call fail(error, exit_file, memory_remarks(bytes, purpose))
+   end subroutine ask_memory
+
+   !> Whether a block of this many bytes can be allocated.
+   logical function has_memory(bytes)
+      integer(i8), intent(in) :: bytes
+      character(1), allocatable, volatile :: block(:)         ! volatile: the optimiser must not remove it as unused
+      integer :: status
+
+      allocate (block(bytes), stat=status)
+      has_memory = status == 0
+   end function has_memory
+
+   !> Says that a block of this many bytes cannot be allocated.
+   pure function memory_remarks(bytes, purpose) result(text)
+      integer(i8), intent(in) :: bytes
+      character(*), intent(in) :: purpose
+      character(:), allocatable :: text
+
+      text = 'not enough memory: '//purpose//' needs '//str(int((bytes + 999999)/1000000))// &
+         ' MB (a limit of the machine or of ulimit -v)'
+   end function memory_remarks
 
 end module ek_system

@@ -44,8 +44,7 @@ contains
          return
       end if
       if (.not. ieee_is_finite(value)) then
-         text = merge('-infinite', 'infinite ', value < 0.0_wp)
-         text = trim(text)
+         text = trim(merge('-infinite', 'infinite ', value < 0.0_wp))
          return
       end if
       exponent = floor(log10(abs(value)))
@@ -65,9 +64,7 @@ contains
       end if
       if (text(len(text):) == '.') text = text(:len(text) - 1)
       if (text(1:1) == '.') text = '0'//text
-      if (len(text) > 1) then
-         if (text(1:2) == '-.') text = '-0'//text(2:)
-      end if
+      if (index(text, '-.') == 1) text = '-0'//text(2:)
    end function str_real
 
    !> '(1, 2.5, -3)' for a vector.
@@ -123,11 +120,8 @@ contains
       character(*), intent(in) :: singular, many
       character(:), allocatable :: text
 
-      if (count == 1) then
-         text = str_integer(count)//' '//singular
-      else
-         text = str_integer(count)//' '//many
-      end if
+      text = str_integer(count)//' '//many
+      if (count == 1) text = '1 '//singular
    end function plural
 
    !> The candidate most similar to a mistyped name, or '' if none is similar

@@ -32,8 +32,8 @@ module ek_writer
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
    integer, parameter :: tag_length = 8 + 1 + 16            !! <machine>-<random>
    integer(i8), parameter :: a_day = 86400                  !! s
-   integer, parameter :: most_held = 60000                  !! characters added before they are written
-   integer, parameter :: most_attempts = 100                !! to create a file under a free name and lock it
+   integer, parameter :: max_held = 60000                  !! characters added before they are written
+   integer, parameter :: max_attempts = 100                !! to create a file under a free name and lock it
    integer(c_int), parameter :: may_exist = 0               !! F_OK of access(2)
    integer(c_int), parameter :: mine_alone = 448            !! 0700
 
@@ -102,7 +102,7 @@ contains
       character(*), intent(in) :: begin, end                 !! of its path
       integer :: attempt, ignored
 
-      do attempt = 1, most_attempts
+      do attempt = 1, max_attempts
          writer%temporary = begin//machine_tag()//'-'//random_tag(attempt)//end
          writer%stream = c_fopen(writer%temporary//c_null_char, 'wbxe'//c_null_char)
          if (.not. c_associated(writer%stream)) then
@@ -136,7 +136,7 @@ contains
       if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
       self%is_empty = .false.
       call self%rows%add(text)
-      if (self%rows%length() > most_held .and. .not. self%is_part) call self%flush()
+      if (self%rows%length() > max_held .and. .not. self%is_part) call self%flush()
    end subroutine writer_add
 
    !> Passes the added text to the system, so that it survives the end of this process. The text added to a part since the
@@ -232,7 +232,7 @@ contains
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       integer :: attempt, ignored
 
-      do attempt = 1, most_attempts
+      do attempt = 1, max_attempts
          scratch%path = folder_of(folder//'/')//front//machine_tag()//'-'//random_tag(attempt)//tail
          if (c_mkdir(scratch%path//c_null_char, mine_alone) /= 0) then
             if (error_number() == already_there) cycle

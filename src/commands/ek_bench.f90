@@ -11,16 +11,15 @@ module ek_bench
    use ek_lapack, only: dsysv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable, method_names
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
-   use ek_schedule, only: schedule_t, new_schedule, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_kkt, only: kkt_t, new_kkt, assemble, whole_tangent
    use ek_balance, only: balance
    use ek_path, only: path_t, new_path, walk, sweep
    use ek_rig, only: mount
    use ek_examination, only: examination_t
    use ek_sweep_table, only: sweep_table
-   use ek_table, only: table_t
-   use ek_csv, only: csv_text
+   use ek_table, only: table_t, csv_text
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen, read_changed
    use ek_deck, only: deck_t
@@ -28,7 +27,7 @@ module ek_bench
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
    use ek_case_result, only: case_result_t, solve_options_t, solve_case
    use ek_wheel_side, only: prefix_of
-   use ek_json, only: json_t
+   use ek_json, only: json_t, json_string, json_number
    use ek_console, only: print_text
    implicit none(type, external)
    private
@@ -40,10 +39,6 @@ module ek_bench
 
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
    integer, parameter :: designs = 40         !! timed together
-
-   type, extends(deck_settings_t) :: settings_t
-      integer :: increments = 0               !! 0: as in the deck
-   end type settings_t
 
    !> What was measured.
    type :: figures_t
@@ -62,7 +57,7 @@ contains
    subroutine bench(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      type(settings_t) :: settings
+      type(deck_settings_t) :: settings
       type(suspension_t) :: suspension
       type(case_t) :: case
       type(kkt_t) :: kkt
@@ -73,7 +68,6 @@ contains
       integer :: k, m
 
       call read_deck_settings(line, settings)
-      settings%increments = line%number('--increments')
       call load_case(settings, suspension, case, error)
       if (allocated(error)) return
       kkt = new_kkt(suspension)
@@ -157,22 +151,22 @@ contains
       integer :: m
 
       call json%open('{')
-      call json%text_item('model', suspension%name)
-      call json%text_item('case', case%name)
-      call json%integer_item('increments', case%increments)
-      call json%integer_item('n', n)
-      call json%number_item('unit_us', figures%unit*1.0e6_wp)
+      call json%item('model', json_string(suspension%name))
+      call json%item('case', json_string(case%name))
+      call json%item('increments', str(case%increments))
+      call json%item('n', str(n))
+      call json%item('unit_us', json_number(figures%unit*1.0e6_wp))
       do m = 1, 3
-         call json%number_item(trim(method_names(m))//'_units', figures%increment(m)/figures%unit)
+         call json%item(trim(method_names(m))//'_units', json_number(figures%increment(m)/figures%unit))
       end do
-      call json%number_item('states_per_s', 1.0_wp/figures%increment(3))
-      call json%number_item('factorisations_per_state', figures%factorisations)
-      call json%integer_item('max_factorisations', figures%most)
-      call json%number_item('distance_mm', figures%distance*1000.0_wp)
+      call json%item('states_per_s', json_number(1.0_wp/figures%increment(3)))
+      call json%item('factorisations_per_state', json_number(figures%factorisations))
+      call json%item('max_factorisations', str(figures%most))
+      call json%item('distance_mm', json_number(figures%distance*1000.0_wp))
       if (figures%design > 0.0_wp) then
-         call json%number_item('design_us', figures%design*1.0e6_wp)
-         call json%number_item('design_states_us', figures%states*1.0e6_wp)
-         call json%number_item('designs_per_s', 1.0_wp/figures%design)
+         call json%item('design_us', json_number(figures%design*1.0e6_wp))
+         call json%item('design_states_us', json_number(figures%states*1.0e6_wp))
+         call json%item('designs_per_s', json_number(1.0_wp/figures%design))
       end if
       call json%close('}')
       text = json%text()
@@ -181,7 +175,7 @@ contains
    !> Times whole designs, as a study runs them: numbers to suspension, examination, balance, states and one column; and the
    !> states alone. The first given number of the deck is changed in its tenth digit.
    subroutine time_designs(settings, case_name, figures, error)
-      type(settings_t), intent(in) :: settings
+      type(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: case_name
       type(figures_t), intent(inout) :: figures
       type(error_t), allocatable, intent(out) :: error
@@ -232,7 +226,7 @@ contains
 
    !> The first chosen case of a deck on the rig, examined and balanced.
    subroutine load_case(settings, suspension, case, error)
-      type(settings_t), intent(in) :: settings
+      type(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
       type(case_t), intent(out) :: case
       type(error_t), allocatable, intent(out) :: error
@@ -242,7 +236,7 @@ contains
       character(:), allocatable :: checksum
 
       call load_deck(settings, base, cases, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, '', settings%increments, cases, chosen, error)
+      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, base, chosen(1:1), found, error)
       if (.not. allocated(error)) call balance(base, chosen(1)%tolerance, error)
       if (allocated(error)) return
@@ -273,7 +267,7 @@ contains
       real(wp), allocatable, intent(out) :: matrices(:, :, :)
       type(state_t) :: state
       type(schedule_t) :: schedule
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       integer :: count, k, state_number, j
 
       count = min(max(kept_numbers/kkt%n**2, 4), path%states)
@@ -282,9 +276,9 @@ contains
       schedule = new_schedule(suspension, case)
       do k = 1, count
          state_number = 1 + ((k - 1)*(path%states - 1))/max(count - 1, 1)
-         call demand_at(schedule, path%value(state_number), demand)
+         call inputs_at(schedule, path%value(state_number), inputs)
          call unpack_state(path%packed(:, state_number), state)
-         call assemble(suspension, state, demand, whole_tangent, kkt)
+         call assemble(suspension, state, inputs, whole_tangent, kkt)
          do j = 1, kkt%n
             matrices(j:, j, k) = kkt%matrix(j:, j)*kkt%scale(j)*kkt%scale(j:)
          end do
@@ -341,7 +335,7 @@ contains
 
    !> Times all steps from deck to CSV text within this process.
    subroutine whole_way(settings, error)
-      type(settings_t), intent(in) :: settings
+      type(deck_settings_t), intent(in) :: settings
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: suspension
       type(case_t) :: case

@@ -11,7 +11,7 @@ module ek_check
    use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance, balance_words
+   use ek_balance, only: balance, balance_remarks
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_plausibility, only: doubt
    use ek_command_line, only: command_line_t
@@ -55,7 +55,7 @@ contains
       if (allocated(error)) return
       allocate (chosen(0))
       if (size(cases) > 0) then
-         call chosen_cases(settings, '', 0, cases, chosen, error)
+         call chosen_cases(settings, cases, chosen, error)
          if (allocated(error)) return
       end if
 
@@ -100,7 +100,7 @@ contains
          call balance(balanced, tolerance, error)
          if (allocated(error)) balanced = base
       end if
-      if (is_solvable .and. .not. allocated(error)) call balance_words(balanced, remarks)
+      if (is_solvable .and. .not. allocated(error)) call balance_remarks(balanced, remarks)
       if (remarks%count() > 0) call findings%line(remarks%text())
       call doubt(balanced, cases, remarks)
       do k = 1, remarks%count()
@@ -135,7 +135,7 @@ contains
       if (k > 0) held = held//', '//plural(k, 'driver', 'drivers')//' with a stiffness'
       call add(findings, 'degrees of freedom', str(diagnosis%freedoms)//', held by '//held)
       do k = 1, size(suspension%joints)
-         if (suspension%joints(k)%chosen_axis > 0) call add(findings, 'chosen axis', axis_words(suspension, k))
+         if (suspension%joints(k)%chosen_axis > 0) call add(findings, 'chosen axis', axis_text(suspension, k))
       end do
       unused = ''
       do k = 1, size(suspension%points)
@@ -146,7 +146,7 @@ contains
    end subroutine add_model
 
    !> "universal 'outer': axis_2_vector = 0, 1, 0": the axis that the program has chosen, in the frame of the deck.
-   function axis_words(suspension, k) result(text)
+   function axis_text(suspension, k) result(text)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: k                     !! number of the joint
       character(:), allocatable :: text
@@ -159,7 +159,7 @@ contains
          text = 'universal '//quoted(joint%name)//': '//trim(merge('axis_vector  ', 'axis_2_vector', joint%chosen_axis == 1))// &
             ' = '//str(axis(1), 6)//', '//str(axis(2), 6)//', '//str(axis(3), 6)
       end associate
-   end function axis_words
+   end function axis_text
 
    !> One case: its test, load or drive, and whether it can be solved.
    subroutine add_case(case, diagnosis, findings)

@@ -3,14 +3,12 @@ module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
    use ek_file, only: is_terminal, write_standard_output, write_standard_error
-   use ek_table, only: table_t
-   use ek_csv, only: write_csv
+   use ek_table, only: table_t, write_csv
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_balance, only: balance_words
+   use ek_balance, only: balance_remarks
    use ek_plausibility, only: doubt
-   use ek_model_remarks, only: patch_words, spring_words, preload_words
-   use ek_remark, only: remark_t, remark_list_t, note, warning
+   use ek_remark, only: remark_t, remark_list_t, note, warning, patch_remarks, spring_remarks, preload_remarks
    implicit none(type, external)
    private
    public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &
@@ -96,13 +94,13 @@ contains
       character(:), allocatable :: more
       integer :: k
 
-      call preload_words(suspension, notes)
+      call preload_remarks(suspension, notes)
       do k = 1, notes%count()
          call print_note(quiet, notes%line(k))
       end do
-      call patch_words(suspension, warnings)
-      call spring_words(suspension, chosen, warnings)
-      call balance_words(suspension, warnings)
+      call patch_remarks(suspension, warnings)
+      call spring_remarks(suspension, chosen, warnings)
+      call balance_remarks(suspension, warnings)
       do k = 1, warnings%count()
          call print_warning(warnings%line(k))
          if (present(page)) call page%add(warnings%line(k))

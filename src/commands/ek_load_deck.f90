@@ -6,18 +6,21 @@ module ek_load_deck
    use ek_setting, only: split_setting
    use ek_reader, only: build_model
    use ek_suspension, only: suspension_t
-   use ek_case_inputs, only: check_inputs
-   use ek_case, only: case_t, method_names, most_increments
+   use ek_case, only: case_t, method_names, max_increments
    use ek_command_line, only: command_line_t
-   use ek_examination, only: examination_t, examine_cases
+   use ek_examination, only: examination_t, check_inputs, examine_cases
    implicit none(type, external)
    private
    public :: deck_settings_t, read_deck_settings, load_deck, read_changed, chosen_cases, examine_chosen
 
-   !> What every command on a deck may say; a command extends it by its own settings.
+   !> What a command on a deck may say; a command extends it by its own settings. An option that it does not take is not given.
    type :: deck_settings_t
       character(:), allocatable :: file          !! '-' is standard input
       character(:), allocatable :: case          !! '' for all
+      character(:), allocatable :: method        !! '': as in the deck
+      character(:), allocatable :: out           !! the folder, or - for standard output
+      integer :: increments = 0                  !! 0: as in the deck
+      logical :: is_quiet = .false.
       type(message_list_t) :: changes            !! --set path=value
    end type deck_settings_t
 
@@ -29,6 +32,10 @@ contains
 
       settings%file = line%files%line(1)
       settings%case = line%value('--case')
+      settings%method = line%value('--method')
+      settings%out = line%value('--out', 'out')
+      settings%increments = line%number('--increments')
+      settings%is_quiet = line%has('--quiet')
       settings%changes = line%values('--set')
    end subroutine read_deck_settings
 
@@ -77,10 +84,8 @@ contains
    end subroutine read_changed
 
    !> The cases to run, with --case, --method and --increments applied.
-   subroutine chosen_cases(settings, method, increments, cases, chosen, error)
+   subroutine chosen_cases(settings, cases, chosen, error)
       class(deck_settings_t), intent(in) :: settings
-      character(*), intent(in) :: method                   !! '' for those of the deck
-      integer, intent(in) :: increments                    !! 0 for those of the deck
       type(case_t), intent(in) :: cases(:)
       type(case_t), allocatable, intent(out) :: chosen(:)
       type(error_t), allocatable, intent(out) :: error
@@ -105,20 +110,20 @@ contains
             hint = hint//' '//quoted(names(k))
          end do
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
-      else if (len(method) > 0 .and. .not. any(method_names == method)) then
-         call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(method))
-      else if (increments > most_increments) then
-         call fail(error, exit_usage, '--increments: expected 1 to '//str(most_increments)//', found '//str(increments))
+      else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
+         call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))
+      else if (settings%increments > max_increments) then
+         call fail(error, exit_usage, '--increments: expected 1 to '//str(max_increments)//', found '//str(settings%increments))
       end if
       if (allocated(error)) return
       do k = 1, size(chosen)
-         if (chosen(k)%follows_arc .and. len(method) > 0 .and. method /= 'equilibrium') then
+         if (chosen(k)%follows_arc .and. settings%method /= '' .and. settings%method /= 'equilibrium') then
             call fail(error, exit_usage, '--method: case '//quoted(chosen(k)%name)//' has follow = ''arc'', which requires '// &
-               'method equilibrium, found '//quoted(method))
+               'method equilibrium, found '//quoted(settings%method))
             return
          end if
-         if (len(method) > 0) chosen(k)%method = method
-         if (increments > 0) chosen(k)%increments = increments
+         if (settings%method /= '') chosen(k)%method = settings%method
+         if (settings%increments > 0) chosen(k)%increments = settings%increments
       end do
    end subroutine chosen_cases
 
@@ -131,7 +136,7 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! exit_model
 
       call examine_cases(suspension, chosen, found)
-      if (.not. found%none_solvable()) return
+      if (size(chosen) == 0 .or. any(found%is_solvable)) return
       if (size(chosen) == 1) then
          call fail(error, exit_model, found%faults%line(1))
       else

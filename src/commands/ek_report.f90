@@ -1,37 +1,38 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
-   use ek_units, only: millimetre
-   use ek_text, only: str, plural
+   use ek_text, only: str, plural, spaced
    use ek_version, only: version
-   use ek_clock, only: date_words
+   use ek_clock, only: date_text
    use ek_file, only: make_folder, write_whole, join_path, remove_file
-   use ek_suspension, only: suspension_t
+   use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_examination, only: examination_t
-   use ek_standard_tests, only: standard_tests
-   use ek_table, only: table_t
+   use ek_standard_tests, only: standard_tests, test_title
+   use ek_table, only: table_t, new_table
    use ek_test_charts, only: test_charts
-   use ek_gradient, only: test_gradients
-   use ek_gradient_file, only: write_gradients
-   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file
+   use ek_gradient, only: test_gradients, write_gradients
+   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, test_line, table_file
    use ek_report_page, only: report_t, report_page, add_fact
    use ek_report_pictures, only: draw_pictures
    use ek_gradient_definition, only: windows_t
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
-   use ek_report_tests, only: planned_tests, run_planned
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
+   use ek_kinds, only: wp, millimetre
+   use ek_path, only: path_t
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
+   use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
+   use ek_sweep_table, only: compliance_table
+   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    implicit none(type, external)
    private
-   public :: report
+   public :: report, planned_tests, run_planned, kind_of_case
 
    type, extends(deck_settings_t) :: settings_t
-      character(:), allocatable :: out, method       !! method: '' as in the deck
-      integer :: increments = 0                      !! 0: as in the deck
       type(windows_t) :: windows                     !! of gradients
-      logical :: has_plots = .true., is_animated = .false., is_quiet = .false.
+      logical :: has_plots = .true., is_animated = .false.
    end type settings_t
 
 contains
@@ -55,7 +56,7 @@ contains
       if (allocated(error)) return
       all_cases = cases                                     ! of a model without a wheel
       if (size(suspension%wheels) > 0) call standard_tests(suspension, cases, all_cases)
-      call chosen_cases(settings, settings%method, settings%increments, all_cases, chosen, error)
+      call chosen_cases(settings, all_cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out
@@ -115,12 +116,8 @@ contains
       type(error_t), allocatable, intent(out) :: error        !! exit_usage
 
       call read_deck_settings(line, settings)
-      settings%out = line%value('--out', 'out')
-      settings%method = line%value('--method')
-      settings%increments = line%number('--increments')
       settings%has_plots = .not. line%has('--no-plots')
       settings%is_animated = line%has('--animate')
-      settings%is_quiet = line%has('--quiet')
       call refuse_stream(line, error)
       if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
          call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
@@ -192,7 +189,133 @@ contains
          suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call add_fact(page, 'Deck checksum', checksum)
       call add_fact(page, 'Program', 'elastokin '//version)
-      call add_fact(page, 'Date', date_words())
+      call add_fact(page, 'Date', date_text())
    end subroutine set_head
+
+   !> Name, kind and title of every test before it is run.
+   subroutine planned_tests(suspension, cases, tests)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(inout) :: cases(:)      !! their results have all columns
+      type(test_result_t), allocatable, intent(out) :: tests(:)
+      integer :: k
+
+      allocate (tests(size(cases)))
+      cases%has_all = .true.
+      do k = 1, size(cases)
+         associate (test => tests(k), case => cases(k))
+            test%name = case%name
+            test%file = table_file(case%name)
+            test%is_iso = suspension%is_iso
+            allocate (test%prefixes(0), test%sides(0))
+            if (len(case%test) > 0) then
+               test%kind = case%test
+               test%title = test_title(case, size(suspension%wheels))
+               test%is_anti = case%is_anti
+            else
+               call kind_of_case(suspension, case, test%kind, test%factor_size)
+               test%title = title_of(case%name)
+            end if
+         end associate
+      end do
+   end subroutine planned_tests
+
+   !> The kind of test that a case of a deck amounts to, from its drive or load.
+   subroutine kind_of_case(suspension, case, kind, factor_size)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      character(:), allocatable, intent(out) :: kind
+      real(wp), intent(out) :: factor_size      !! load at `factor` = 1 [N or N m]
+      real(wp), parameter :: mostly = 0.99_wp   ! share of the load along one axis
+      character(15), parameter :: kinds(6) = [character(15) :: 'braking', 'lateral_force', 'vertical_force', '', '', &
+         'aligning_torque']
+      real(wp) :: load(6)
+      integer :: k, axis
+
+      kind = 'other'
+      factor_size = 1.0_wp
+      if (case%drive == 'wheel_travel') then
+         kind = 'parallel_travel'
+         if (size(suspension%wheels) > 1) kind = 'single_travel'
+      end if
+      k = load_number(suspension, case%load)
+      if (k == 0) return
+      load = [suspension%loads(k)%force, suspension%loads(k)%moment]
+      if (norm2(load(:3)) > 0.0_wp .and. norm2(load(4:)) > 0.0_wp) return
+      axis = maxloc(abs(load), dim=1)
+      if (.not. abs(load(axis)) > mostly*norm2(load) .or. kinds(axis) == '') return
+      factor_size = load(axis)
+      kind = trim(kinds(axis))
+      if (axis /= 1 .or. .not. is_at_centre(suspension, k)) return
+      kind = 'traction'
+      factor_size = -load(1)
+   end subroutine kind_of_case
+
+   !> Whether a load acts at the centre of a wheel.
+   pure logical function is_at_centre(suspension, load)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: load
+      real(wp), parameter :: same = 1.0e-6_wp     ! m
+      integer :: k
+
+      is_at_centre = any([(suspension%wheels(k)%body == suspension%loads(load)%body .and. &
+         norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same, k=1, size(suspension%wheels))])
+   end function is_at_centre
+
+   !> 'Wheel travel sweep' of 'wheel_travel_sweep'.
+   pure function title_of(name) result(title)
+      character(*), intent(in) :: name
+      character(:), allocatable :: title
+
+      title = spaced(name)
+      if (len(title) == 0) return
+      if (title(1:1) >= 'a' .and. title(1:1) <= 'z') title(1:1) = achar(iachar(title(1:1)) - 32)
+   end function title_of
+
+   !> Runs one test. Its remarks report every failure to converge; `error` then has exit_convergence (or exit_model if the
+   !> model cannot be solved), and the table has the states before it.
+   subroutine run_planned(base, case, fault, checksum, test, path, error, compliance)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: case
+      character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
+      character(*), intent(in) :: checksum
+      type(test_result_t), intent(inout) :: test   !! as planned
+      type(path_t), intent(out) :: path            !! states, for pictures
+      type(error_t), allocatable, intent(out) :: error
+      type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
+      integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
+      type(remark_t) :: remark
+      integer :: topic, k
+
+      options%fault = fault
+      options%checksum = checksum
+      options%is_compared = .false.
+      options%min_settling = 1.0e-5_wp           ! m, seen on a rig: the design state should be in equilibrium
+      call solve_case(base, case, options, result)
+      call failure_of(result, error)
+      do topic = 1, size(topics)
+         do k = 1, result%remarks%count()
+            remark = result%remarks%item(k)
+            if (remark%topic /= topics(topic)) cycle
+            if (remark%severity == failure) remark%text = remark%whole()
+            call test%remarks%add(remark%text)
+         end do
+      end do
+      test%is_run = result%is_run()
+      if (.not. test%is_run) then
+         test%table = new_table([character(1) ::], 0)
+         return
+      end if
+      if (present(compliance)) then
+         call compliance_table(result%suspension, result%case, result%path, result%kkt, compliance)
+         call add_header(compliance, result%suspension, result%case, checksum)
+      end if
+      test%table = result%table
+      path = result%path
+      call test%table%header%add(test_line(test%kind, test%is_anti, test%factor_size))
+      if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)
+      call choose_abscissa(test)
+   end subroutine run_planned
 
 end module ek_report

@@ -10,12 +10,10 @@ module ek_run
    use ek_balance, only: balance
    use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
-   use ek_compliance_table, only: compliance_table
+   use ek_sweep_table, only: compliance_table
    use ek_target, only: target_t, find_target
-   use ek_table, only: table_t
-   use ek_csv, only: tell_csv
-   use ek_plot, only: run_figures
-   use ek_gnuplot, only: figure_t, draw_figures
+   use ek_table, only: table_t, print_csv
+   use ek_gnuplot, only: figure_t, run_figures, draw_figures
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
@@ -24,10 +22,7 @@ module ek_run
    public :: run
 
    type, extends(deck_settings_t) :: settings_t
-      character(:), allocatable :: out               !! the folder, or - for standard output
-      character(:), allocatable :: method            !! '': as in the deck
-      integer :: increments = 0                      !! 0: as in the deck
-      logical :: has_plots = .false., has_compliance = .false., is_quiet = .false.
+      logical :: has_plots = .false., has_compliance = .false.
    end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
@@ -49,7 +44,7 @@ contains
 
       call read_settings(line, settings, error)
       if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
-      if (.not. allocated(error)) call chosen_cases(settings, settings%method, settings%increments, cases, chosen, error)
+      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
       if (allocated(error)) return
       if (settings%out == '-' .and. size(chosen) > 1) then
          call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
@@ -94,12 +89,8 @@ contains
       type(error_t), allocatable, intent(out) :: error        !! options that exclude each other
 
       call read_deck_settings(line, settings)
-      settings%out = line%value('--out', 'out')
-      settings%method = line%value('--method')
-      settings%increments = line%number('--increments')
       settings%has_plots = line%has('--plot')
       settings%has_compliance = line%has('--compliance')
-      settings%is_quiet = line%has('--quiet')
       if (settings%out /= '-') return
       if (settings%has_plots) then
          call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
@@ -147,7 +138,7 @@ contains
       if (.not. result%is_run()) return
       name = join_path(settings%out, result%suspension%name//'_'//wanted%name)
       if (settings%out == '-') then
-         call tell_csv(result%table, trouble)
+         call print_csv(result%table, trouble)
       else
          call write_table(result%table, name//'.csv', unprinted, trouble)
          if (settings%has_plots .and. .not. allocated(trouble)) call draw(settings, result, name, undrawn)
@@ -214,14 +205,11 @@ contains
          end do
          model = suspension%title
          if (len(model) == 0) model = suspension%name
-         if (is_vertical(suspension, case)) then
-            call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, elements=elements)
-         else
-            label = case%place_name
-            if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
-            call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, label, elements, &
-               case%test == 'table')
-         end if
+         label = case%place_name
+         if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
+         if (is_vertical(suspension, case)) label = ''      ! over the wheel travel
+         call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, label, elements, &
+            case%test == 'table')
       end associate
       call draw_figures(figures, settings%out, message, error)
       if (allocated(error)) return

@@ -8,13 +8,14 @@
 !> created by &mirror.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
+   use ek_buffer, only: buffer_t
    use ek_error, only: error_t, fail, exit_deck, exit_usage, exit_file
    use ek_file, only: read_whole, join_path, folder_name
    use ek_checksum, only: checksum_t, include, digits_of
    use ek_text, only: str, lower, quoted
    use ek_letters, only: visible
-   use ek_complaint, only: place_t, complaints_t, place_in
-   use ek_record, only: record_t, entry_t, element, entry_index, is_given, add_value, add_entry, add_record, place_of
+   use ek_record, only: place_t, deck_errors_t, place_in, record_t, entry_t, element, entry_index, is_given, add_value, add_entry, &
+      add_record, place_of
    use ek_scanner, only: scan_text
    use ek_mirror, only: mirror_records
    use ek_setting, only: apply_setting, split_setting
@@ -32,16 +33,16 @@ module ek_deck
       character(:), allocatable :: file          !! as given by the user, for messages
       type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text
       integer :: used = 0
-      type(complaints_t) :: complaints           !! syntax mistakes
+      type(deck_errors_t) :: deck_errors           !! syntax mistakes
       type(setting_t), allocatable :: late(:)    !! settings to be made after &mirror
       logical :: is_mirrored = .false.
    end type deck_t
 
    ! &include: the record itself stays in the list, so that its keys are checked like all others; the records of the file follow
    ! it. Every record stores its file, which messages then show.
-   integer, parameter :: most_nested = 8      !! nesting depth of files; more is a mistake
-   integer, parameter :: most_files = 500     !! total: ten files that include ten each, eight levels deep, would be 10^8
-   integer, parameter :: most_letters = 50000000   !! total; the largest known deck has 1 % of it
+   integer, parameter :: max_nested = 8      !! nesting depth of files; more is a mistake
+   integer, parameter :: max_files = 500     !! total: ten files that include ten each, eight levels deep, would be 10^8
+   integer, parameter :: max_letters = 50000000   !! total; the largest known deck has 1 % of it
 
    type :: file_t
       character(:), allocatable :: path
@@ -49,10 +50,8 @@ module ek_deck
 
    !> What has been read so far.
    type :: files_t
-      type(file_t) :: open(0:most_nested)     !! from the deck inwards
+      type(file_t) :: open(0:max_nested)     !! from the deck inwards
       integer :: sources = 0, letters = 0     !! files, and their characters
-      type(record_t), allocatable :: records(:)
-      integer :: used = 0
    end type files_t
 
 contains
@@ -81,6 +80,7 @@ contains
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_study     !! default .false.
+      type(files_t) :: files
       logical :: is_alone
 
       deck%file = trim(name)
@@ -88,12 +88,14 @@ contains
       is_alone = .false.
       if (present(is_study)) is_alone = is_study
       if (is_alone) then
-         call scan_text(text, deck%file, deck%records, deck%used, deck%complaints)
+         call scan_text(text, deck%file, deck%records, deck%used, deck%deck_errors)
       else
-         call read_text(text, deck%file, deck%records, deck%used, deck%complaints)
+         allocate (deck%records(32))
+         files%open(0)%path = deck%file
+         call take_text(text, 0, files, deck)
       end if
       call name_tests(deck)
-      if (deck%used == 0 .and. deck%complaints%count() == 0) &
+      if (deck%used == 0 .and. deck%deck_errors%count() == 0) &
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
 
@@ -147,7 +149,7 @@ contains
          ! the intended name may be that of either kind of record
          if (is_found .or. index(message, 'did you mean') == 0) message = late_message
       end if
-      if (deck%complaints%count() > 0) message = deck%complaints%text()//new_line('a')//message
+      if (deck%deck_errors%count() > 0) message = deck%deck_errors%text()//new_line('a')//message
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
@@ -164,13 +166,13 @@ contains
       whole = deck
       if (deck%is_mirrored .or. .not. any([(deck%records(k)%group == 'mirror', k=1, deck%used)])) return
       whole%is_mirrored = .true.
-      call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%complaints)
+      call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%deck_errors)
       do k = 1, size(deck%late)
          call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)
          if (message == '') cycle      ! a later setting has removed the record to which this one refers
          place%words = '--set '//trim(deck%late(k)%path)//'='//trim(deck%late(k)%text)
          place%source = huge(place%source)
-         call whole%complaints%add(place, message(len(place%words) + 3:))
+         call whole%deck_errors%add(place, message(len(place%words) + 3:))
       end do
    end subroutine finish_deck
 
@@ -212,118 +214,89 @@ contains
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
+      integer, parameter :: most = 1000000000                !! twice this length would overflow a default integer
+      type(buffer_t) :: buffer
       character(4096) :: chunk
-      character(:), allocatable :: grown
-      integer :: status, got, filled
+      integer :: status, got
 
-      allocate (character(65536) :: text)
-      filled = 0
       do
          read (input_unit, '(a)', advance='no', iostat=status, size=got) chunk
          if (status /= 0 .and. status /= iostat_eor) exit
-         if (filled + got + 1 > len(text)) then
-            if (len(text) > 1000000000) then      ! twice this length would overflow a default integer
-               call fail(error, exit_file, 'cannot read standard input: it is longer than 1 GB')
-               return
-            end if
-            allocate (character(2*len(text)) :: grown)
-            grown(:filled) = text(:filled)
-            call move_alloc(grown, text)
-         end if
-         text(filled + 1:filled + got) = chunk(:got)
-         filled = filled + got
-         if (status == iostat_eor) then
-            filled = filled + 1
-            text(filled:filled) = new_line('a')
+         call buffer%add(chunk(:got))
+         if (status == iostat_eor) call buffer%add(new_line('a'))
+         if (buffer%length() > most) then
+            call fail(error, exit_file, 'cannot read standard input: it is longer than 1 GB')
+            return
          end if
       end do
-      text = text(:filled)
+      text = buffer%text()
    end subroutine read_standard_input
 
-   !> Reads all records of a text and of the files it includes. Mistakes are added to the list of messages.
-   subroutine read_text(text, file, records, used, complaints)
-      character(*), intent(in) :: text
-      character(*), intent(in) :: file                        !! its path, or its label in messages
-      type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
-      integer, intent(out) :: used
-      type(complaints_t), intent(inout) :: complaints
-      type(files_t) :: files
-
-      allocate (files%records(32))
-      files%open(0)%path = file
-      call take_text(text, 0, files, complaints)
-      call move_alloc(files%records, records)
-      used = files%used
-   end subroutine read_text
-
    !> The text of the innermost open file. An &include without a quoted name is left to the check of its keys.
-   recursive subroutine take_text(text, depth, files, complaints)
+   recursive subroutine take_text(text, depth, files, deck)
       character(*), intent(in) :: text
       integer, intent(in) :: depth
       type(files_t), intent(inout) :: files
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_t), intent(inout) :: deck
       type(record_t), allocatable :: own(:)
-      type(place_t) :: place
       integer :: k, entry, own_used
 
       files%sources = files%sources + 1
-      call scan_text(text, files%open(depth)%path, own, own_used, complaints, files%sources)
+      call scan_text(text, files%open(depth)%path, own, own_used, deck%deck_errors, files%sources)
       do k = 1, own_used
-         call add_record(files%records, files%used, own(k))
+         call add_record(deck%records, deck%used, own(k))
          entry = 0
          if (own(k)%group == 'include') entry = entry_index(own(k), 'file', 1)
          if (entry == 0) cycle
-         call place_of(own(k), entry, place)
          associate (file => own(k)%entries(entry))
             if (file%used == 1 .and. file%values(1)%is_string .and. file%values(1)%text /= '') &
-               call take_file(trim(file%values(1)%text), place, depth, files, complaints)
+               call take_file(trim(file%values(1)%text), place_of(own(k), entry), depth, files, deck)
          end associate
       end do
    end subroutine take_text
 
    !> Reads a file named relative to the innermost open one.
-   recursive subroutine take_file(name, place, depth, files, complaints)
+   recursive subroutine take_file(name, place, depth, files, deck)
       character(*), intent(in) :: name
       type(place_t), intent(in) :: place        !! of the &include
       integer, intent(in) :: depth
       type(files_t), intent(inout) :: files
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_t), intent(inout) :: deck
       type(error_t), allocatable :: error
-      type(place_t) :: all_of_it
       character(:), allocatable :: text, path
       integer :: k, records_before, complaints_before
 
-      if (files%sources > most_files + 1) return                     ! already reported
+      if (files%sources > max_files + 1) return                     ! already reported
       path = name
       if (index(files%open(depth)%path, '/') > 0) path = join_path(folder_name(files%open(depth)%path), name)
       do k = 0, depth
          if (plain_path(files%open(k)%path) /= plain_path(path)) cycle
-         call complaints%add(place, 'include: '//quoted(path)//' includes itself')
+         call deck%deck_errors%add(place, 'include: '//quoted(path)//' includes itself')
          return
       end do
-      if (depth == most_nested) then
-         call complaints%add(place, 'include: files are nested more than '//str(most_nested)//' deep')
+      if (depth == max_nested) then
+         call deck%deck_errors%add(place, 'include: files are nested more than '//str(max_nested)//' deep')
          return
       end if
       call read_whole(path, text, error)
       if (allocated(error)) then
-         call complaints%add(place, 'include: '//error%message)
+         call deck%deck_errors%add(place, 'include: '//error%message)
          return
       end if
-      files%letters = files%letters + min(len(text), most_letters)
-      if (files%sources > most_files .or. files%letters > most_letters) then
-         call place_in(files%open(0)%path, 0, 0, all_of_it)   ! sorted before all other mistakes, which may be its consequences
-         call complaints%add(all_of_it, 'more than '//str(most_files)//' files or '//str(most_letters/1000000)// &
-            ' MB are included in total; the last one by '//place%words)
-         files%sources = most_files + 2                       ! reported once; the rest is not read
+      files%letters = files%letters + min(len(text), max_letters)
+      if (files%sources > max_files .or. files%letters > max_letters) then
+         ! sorted before all other mistakes, which may be its consequences
+         call deck%deck_errors%add(place_in(deck%file, 0, 0), 'more than '//str(max_files)//' files or '// &
+            str(max_letters/1000000)//' MB are included in total; the last one by '//place%words)
+         files%sources = max_files + 2                       ! reported once; the rest is not read
          return
       end if
-      records_before = files%used
-      complaints_before = complaints%count()
+      records_before = deck%used
+      complaints_before = deck%deck_errors%count()
       files%open(depth + 1)%path = path
-      call take_text(text, depth + 1, files, complaints)
-      if (files%used == records_before .and. complaints%count() == complaints_before) &
-         call complaints%add(place, 'include: no group found in '//quoted(path))
+      call take_text(text, depth + 1, files, deck)
+      if (deck%used == records_before .and. deck%deck_errors%count() == complaints_before) &
+         call deck%deck_errors%add(place, 'include: no group found in '//quoted(path))
    end subroutine take_file
 
    !> A path without 'x/..' and '.', so that different spellings of one path compare equal.

@@ -7,7 +7,7 @@ module ek_group
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
-   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_words, spring_groups
+   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_text, spring_groups
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
@@ -32,10 +32,10 @@ module ek_group
 
    integer, parameter, public :: word_length = 63      !! longest name
    integer, parameter, public :: note_length = 2000    !! longest title or note
-   integer, parameter, public :: most_measures = 8     !! per coupler
-   integer, parameter, public :: most_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
-   integer, parameter, public :: most_paths = 50       !! of numbers that a factor moves together
-   integer, parameter, public :: most_loads = 12       !! scaled together by one case
+   integer, parameter, public :: max_measures = 8     !! per coupler
+   integer, parameter, public :: max_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
+   integer, parameter, public :: max_paths = 50       !! of numbers that a factor moves together
+   integer, parameter, public :: max_loads = 12       !! scaled together by one case
 
    ! legal ranges of a number
    integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3, share = 4
@@ -95,8 +95,8 @@ module ek_group
       key_t(joint_group, 'axis_2', word, 2, 2, .false., role=point_group), &
       key_t(joint_group, 'axis_2_vector', number, 3, 3, .false., role=polar), &
       key_t(joint_group, 'measure', word, 1, 1, .false., role=measure_group), &
-      key_t(joint_group, 'measures', word, 1, most_measures, .false., role=measure_group), &
-      key_t(joint_group, 'ratios', number, 1, most_measures, .false., not_zero), &
+      key_t(joint_group, 'measures', word, 1, max_measures, .false., role=measure_group), &
+      key_t(joint_group, 'ratios', number, 1, max_measures, .false., not_zero), &
       key_t(joint_group, 'stiffness', number, 1, 1, .false., positive), &
       key_t(joint_group, 'balance', switch, 1, 1, .false.), &
       key_t(bushing_group, 'bodies', word, 2, 2, .true., role=body_group), &
@@ -118,8 +118,8 @@ module ek_group
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
       key_t(spring_group, 'balance', switch, 1, 1, .false.), &
       key_t(spring_group, 'free_length', number, 1, 1, .false., positive), &
-      key_t(curve_group, 'x', number, 2, most_values, .true.), &
-      key_t(curve_group, 'y', number, 2, most_values, .true.), &
+      key_t(curve_group, 'x', number, 2, max_values, .true.), &
+      key_t(curve_group, 'y', number, 2, max_values, .true.), &
       key_t(curve_group, 'kind', word, 1, 1, .false.), &
       key_t(damper_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(damper_group, 'at', word, 2, 2, .true., role=point_group), &
@@ -170,7 +170,7 @@ module ek_group
       key_t(load_group, 'moment', number, 3, 3, .false., role=axial), &
       key_t(load_group, 'follows', switch, 1, 1, .false.), &
       key_t(load_group, 'factor', word, 1, 1, .false.), &
-      key_t(case_group, 'load', word, 1, most_loads, .false., role=load_group), &
+      key_t(case_group, 'load', word, 1, max_loads, .false., role=load_group), &
       key_t(case_group, 'drive', word, 1, 1, .false., role=joint_group), &
       key_t(case_group, 'wheel', word, 1, 1, .false., role=wheel_group), &
       key_t(case_group, 'test', word, 1, 1, .false.), &
@@ -193,7 +193,7 @@ module ek_group
       key_t(study_group, 'plot', prose, 1, 1, .false.), &
       key_t(study_group, 'end', word, 1, 1, .false.), &
       key_t(study_group, 'methods', word, 1, 3, .false.), &
-      key_t(study_group, 'increments', whole, 1, most_values, .false.), &
+      key_t(study_group, 'increments', whole, 1, max_values, .false.), &
       key_t(study_group, 'columns', word, 1, 20, .false.), &
       key_t(study_group, 'samples', whole, 1, 1, .false.), &
       key_t(study_group, 'levels', whole, 1, 1, .false.), &
@@ -202,7 +202,7 @@ module ek_group
       key_t(study_group, 'list', prose, 1, 1, .false.), &
       key_t(study_group, 'chunk', whole, 1, 1, .false.), &
       key_t(study_group, 'format', word, 1, 1, .false.), &
-      key_t(factor_group, 'path', prose, 1, most_paths, .true.), &
+      key_t(factor_group, 'path', prose, 1, max_paths, .true.), &
       key_t(factor_group, 'change', word, 1, 1, .false.), &
       key_t(factor_group, 'lower', number, 1, 1, .false.), &
       key_t(factor_group, 'upper', number, 1, 1, .false.), &
@@ -210,7 +210,7 @@ module ek_group
       key_t(factor_group, 'tolerance', number, 1, 1, .false., positive), &
       key_t(factor_group, 'deviation', number, 1, 1, .false., positive), &
       key_t(factor_group, 'distribution', word, 1, 1, .false.), &
-      key_t(factor_group, 'values', number, 1, most_values, .false.), &
+      key_t(factor_group, 'values', number, 1, max_values, .false.), &
       key_t(factor_group, 'from', number, 1, 1, .false.), &
       key_t(factor_group, 'to', number, 1, 1, .false.), &
       key_t(factor_group, 'count', whole, 1, 1, .false.), &
@@ -227,7 +227,7 @@ module ek_group
       key_t(response_group, 'lower', number, 1, 1, .false.), &
       key_t(response_group, 'upper', number, 1, 1, .false.), &
       key_t(include_group, 'file', prose, 1, 1, .true.), &
-      key_t(mirror_group, 'shared', word, 1, most_values, .false.), &
+      key_t(mirror_group, 'shared', word, 1, max_values, .false.), &
       key_t(every_group, 'note', prose, 1, 1, .false.)]
 
 contains
@@ -315,7 +315,7 @@ contains
    end function is_inside
 
    !> 'must be above 0 kg, found -1': the message about a number outside the range of its key.
-   pure function range_words(key, shown) result(words)
+   pure function range_text(key, shown) result(words)
       type(key_t), intent(in) :: key
       character(*), intent(in) :: shown       !! the value as text
       character(:), allocatable :: words
@@ -323,7 +323,7 @@ contains
 
       words = 'must be '//trim(ranges(key%range))//trim(key%unit)//', found '//shown
       if (key%range == not_zero) words = 'must not be zero'
-   end function range_words
+   end function range_text
 
    !> "bushing 'top_mount': "
    pure function record_head(group, name) result(head)
@@ -352,7 +352,7 @@ contains
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)    !! blank ones are ignored
       character(:), allocatable :: words
-      integer, parameter :: most_listed = 20
+      integer, parameter :: max_listed = 20
       integer :: k
 
       words = nearest_name(name, candidates)
@@ -360,7 +360,7 @@ contains
          words = ' (did you mean '//quoted(words)//'?)'
       else if (count(candidates /= '') == 0) then
          words = ' (there is none)'
-      else if (count(candidates /= '') <= most_listed) then
+      else if (count(candidates /= '') <= max_listed) then
          do k = 1, size(candidates)
             if (candidates(k) == '') cycle
             if (words /= '') words = words//', '

@@ -10,11 +10,10 @@
 !>
 !> Loads and heights act in addition to the constant loads of the deck; quantities without a column stay constant.
 module ek_load_table
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, plural
-   use ek_units, only: degree, millimetre
-   use ek_case, only: case_t, load_table_t, table_column_t, most_driven
+   use ek_case, only: case_t, load_table_t, table_column_t, max_driven
    use ek_measure, only: rotation
    use ek_suspension, only: suspension_t, driver_row
    use ek_quantity, only: name_length
@@ -133,17 +132,17 @@ contains
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: wheels(2)
       logical, intent(in) :: is_unknown(:)
-      integer, parameter :: most_reported = 10      ! a table for another purpose has many
+      integer, parameter :: max_reported = 10      ! a table for another purpose has many
       integer :: k
 
-      if (count(sheet%heads /= '') > most_driven) call sheet%head_mistakes%add(head_place(sheet)//'expected at most '// &
-         str(most_driven)//' columns, found '//str(count(sheet%heads /= '')))
+      if (count(sheet%heads /= '') > max_driven) call sheet%head_mistakes%add(head_place(sheet)//'expected at most '// &
+         str(max_driven)//' columns, found '//str(count(sheet%heads /= '')))
       do k = 1, size(sheet%heads)
-         if (is_unknown(k) .and. count(is_unknown(:k)) <= most_reported) call sheet%head_mistakes%add(head_place(sheet)// &
+         if (is_unknown(k) .and. count(is_unknown(:k)) <= max_reported) call sheet%head_mistakes%add(head_place(sheet)// &
             'unknown column '//quoted(sheet%heads(k))//advice(trim(sheet%heads(k)), suspension, wheels))
       end do
-      if (count(is_unknown) > most_reported) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
-         plural(count(is_unknown) - most_reported, 'more unknown column', 'more unknown columns'))
+      if (count(is_unknown) > max_reported) call sheet%head_mistakes%add(head_place(sheet)//'and '// &
+         plural(count(is_unknown) - max_reported, 'more unknown column', 'more unknown columns'))
    end subroutine judge_columns
 
    !> Hint on the known columns.

@@ -10,9 +10,8 @@
 module ek_mirror
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted
-   use ek_complaint, only: place_t, complaints_t, has_side, left_side, right_side, side_prefix
-   use ek_record, only: record_t, entry_t, value_t, add_record, add_value, element, entry_index, place_of, line_words, role_of, &
-      sign_of_image, turns
+   use ek_record, only: deck_errors_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
+      add_value, element, entry_index, place_of, line_text, role_of, sign_of_image, turns
    use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, &
       number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
@@ -35,19 +34,19 @@ module ek_mirror
 contains
 
    !> The records of both sides, each left one followed by its right one.
-   subroutine mirror_records(records, used, whole, whole_used, complaints)
+   subroutine mirror_records(records, used, whole, whole_used, deck_errors)
       type(record_t), intent(in) :: records(:)
       integer, intent(in) :: used
       type(record_t), allocatable, intent(out) :: whole(:)     !! the first `whole_used` are filled
       integer, intent(out) :: whole_used
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       type(half_t) :: half
       type(record_t) :: copy
       integer :: k, side
 
       allocate (whole(2*max(used, 1)))
       whole_used = 0
-      call survey(records(:used), half, complaints)
+      call survey(records(:used), half, deck_errors)
       do k = 1, used
          if (half%is_doubled(k)) then
             do side = left_side, right_side
@@ -59,17 +58,17 @@ contains
             end do
          else if (.not. (half%is_right(k) .and. any(half%is_doubled .and. half%groups == wheel_group))) then
             copy = records(k)
-            call keep_single(half, half%is_right(k), copy, complaints)
+            call keep_single(half, half%is_right(k), copy, deck_errors)
             call add_record(whole, whole_used, copy)
          end if
       end do
    end subroutine mirror_records
 
    !> Determines which records are duplicated, and reports mistakes of the half deck.
-   subroutine survey(records, half, complaints)
+   subroutine survey(records, half, deck_errors)
       type(record_t), intent(in) :: records(:)
       type(half_t), intent(out) :: half
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       integer :: mirror, pass, k, e
 
       allocate (half%groups(size(records)), half%names(size(records)))
@@ -86,25 +85,25 @@ contains
          end if
          select case (records(k)%group)
          case ('mirror')
-            if (mirror > 0) call complain(complaints, records(k), '', 'a second &mirror; the first is in '// &
-               line_words(records(mirror), records(k)))
+            if (mirror > 0) call complain(deck_errors, records(k), '', 'a second &mirror; the first is in '// &
+               line_text(records(mirror), records(k)))
             if (mirror == 0) mirror = k
          case ('model')
             if (lower(element(records(k), 'length', 1)) == 'm') half%length = 1.0_wp
             if (lower(element(records(k), 'axes', 1)) == 'iso') half%outboard = 1.0_wp
          case ('wheel')
             half%is_right(k) = lower(element(records(k), 'side', 1)) == 'right'
-            if (half%is_right(k)) call complain(complaints, records(k), 'side', &
+            if (half%is_right(k)) call complain(deck_errors, records(k), 'side', &
                "a deck with &mirror must describe the left half, found side = 'right'")
          end select
       end do
       if (mirror == 0) return
-      call find_shared(records(mirror), half, complaints)
+      call find_shared(records(mirror), half, deck_errors)
 
       do k = 1, size(records)
          if (is_of_one(half, k)) cycle
          if (half%groups(k) == body_group) half%is_doubled(k) = .not. any(half%names(k) == [character(7) :: 'chassis', 'ground'])
-         if (half%groups(k) == point_group) call judge_point(records(k), half, half%is_doubled(k), complaints)
+         if (half%groups(k) == point_group) call judge_point(records(k), half, half%is_doubled(k), deck_errors)
       end do
       do pass = 1, 2      ! measures first: other elements refer to them
          do k = 1, size(records)
@@ -114,16 +113,16 @@ contains
       end do
       do k = 1, size(records)
          if (.not. half%is_doubled(k) .or. len_trim(half%names(k)) <= word_length - len(side_prefix)) cycle
-         call complain(complaints, records(k), 'name', 'a name that &mirror duplicates must have at most '// &
+         call complain(deck_errors, records(k), 'name', 'a name that &mirror duplicates must have at most '// &
             str(word_length - len(side_prefix))//' characters, found '//str(len_trim(half%names(k))))
       end do
    end subroutine survey
 
    !> The names in `shared`; each must exist. 'none' alone, if no record has that name, stands for an empty list.
-   subroutine find_shared(mirror, half, complaints)
+   subroutine find_shared(mirror, half, deck_errors)
       type(record_t), intent(in) :: mirror
       type(half_t), intent(inout) :: half
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       logical :: is_candidate(size(half%names)), is_it(size(half%names))
       integer :: e, v, k
 
@@ -136,7 +135,7 @@ contains
                is_it = half%names == lower(value%text)
                half%is_shared = half%is_shared .or. (is_it .and. is_candidate)
                if (any(is_it) .or. (mirror%entries(e)%used == 1 .and. lower(value%text) == 'none')) cycle
-               call complain(complaints, mirror, 'shared', 'shared: there is no body, point or element '// &
+               call complain(deck_errors, mirror, 'shared', 'shared: there is no body, point or element '// &
                   quoted(value%text)//did_you_mean(value%text, pack(half%names, is_candidate)))
             end associate
          end do
@@ -151,11 +150,11 @@ contains
    end function is_of_one
 
    !> Duplicates a point unless it lies in the plane; it must lie on the left.
-   subroutine judge_point(point, half, is_doubled, complaints)
+   subroutine judge_point(point, half, is_doubled, deck_errors)
       type(record_t), intent(in) :: point
       type(half_t), intent(in) :: half
       logical, intent(out) :: is_doubled
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       real(wp) :: y
       integer :: e
 
@@ -169,7 +168,7 @@ contains
       is_doubled = abs(y)*half%length >= in_plane
       ! for a deck of the right half, only the wheel is reported
       if (.not. is_doubled .or. any(half%is_right)) return
-      if (y*half%outboard < 0.0_wp) call complain(complaints, point, 'at', &
+      if (y*half%outboard < 0.0_wp) call complain(deck_errors, point, 'at', &
          'a deck with &mirror must describe the left half, found y = '//str(y)//' on the right (y points '// &
          trim(merge('left ', 'right', half%outboard > 0.0_wp))//'); list a point that exists only once in shared')
    end subroutine judge_point
@@ -244,11 +243,11 @@ contains
    end function name_on_side
 
    !> A record that exists once: duplicated loads of a case act on both sides; any other reference must be unique.
-   subroutine keep_single(half, is_refused, record, complaints)
+   subroutine keep_single(half, is_refused, record, deck_errors)
       type(half_t), intent(in) :: half
       logical, intent(in) :: is_refused        !! a wheel of the right side, already reported
       type(record_t), intent(inout) :: record
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t) :: original
       character(:), allocatable :: left, right
       integer :: e, v, role
@@ -270,7 +269,7 @@ contains
                left = name_on_side(role, value%text, left_side)
                right = name_on_side(role, value%text, right_side)
                if (left == value%text) cycle
-               if (.not. is_refused) call complain(complaints, record, record%entries(e)%key, record%entries(e)%key// &
+               if (.not. is_refused) call complain(deck_errors, record, record%entries(e)%key, record%entries(e)%key// &
                   ': &mirror duplicates the '//trim(group_names(role))//' '//quoted(value%text)//'; use '//quoted(left)// &
                   ' or '//quoted(right))
                value%text = left
@@ -358,29 +357,21 @@ contains
    !> Exchanges the two points of an axis.
    subroutine exchange_ends(entry)
       type(entry_t), intent(inout) :: entry
-      type(value_t) :: kept
 
       if (entry%used == 2 .and. entry%first == 1) then
-         kept = entry%values(1)
-         entry%values(1) = entry%values(2)
-         entry%values(2) = kept
+         entry%values(:2) = entry%values([2, 1])
       else if (entry%used == 1 .and. entry%first <= 2) then
          entry%first = 3 - entry%first
       end if
    end subroutine exchange_ends
 
    !> Reports a mistake at a key of a record, or at the record if the key is ''.
-   subroutine complain(complaints, record, key, what)
-      type(complaints_t), intent(inout) :: complaints
+   subroutine complain(deck_errors, record, key, what)
+      type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key, what
-      type(place_t) :: place
-      integer :: entry
-
-      entry = 0
-      if (key /= '') entry = entry_index(record, key, 0)
-      call place_of(record, entry, place)
-      call complaints%add(place, record_head(group_number(record%group), element(record, 'name', 1))//what)
+      call deck_errors%add(place_of(record, entry_index(record, key, 0)), &
+         record_head(group_number(record%group), element(record, 'name', 1))//what)
    end subroutine complain
 
 end module ek_mirror

@@ -1,18 +1,19 @@
-!> Checks one record against the table of groups: keys, types, counts, subscripts, ranges.
+!> Checks one record against the table of groups: keys, types, counts, subscripts, ranges; and its name: an illegal character, or
+!> the column of a quantity that an element, a measure or a joint of this name would have as well. input/README.md lists the names.
 !>
-!> The values are read by ek_draft from the entries that pass. The compiler's namelist read is not used: it silently accepts
+!> The values are read by ek_deck_reading from the entries that pass. The compiler's namelist read is not used: it silently accepts
 !> too few values, a key given twice, `nan` and `1e999`.
 module ek_namelist
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted, plural
-   use ek_letters, only: bad_byte
-   use ek_complaint, only: place_t, complaints_t
-   use ek_record, only: record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_words, word, prose, number, whole, switch, &
+   use ek_letters, only: bad_byte, visible
+   use ek_quantity, only: column_of_stem
+   use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, word, prose, number, whole, switch, &
       word_length, note_length
    implicit none(type, external)
    private
-   public :: check_record, value_fault
+   public :: check_record, value_fault, name_fault, is_legal_name
 
    integer, parameter :: largest_exponent = 30      !! numbers above 1e30 are mistakes and could overflow later
    integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
@@ -23,11 +24,11 @@ module ek_namelist
 contains
 
    !> Checks one record and marks the entries that are rejected.
-   subroutine check_record(record, group, head, complaints, is_good)
+   subroutine check_record(record, group, head, deck_errors, is_good)
       type(record_t), intent(inout) :: record
       integer, intent(in) :: group
       character(*), intent(in) :: head                        !! "bushing 'top_mount': " for messages
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       logical, intent(out) :: is_good
       type(key_t) :: key
       logical :: is_known
@@ -99,10 +100,8 @@ contains
       subroutine complain(entry, what)
          integer, intent(in) :: entry
          character(*), intent(in) :: what
-         type(place_t) :: place
 
-         call place_of(record, entry, place)
-         call complaints%add(place, head//what)
+         call deck_errors%add(place_of(record, entry), head//what)
          is_good = .false.
       end subroutine complain
 
@@ -120,7 +119,7 @@ contains
       read (entry%values(k)%text, *) value
       if (is_inside(key%range, value)) return
       if (key%least == key%most) words = element_text(key, entry%first + k - 1)
-      words = trim(key%name)//words//' '//range_words(key, str(value))
+      words = trim(key%name)//words//' '//range_text(key, str(value))
    end function out_of_range
 
    !> 'needs 3 values'
@@ -277,5 +276,63 @@ contains
       if (lead < dot) power = power - 1
       if (lead == 0) power = 0
    end function size_exponent
+
+   !> Whether a name begins with a letter and contains only letters, digits and _. Names appear in messages, paths and
+   !> column headings.
+   pure logical function is_legal_name(name)
+      character(*), intent(in) :: name
+      character(*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
+      is_legal_name = verify(lower(name), letters//'0123456789_') == 0 .and. scan(lower(name), letters) == 1
+   end function is_legal_name
+
+   !> The message for an illegal name. A leading or trailing blank is made visible.
+   pure function illegal_name(name) result(words)
+      character(*), intent(in) :: name     !! as written in the deck
+      character(:), allocatable :: words
+
+      words = 'a name must begin with a letter and contain only letters, digits and _'
+      if (len(name) == 0) return
+      if (name(len(name):) == ' ') then
+         words = words//", found '"//visible(trim(name))//"<U+0020>'; remove the trailing blank"
+      else if (name(:1) == ' ') then
+         words = words//", found '<U+0020>"//visible(trim(adjustl(name)))//"'; remove the leading blank"
+      end if
+   end function illegal_name
+
+   !> The message for an illegal or reserved name; '' if the name is allowed.
+   pure function name_fault(name, has_results) result(words)
+      character(*), intent(in) :: name
+      logical, intent(in) :: has_results       !! elements of its kind have columns in the results
+      character(*), parameter :: rate = '_per'
+      character(:), allocatable :: words, head, column
+      integer :: mark
+
+      words = ''
+      if (.not. is_legal_name(name)) words = illegal_name(name)
+      if (words /= '') return
+      select case (lower(name))
+      case ('chassis', 'ground')
+         words = 'the name is reserved for the fixed body'
+         return
+      case ('wheel_travel')
+         words = "the name is reserved: drive = 'wheel_travel' prescribes the height of a wheel (column wheel_travel_mm)"
+         return
+      end select
+      if (index(lower(name), 'rig_') == 1) then
+         words = 'the name is reserved: names of the test rig begin with rig_, as in the column rig_left_height_reaction_n'
+         return
+      end if
+      if (.not. has_results) return
+      mark = index(lower(name), rate, back=.true.)
+      if (mark > 1 .and. mark == len(name) - len(rate) + 1) then
+         words = 'the name is reserved: names of rates end in _per, as in the column wheel_rate_n_per_mm'
+         return
+      end if
+      head = ''
+      if (index(lower(name), 'left_') == 1) head = 'left_'
+      if (index(lower(name), 'right_') == 1) head = 'right_'
+      column = column_of_stem(lower(name(len(head) + 1:)))
+      if (column /= '') words = 'the name is reserved: the results have a column '//head//column
+   end function name_fault
 
 end module ek_namelist

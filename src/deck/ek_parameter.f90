@@ -6,8 +6,7 @@ module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_text, only: str, lower, quoted, is_like
-   use ek_complaint, only: right_side
-   use ek_record, only: record_t, element, own_name, sign_of_image
+   use ek_record, only: record_t, right_side, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, point_group, &
       key_t, find_key, is_inside, did_you_mean
    implicit none(type, external)

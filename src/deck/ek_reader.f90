@@ -3,26 +3,22 @@
 !> Here numbers are converted from the deck's units: x is in SI, in the axes of the deck. All mistakes of the deck are
 !> collected; the blueprint is complete only if there are none.
 module ek_reader
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, units_t, millimetre, degree
    use ek_text, only: lower
    use ek_error, only: error_t, fail, exit_deck
-   use ek_units, only: new_units
-   use ek_complaint, only: place_t, single
-   use ek_record, only: record_t, element, place_of, own_name
+   use ek_record, only: single, record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_groups, case_group, &
+      measure_group, joint_group, bushing_group, spring_groups, spring_group, damper_group, stop_group, torsion_group, case_group, &
       curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
       word_length, record_head, did_you_mean, has_results
-   use ek_namelist, only: check_record
+   use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
-   use ek_draft, only: draft_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
+   use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
       number_of, is_second, slot
    use ek_parameter, only: parameters_t
-   use ek_reserved_name, only: reserved_because, is_legal_name, illegal_name
-   use ek_reader_bodies, only: read_point, read_body, read_mass, read_load
+   use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
-   use ek_reader_elements, only: read_curve, read_elastic, read_bushing
-   use ek_reader_axle, only: read_wheel, read_axle, read_steering
+   use ek_reader_elements, only: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t, point_t
@@ -74,26 +70,26 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! the blueprint is complete: all mistakes are in cases
       type(deck_t) :: finished
-      type(draft_t) :: draft
+      type(deck_reading_t) :: reading
       logical :: is_complete
 
       call finish_deck(deck, finished)
-      draft%complaints = finished%complaints
-      draft%records = finished%records(:finished%used)
-      draft%file = deck%file
+      reading%deck_errors = finished%deck_errors
+      reading%records = finished%records(:finished%used)
+      reading%file = deck%file
       allocate (design%cases(0))
-      call read_records(draft, design%cases, is_complete, error)
-      if (is_complete) call complete_prototype(draft)
-      call read_tables(design%cases, draft%plan%prototype, is_complete)
-      design%plan = draft%plan
-      design%parameters = draft%parameters
-      call move_alloc(draft%records, design%records)
+      call read_records(reading, design%cases, is_complete, error)
+      if (is_complete) call complete_prototype(reading)
+      call read_tables(design%cases, reading%plan%prototype, is_complete)
+      design%plan = reading%plan
+      design%parameters = reading%parameters
+      call move_alloc(reading%records, design%records)
       if (present(is_whole)) is_whole = is_complete
    end subroutine read_design
 
    !> All records, group by group.
-   subroutine read_records(draft, cases, is_whole, error)
-      type(draft_t), intent(inout) :: draft
+   subroutine read_records(reading, cases, is_whole, error)
+      type(deck_reading_t), intent(inout) :: reading
       type(case_t), allocatable, intent(inout) :: cases(:)
       logical, intent(out) :: is_whole
       type(error_t), allocatable, intent(out) :: error
@@ -101,105 +97,111 @@ contains
       integer :: j, k, before, in_cases
 
       is_whole = .false.
-      if (size(draft%records) == 0 .and. draft%complaints%count() == 1) then     ! not a text file: only this is reported
-         call fail(error, exit_deck, draft%complaints%text())
+      if (size(reading%records) == 0 .and. reading%deck_errors%count() == 1) then     ! not a text file: only this is reported
+         call fail(error, exit_deck, reading%deck_errors%text())
          return
       end if
-      allocate (draft%cards(size(draft%records)), draft%parameters%list(64), draft%parameters%x(64))
-      allocate (draft%vectors(3, 0:4*size(draft%records) + 1), source=0.0_wp)     ! a record makes two at most
-      draft%vectors(:, 1) = [0.0_wp, 0.0_wp, 1.0_wp]
-      call new_blueprint(draft%plan)
-      if (is_study(draft%records)) then
-         draft%k = 1
-         call fail(error, exit_deck, where_of(draft)//': this is a study (&'//draft%records(1)%group// &
-            '), not a deck; run it with: elastokin study '//draft%file)
+      allocate (reading%cards(size(reading%records)), reading%parameters%list(64), reading%parameters%x(64))
+      allocate (reading%vectors(3, 0:4*size(reading%records) + 1), source=0.0_wp)     ! a record makes two at most
+      reading%vectors(:, 1) = [0.0_wp, 0.0_wp, 1.0_wp]
+      call new_blueprint(reading%plan)
+      if (is_study(reading%records)) then
+         reading%k = 1
+         call fail(error, exit_deck, where_of(reading)//': this is a study (&'//reading%records(1)%group// &
+            '), not a deck; run it with: elastokin study '//reading%file)
          return
       end if
       in_cases = 0
-      do k = 1, size(draft%records)
-         draft%k = k
-         before = draft%complaints%count()
-         call check_names(draft)
-         if (draft%cards(k)%group == case_group) in_cases = in_cases + draft%complaints%count() - before
+      do k = 1, size(reading%records)
+         reading%k = k
+         before = reading%deck_errors%count()
+         call check_names(reading)
+         if (reading%cards(k)%group == case_group) in_cases = in_cases + reading%deck_errors%count() - before
       end do
-      if (.not. any(draft%cards%group == model_group) .and. all(draft%cards%group > 0)) &
-         call complain_of_all(draft, 'there is no &model (it gives name, units and axes)')
+      if (.not. any(reading%cards%group == model_group) .and. all(reading%cards%group > 0)) &
+         call complain_of_all(reading, 'there is no &model (it gives name, units and axes)')
       do j = 1, size(reading_order)
-         do k = 1, size(draft%records)
-            if (draft%cards(k)%group /= reading_order(j)) cycle
-            draft%k = k
-            call read_record(draft)
+         do k = 1, size(reading%records)
+            if (reading%cards(k)%group /= reading_order(j)) cycle
+            reading%k = k
+            call read_record(reading)
          end do
       end do
-      if (.not. any(draft%cards%group == body_group) .and. all(draft%cards%group > 0)) &
-         call complain_of_all(draft, 'there is no &body, so nothing can move')
-      do k = 1, size(draft%records)      ! a body is attached to nothing, unless the element attached to it was rejected
-         if (draft%cards(k)%group == body_group .and. .not. draft%cards(k)%is_used .and. draft%cards(k)%name /= '' .and. &
-            all(draft%cards%group > 0)) call complain(draft, '', 'no joint, bushing or spring is attached to it', at=k)
+      if (.not. any(reading%cards%group == body_group) .and. all(reading%cards%group > 0)) &
+         call complain_of_all(reading, 'there is no &body, so nothing can move')
+      do k = 1, size(reading%records)      ! a body is attached to nothing, unless the element attached to it was rejected
+         if (reading%cards(k)%group == body_group .and. .not. reading%cards(k)%is_used .and. reading%cards(k)%name /= '' .and. &
+            all(reading%cards%group > 0)) call complain(reading, '', 'no joint, bushing or spring is attached to it', at=k)
       end do
-      is_whole = draft%complaints%count() == in_cases
-      do k = 1, size(draft%records)
-         if (draft%cards(k)%group /= case_group) cycle
-         draft%k = k
-         call read_case(draft, case)
+      is_whole = reading%deck_errors%count() == in_cases
+      do k = 1, size(reading%records)
+         if (reading%cards(k)%group /= case_group) cycle
+         reading%k = k
+         call read_case(reading, case)
          cases = [cases, case]
       end do
-      call refuse_one_file_for_two(draft, cases)
-      if (draft%complaints%count() > 0) call fail(error, exit_deck, draft%complaints%text())
+      call refuse_one_file_for_two(reading, cases)
+      if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_records
 
    !> The record being read.
-   subroutine read_record(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine read_record(reading)
+      type(deck_reading_t), intent(inout) :: reading
 
-      select case (draft%cards(draft%k)%group)
+      select case (reading%cards(reading%k)%group)
       case (model_group)
-         call read_model(draft)
+         call read_model(reading)
       case (point_group)
-         call read_point(draft)
+         call read_point(reading)
       case (curve_group)
-         call read_curve(draft)
+         call read_curve(reading)
       case (body_group)
-         call read_body(draft)
+         call read_body(reading)
       case (mass_group)
-         call read_mass(draft)
+         call read_mass(reading)
       case (measure_group)
-         call read_measure(draft)
+         call read_measure(reading)
       case (joint_group)
-         call read_joint(draft)
+         call read_joint(reading)
       case (bushing_group)
-         call read_bushing(draft)
+         call read_bushing(reading)
+      case (spring_group)
+         call read_spring(reading)
+      case (damper_group)
+         call read_damper(reading)
+      case (stop_group)
+         call read_stop(reading)
+      case (torsion_group)
+         call read_torsion(reading)
       case (wheel_group)
-         call read_wheel(draft)
+         call read_wheel(reading)
       case (axle_group)
-         call read_axle(draft)
+         call read_axle(reading)
       case (steering_group)
-         call read_steering(draft)
+         call read_steering(reading)
       case (load_group)
-         call read_load(draft)
-      case default
-         call read_elastic(draft)
+         call read_load(reading)
       end select
    end subroutine read_record
 
    !> The lists of the prototype that follow from the whole deck: points and weights.
-   subroutine complete_prototype(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine complete_prototype(reading)
+      type(deck_reading_t), intent(inout) :: reading
       type(point_t) :: point
       integer :: k
 
-      do k = 1, size(draft%records)
-         draft%k = k
-         associate (card => draft%cards(k))
+      do k = 1, size(reading%records)
+         reading%k = k
+         associate (card => reading%cards(k))
             if (card%group /= point_group) cycle
             point%name = trim(card%name)
-            point%where = where_of(draft)
+            point%where = where_of(reading)
             point%is_used = card%is_used
-            draft%plan%prototype%points = [draft%plan%prototype%points, point]
-            draft%plan%points = [draft%plan%points, card%index]
+            reading%plan%prototype%points = [reading%plan%prototype%points, point]
+            reading%plan%points = [reading%plan%points, card%index]
          end associate
       end do
-      call add_gravity(draft%plan%prototype)
+      call add_gravity(reading%plan%prototype)
    end subroutine complete_prototype
 
    !> Whether a file contains groups of a study and none of a deck.
@@ -212,52 +214,46 @@ contains
    end function is_study
 
    !> Checks group, keys, counts and types of the record, and that its name is legal and unique.
-   subroutine check_names(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine check_names(reading)
+      type(deck_reading_t), intent(inout) :: reading
       character(:), allocatable :: name
-      type(place_t) :: place
       integer :: group
 
-      associate (card => draft%cards(draft%k), record => draft%records(draft%k))
+      associate (card => reading%cards(reading%k), record => reading%records(reading%k))
          group = group_number(record%group)
          if (.not. is_deck_group(group)) group = 0     ! a group of a study
          card%group = group
          name = element(record, 'name', 1)
          if (len(name) <= word_length) card%name = name
          if (group == 0) then
-            call place_of(record, 0, place)
-            if (record%group /= '') call draft%complaints%add(place, 'there is no group &'//record%group// &
+            if (record%group /= '') call reading%deck_errors%add(place_of(record, 0), 'there is no group &'//record%group// &
                did_you_mean(record%group, names_of_groups(of_deck=.true.)))
             return
          end if
-         call check_record(record, group, record_head(group, trim(card%name)), draft%complaints, card%is_good)
+         call check_record(record, group, record_head(group, trim(card%name)), reading%deck_errors, card%is_good)
          if (card%name == '') return
          name = own_name(record)
          if (name == '') name = trim(card%name)
       end associate
-      if (.not. is_legal_name(name)) then
-         call complain(draft, 'name', illegal_name(name))
-      else
-         name = reserved_because(name, has_results(group))
-         if (name /= '') call complain(draft, 'name', name)
-      end if
-      if (group /= model_group) call check_new(draft)
+      name = name_fault(name, has_results(group))
+      if (name /= '') call complain(reading, 'name', name)
+      if (group /= model_group) call check_new(reading)
    end subroutine check_names
 
    !> Checks that no earlier record has the same name.
-   subroutine check_new(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine check_new(reading)
+      type(deck_reading_t), intent(inout) :: reading
       integer :: j, k
 
-      k = draft%k
+      k = reading%k
       do j = 1, k - 1
-         if (lower(draft%cards(j)%name) /= lower(draft%cards(k)%name)) cycle
-         if (draft%cards(j)%group == draft%cards(k)%group) then
-            call complain(draft, 'name', 'the name is given twice, first in '//line_of(draft, j)//doubling(j))
+         if (lower(reading%cards(j)%name) /= lower(reading%cards(k)%name)) cycle
+         if (reading%cards(j)%group == reading%cards(k)%group) then
+            call complain(reading, 'name', 'the name is given twice, first in '//line_of(reading, j)//doubling(j))
             exit
-         else if (has_results(draft%cards(k)%group) .and. has_results(draft%cards(j)%group)) then
-            call complain(draft, 'name', 'the name is already used by the '// &
-               trim(group_names(draft%cards(j)%group))//' in '//line_of(draft, j)//doubling(j)// &
+         else if (has_results(reading%cards(k)%group) .and. has_results(reading%cards(j)%group)) then
+            call complain(reading, 'name', 'the name is already used by the '// &
+               trim(group_names(reading%cards(j)%group))//' in '//line_of(reading, j)//doubling(j)// &
                ' (names of joints, measures and elastic elements make column names)')
             exit
          end if
@@ -271,43 +267,42 @@ contains
          character(:), allocatable :: words
 
          words = ''
-         if ((draft%records(j)%side == single) .eqv. (draft%records(k)%side == single)) return
-         words = ' (&mirror creates '//trim(draft%cards(k)%name)//' from '// &
-            own_name(draft%records(merge(j, k, draft%records(k)%side == single)))//')'
+         if ((reading%records(j)%side == single) .eqv. (reading%records(k)%side == single)) return
+         words = ' (&mirror creates '//trim(reading%cards(k)%name)//' from '// &
+            own_name(reading%records(merge(j, k, reading%records(k)%side == single)))//')'
       end function doubling
 
    end subroutine check_new
 
    !> &model: names, units, axes.
-   subroutine read_model(draft)
-      type(draft_t), intent(inout) :: draft
-      character(*), parameter :: lengths(2) = [character(2) :: 'mm', 'm'], forces(2) = [character(2) :: 'N', 'kN'], &
-         angles(2) = ['deg', 'rad'], frames(2) = [character(6) :: 'x-rear', 'iso'], &
-         balances(3) = [character(6) :: 'none', 'spring', 'all']
+   subroutine read_model(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      character(*), parameter :: balances(3) = [character(6) :: 'none', 'spring', 'all']
       integer :: length, force, angle, frame, balance, gravity
 
-      if (is_second(draft)) return
-      call choice(draft, 'length', lengths, length, default=1)
-      call choice(draft, 'force', forces, force, default=1)
-      call choice(draft, 'angle', angles, angle, default=1)
-      call choice(draft, 'axes', frames, frame, default=1)
-      call choice(draft, 'balance', balances, balance, default=1)
-      draft%units = new_units(trim(lengths(max(length, 1))), trim(forces(max(force, 1))), angles(max(angle, 1)))
-      draft%plan%length_unit = draft%units%length
-      draft%plan%force_unit = draft%units%force
-      draft%plan%angle_unit = draft%units%angle
-      draft%plan%is_iso = frame == 2
-      call slot(draft, 'gravity', 1.0_wp, gravity)
-      draft%plan%gravity = gravity
-      associate (model => draft%plan%prototype)
-         model%gravity = number_of(draft, 'gravity', 0.0_wp)
-         model%name = text_of(draft, 'name')
-         model%title = text_of(draft, 'title')
+      if (is_second(reading)) return
+      call choice(reading, 'length', [character(2) :: 'mm', 'm'], length, default=1)
+      call choice(reading, 'force', [character(2) :: 'N', 'kN'], force, default=1)
+      call choice(reading, 'angle', ['deg', 'rad'], angle, default=1)
+      call choice(reading, 'axes', [character(6) :: 'x-rear', 'iso'], frame, default=1)
+      call choice(reading, 'balance', balances, balance, default=1)
+      reading%units = units_t(merge(1.0_wp, millimetre, length == 2), merge(1000.0_wp, 1.0_wp, force == 2), &
+         merge(1.0_wp, degree, angle == 2))
+      reading%plan%length_unit = reading%units%length
+      reading%plan%force_unit = reading%units%force
+      reading%plan%angle_unit = reading%units%angle
+      reading%plan%is_iso = frame == 2
+      call slot(reading, 'gravity', 1.0_wp, gravity)
+      reading%plan%gravity = gravity
+      associate (model => reading%plan%prototype)
+         model%gravity = number_of(reading, 'gravity', 0.0_wp)
+         model%name = text_of(reading, 'name')
+         model%title = text_of(reading, 'title')
          model%balance = trim(balances(max(balance, 1)))
          model%is_iso = frame == 2
-         model%units = draft%units
-         model%is_plausible_wanted = switch_of(draft, 'plausible', .true.)
-         model%where = where_of(draft)
+         model%units = reading%units
+         model%is_plausible_wanted = switch_of(reading, 'plausible', .true.)
+         model%where = where_of(reading)
       end associate
    end subroutine read_model
 

@@ -1,104 +1,240 @@
-!> &point, &body, &mass and &load.
+!> &point, &body, &mass and &load; &wheel: the wheels whose attitude is reported; &axle and &steering: data of the vehicle around
+!> the suspension, at most one of each.
 module ek_reader_bodies
    use ek_kinds, only: wp
-   use ek_complaint, only: single, left_side, right_side
-   use ek_suspension, only: body_t, load_t
-   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, hardpoint, off_left, off_right, in_plane
+   use ek_text, only: str, quoted
+   use ek_record, only: single, left_side, right_side, element
+   use ek_measure, only: is_of_angle
+   use ek_suspension, only: body_t, load_t, wheel_t
+   use ek_blueprint, only: vector_t, body_plan_t, mass_plan_t, load_plan_t, wheel_plan_t, hardpoint, given, off_left, off_right, &
+      in_plane
    use ek_design_vector, only: plane
-   use ek_draft, only: draft_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, slot
-   use ek_reference, only: find_point, find_moving_body, new_vector
+   use ek_group, only: joint_group, measure_group
+   use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, switch_of, number_of, numbers_of, &
+      is_second, slot
+   use ek_reference, only: look_up, find_card, find_point, find_points, find_moving_body, check_apart, is_driver, new_vector
    implicit none(type, external)
    private
-   public :: read_point, read_body, read_mass, read_load
+   public :: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
 
 contains
 
    !> &point: a design position.
-   subroutine read_point(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine read_point(reading)
+      type(deck_reading_t), intent(inout) :: reading
       type(vector_t) :: vector
-      real(wp) :: at(3)
       integer :: number
 
       vector%kind = hardpoint
-      call slot(draft, 'at', draft%units%length, vector%first, default=0.0_wp, count=3)
-      call new_vector(draft, vector, number)
-      draft%cards(draft%k)%index = number
-      at = draft%vectors(:, number)
-      associate (stays => draft%plan%vectors(number)%stays)
-         select case (draft%records(draft%k)%side)
-         case (left_side)
-            stays = off_left
-         case (right_side)
-            stays = off_right
-         case default
-            if (abs(at(2)) < plane .and. any(draft%records%side /= single)) stays = in_plane
-         end select
+      call slot(reading, 'at', reading%units%length, vector%first, default=0.0_wp, count=3)
+      call new_vector(reading, vector, number)
+      reading%cards(reading%k)%index = number
+      associate (stays => reading%plan%vectors(number)%stays, side => reading%records(reading%k)%side)
+         if (side == left_side) stays = off_left
+         if (side == right_side) stays = off_right
+         if (side == single .and. abs(reading%vectors(2, number)) < plane .and. any(reading%records%side /= single)) &
+            stays = in_plane
       end associate
    end subroutine read_point
 
    !> &body.
-   subroutine read_body(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine read_body(reading)
+      type(deck_reading_t), intent(inout) :: reading
       type(body_plan_t) :: plan
       type(body_t) :: body
       logical :: is_found, has_centre
 
-      call find_point(draft, 'origin', text_of(draft, 'origin'), plan%origin, is_found)
-      call find_point(draft, 'centre', text_of(draft, 'centre'), plan%centre, has_centre)
-      if (has_key(draft, 'mass') .neqv. has_key(draft, 'centre')) call complain(draft, &
-         trim(merge('mass  ', 'centre', has_key(draft, 'mass'))), 'give mass and centre (of gravity) together')
-      call slot(draft, 'mass', 1.0_wp, plan%mass)
-      body%name = text_of(draft, 'name')
-      body%where = where_of(draft)
+      call find_point(reading, 'origin', text_of(reading, 'origin'), plan%origin, is_found)
+      call find_point(reading, 'centre', text_of(reading, 'centre'), plan%centre, has_centre)
+      if (has_key(reading, 'mass') .neqv. has_key(reading, 'centre')) call complain(reading, &
+         trim(merge('mass  ', 'centre', has_key(reading, 'mass'))), 'give mass and centre (of gravity) together')
+      call slot(reading, 'mass', 1.0_wp, plan%mass)
+      body%name = text_of(reading, 'name')
+      body%where = where_of(reading)
       body%has_origin = plan%origin > 0
-      body%mass = number_of(draft, 'mass', 0.0_wp)
-      draft%plan%prototype%bodies = [draft%plan%prototype%bodies, body]
-      draft%plan%bodies = [draft%plan%bodies, plan]
-      draft%cards(draft%k)%index = size(draft%plan%bodies)
+      body%mass = number_of(reading, 'mass', 0.0_wp)
+      reading%plan%prototype%bodies = [reading%plan%prototype%bodies, body]
+      reading%plan%bodies = [reading%plan%bodies, plan]
+      reading%cards(reading%k)%index = size(reading%plan%bodies)
    end subroutine read_body
 
    !> &mass: a further mass of a body, in addition to that of &body.
-   subroutine read_mass(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine read_mass(reading)
+      type(deck_reading_t), intent(inout) :: reading
       type(mass_plan_t) :: plan
       logical :: has_body, has_place
 
-      call find_moving_body(draft, plan%body, has_body)
-      call find_point(draft, 'at', text_of(draft, 'at'), plan%at, has_place)
-      if (.not. draft%cards(draft%k)%is_good .or. .not. has_body .or. .not. has_place) return
-      call slot(draft, 'kg', 1.0_wp, plan%kg)
-      associate (body => draft%plan%prototype%bodies(plan%body))      ! whether it has a weight
-         body%mass = body%mass + number_of(draft, 'kg', 1.0_wp)
+      call find_moving_body(reading, plan%body, has_body)
+      call find_point(reading, 'at', text_of(reading, 'at'), plan%at, has_place)
+      if (.not. reading%cards(reading%k)%is_good .or. .not. has_body .or. .not. has_place) return
+      call slot(reading, 'kg', 1.0_wp, plan%kg)
+      associate (body => reading%plan%prototype%bodies(plan%body))      ! whether it has a weight
+         body%mass = body%mass + number_of(reading, 'kg', 1.0_wp)
       end associate
-      draft%plan%masses = [draft%plan%masses, plan]
+      reading%plan%masses = [reading%plan%masses, plan]
    end subroutine read_mass
 
    !> &load: force and moment in global axes.
-   subroutine read_load(draft)
-      type(draft_t), intent(inout) :: draft
+   subroutine read_load(reading)
+      type(deck_reading_t), intent(inout) :: reading
       type(load_plan_t) :: plan
       type(load_t) :: element
       logical :: has_body, is_found
       integer :: c
 
-      call find_moving_body(draft, element%body, has_body)
-      call find_point(draft, 'at', text_of(draft, 'at'), plan%at, is_found)
-      call choice(draft, 'factor', [character(8) :: 'constant', 'case'], c, default=1)
-      if (.not. (has_key(draft, 'force') .or. has_key(draft, 'moment'))) &
-         call complain(draft, '', "give 'force' or 'moment'")
+      call find_moving_body(reading, element%body, has_body)
+      call find_point(reading, 'at', text_of(reading, 'at'), plan%at, is_found)
+      call choice(reading, 'factor', [character(8) :: 'constant', 'case'], c, default=1)
+      if (.not. (has_key(reading, 'force') .or. has_key(reading, 'moment'))) &
+         call complain(reading, '', "give 'force' or 'moment'")
       element%is_case = c /= 1
       ! stored for a rejected load too: a case may check whether it is scaled
-      draft%cards(draft%k)%is_used = element%is_case
-      if (.not. draft%cards(draft%k)%is_good) return
+      reading%cards(reading%k)%is_used = element%is_case
+      if (.not. reading%cards(reading%k)%is_good) return
 
-      call slot(draft, 'force', draft%units%force, plan%force, default=0.0_wp, count=3)
-      call slot(draft, 'moment', draft%units%force*draft%units%length, plan%moment, default=0.0_wp, count=3)
-      element%name = text_of(draft, 'name')
-      element%where = where_of(draft)
-      element%follows = switch_of(draft, 'follows', .false.)
-      draft%plan%prototype%loads = [draft%plan%prototype%loads, element]
-      draft%plan%loads = [draft%plan%loads, plan]
+      call slot(reading, 'force', reading%units%force, plan%force, default=0.0_wp, count=3)
+      call slot(reading, 'moment', reading%units%force*reading%units%length, plan%moment, default=0.0_wp, count=3)
+      element%name = text_of(reading, 'name')
+      element%where = where_of(reading)
+      element%follows = switch_of(reading, 'follows', .false.)
+      reading%plan%prototype%loads = [reading%plan%prototype%loads, element]
+      reading%plan%loads = [reading%plan%loads, plan]
    end subroutine read_load
+
+   !> &wheel.
+   subroutine read_wheel(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      type(wheel_plan_t) :: plan
+      type(wheel_t) :: this
+      real(wp) :: height, centre(3)
+      logical :: has_body, has_centre, has_contact, is_there
+      integer :: c
+
+      reading%cards(reading%k)%index = 1 + count(reading%cards(:reading%k - 1)%group == reading%cards(reading%k)%group)
+      call find_moving_body(reading, this%body, has_body)
+      call choice(reading, 'side', [character(5) :: 'left', 'right'], c)
+      this%side = merge(-1, 1, c == 1)
+      call find_point(reading, 'centre', text_of(reading, 'centre'), plan%centre, has_centre)
+      call find_point(reading, 'contact', text_of(reading, 'contact'), plan%contact, has_contact)
+      centre = reading%vectors(:, plan%centre)
+      ! a left wheel on the right side would reverse the signs of its results
+      if (has_centre .and. c > 0 .and. this%side*centre(2) < 0.0_wp) call complain(reading, 'side', 'side is '// &
+         quoted(text_of(reading, 'side'))//', but the centre '//quoted(text_of(reading, 'centre'))// &
+         ' lies on the other side (y points '//trim(merge('left ', 'right', reading%plan%is_iso))//')')
+      if (has_centre .and. has_contact) then
+         height = centre(3) - reading%vectors(3, plan%contact)
+         if (.not. height > 0.0_wp) call complain(reading, 'contact', &
+            'the contact point must lie below the wheel centre, found it '//str(-height/reading%units%length)//' above')
+      end if
+      call find_spin(reading, plan, this)
+      this%has_steer_axis = has_key(reading, 'steer_axis')
+      call find_points(reading, 'steer_axis', plan%steer_axis, is_there)
+      if (is_there) call check_apart(reading, 'steer_axis', plan%steer_axis, '', is_there)
+      if (.not. reading%cards(reading%k)%is_good) return
+      call slot(reading, 'radius', reading%units%length, plan%radius)
+      call slot(reading, 'tyre_rate', reading%units%force/reading%units%length, plan%tyre_rate)
+      call slot(reading, 'tyre_width', reading%units%length, plan%tyre_width)
+      call slot(reading, 'sprung_mass', 1.0_wp, plan%sprung_mass)
+      this%name = text_of(reading, 'name')
+      this%where = where_of(reading)
+      reading%plan%prototype%wheels = [reading%plan%prototype%wheels, this]
+      reading%plan%wheels = [reading%plan%wheels, plan]
+   end subroutine read_wheel
+
+   !> The spin axis, from spin_vector or from toe and camber.
+   subroutine find_spin(reading, plan, this)
+      type(deck_reading_t), intent(inout) :: reading
+      type(wheel_plan_t), intent(inout) :: plan
+      type(wheel_t), intent(in) :: this
+      type(vector_t) :: vector
+      real(wp) :: spin(3)
+
+      if (.not. has_key(reading, 'spin_vector')) then
+         call slot(reading, 'toe', reading%units%angle, plan%toe, default=0.0_wp)
+         call slot(reading, 'camber', reading%units%angle, plan%camber, default=0.0_wp)
+         return
+      end if
+      if (has_key(reading, 'toe') .or. has_key(reading, 'camber')) call complain(reading, 'spin_vector', &
+         'give either spin_vector or toe and camber, not both')
+      if (.not. reading%cards(reading%k)%is_good) return
+      if (.not. norm2(numbers_of(reading, 'spin_vector', 3)) > 0.0_wp) then
+         call complain(reading, 'spin_vector', 'spin_vector has zero length')
+         return
+      end if
+      vector%kind = given
+      call slot(reading, 'spin_vector', 1.0_wp, vector%first, count=3)
+      call new_vector(reading, vector, plan%spin)
+      spin = reading%vectors(:, plan%spin)
+      if (.not. this%side*spin(2) > 0.0_wp) call complain(reading, 'spin_vector', 'spin_vector must point outboard, to the '// &
+         text_of(reading, 'side')//' (y points '//trim(merge('left ', 'right', reading%plan%is_iso))//')')
+   end subroutine find_spin
+
+   !> &axle: front or rear, and its shares of braking and driving force.
+   subroutine read_axle(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      integer :: c, number(7)
+
+      if (is_second(reading)) return
+      if (has_key(reading, 'front_overhang') .neqv. has_key(reading, 'front_width')) call complain(reading, &
+         trim(merge('front_overhang', 'front_width   ', has_key(reading, 'front_overhang'))), &
+         'give front_overhang and front_width together (both define the wall-to-wall turning circle)')
+      call slot(reading, 'wheelbase', reading%units%length, number(1))
+      call slot(reading, 'cg_height', reading%units%length, number(2))
+      call slot(reading, 'mass', 1.0_wp, number(3))
+      call slot(reading, 'brake_share', 1.0_wp, number(4))
+      call slot(reading, 'drive_share', 1.0_wp, number(5), default=1.0_wp)
+      call slot(reading, 'front_overhang', reading%units%length, number(6))
+      call slot(reading, 'front_width', reading%units%length, number(7))
+      reading%plan%axle = number
+      associate (this => reading%plan%prototype%axle)
+         call choice(reading, 'position', [character(5) :: 'front', 'rear'], c)
+         this%is_front = c == 1
+         if (has_key(reading, 'front_overhang') .and. c == 2) call complain(reading, 'front_overhang', &
+            "front_overhang belongs to the front axle, found position = 'rear'")
+         call choice(reading, 'drive_reaction', [character(12) :: 'wheel_centre', 'patch'], c, default=1)
+         this%drives_at_patch = c == 2
+         this%has_axle = .true.
+         this%where = where_of(reading)
+      end associate
+   end subroutine read_axle
+
+   !> &steering: the driver of the rack, and the ratio to the steering wheel.
+   subroutine read_steering(reading)
+      type(deck_reading_t), intent(inout) :: reading
+      character(:), allocatable :: driver
+      integer :: found, number(2)
+
+      if (is_second(reading)) return
+      driver = text_of(reading, 'driver')
+      call look_up(reading, 'driver', joint_group, driver, found)
+      if (found > 0) call check_driver()
+      call slot(reading, 'ratio', reading%units%length, number(1))
+      call slot(reading, 'travel', reading%units%length, number(2))
+      reading%plan%steering = number
+      associate (this => reading%plan%prototype%steering)
+         this%has_steering = .true.
+         this%where = where_of(reading)
+         this%driver = driver
+      end associate
+
+   contains
+
+      !> The joint must be a driver of a length, as ratio and travel are lengths.
+      subroutine check_driver()
+         integer :: measure
+
+         if (.not. is_driver(reading, found)) then
+            call complain(reading, 'driver', 'driver: the joint '//quoted(driver)//' in line '// &
+               str(reading%records(found)%line)//' is not a driver')
+            return
+         end if
+         measure = find_card(reading, measure_group, element(reading%records(found), 'measure', 1))
+         if (measure == 0) return
+         if (reading%cards(measure)%index == 0) return
+         if (is_of_angle(reading%plan%prototype%readouts(reading%cards(measure)%index)%measure%kind)) call complain(reading, &
+            'driver', 'driver: '//quoted(driver)//' must prescribe a length, but its measure is an angle')
+      end subroutine check_driver
+
+   end subroutine read_steering
 
 end module ek_reader_bodies

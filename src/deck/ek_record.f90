@@ -1,15 +1,44 @@
-!> The parsed content of a deck before interpretation: records (namelist groups) of entries
-!> (`key = values`), with the file and line of each.
+!> The parsed content of a deck before interpretation: records (namelist groups) of entries (`key = values`), with the file
+!> and line of each; and the mistakes found in them, with their locations: they are collected and reported together.
 module ek_record
    use ek_kinds, only: wp
    use ek_text, only: str, lower
+   use ek_letters, only: visible
    use ek_group, only: group_number, key_t, find_key, polar, axial
-   use ek_complaint, only: place_t, place_in, single, side_prefix
    implicit none(type, external)
    private
+   public :: place_t, deck_errors_t, place_in, single, left_side, right_side, side_prefix, has_side
    public :: value_t, entry_t, record_t
-   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_words, own_name
+   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_text, own_name
    public :: role_of, sign_of_image, turns
+
+   !> The sides of the two records that &mirror creates from a record of the left half, which are in their names; or neither.
+   integer, parameter :: single = 0, left_side = 1, right_side = 2
+   character(*), parameter :: side_prefix(2) = [character(6) :: 'left_', 'right_']
+
+   !> A location in a file or on the command line.
+   type :: place_t
+      character(:), allocatable :: words  !! 'front.nml:41', '--set point.x.z=-105'
+      integer :: source = 0, line = 0     !! messages are sorted by these
+      integer :: side = single
+   end type place_t
+
+   type :: deck_error_t
+      type(place_t) :: place
+      character(:), allocatable :: text
+   end type deck_error_t
+
+   !> Mistakes found so far; reported in the order of files and lines.
+   !>
+   !> A mistake in an element duplicated by &mirror is reported once, under the name used in the deck: a message about the right
+   !> side is dropped if there is one about the left side at the same location, and the prefixes are removed from the latter.
+   type :: deck_errors_t
+      private
+      integer :: used = 0
+      type(deck_error_t), allocatable :: list(:)
+   contains
+      procedure :: add => complaints_add, count => complaints_count, text => complaints_text
+   end type deck_errors_t
 
    !> One value as written; a string without its quotes.
    type :: value_t
@@ -79,7 +108,7 @@ contains
       records(used) = record
    end subroutine add_record
 
-   !> The entry that contains element `at` of a key (any element if `at` is 0); 0 if there is none.
+   !> The entry that contains element `at` of a key (any element if `at` is 0); 0 if there is none, as for the key ''.
    pure integer function entry_index(record, key, at)
       type(record_t), intent(in) :: record
       character(*), intent(in) :: key
@@ -129,30 +158,27 @@ contains
    end function own_name
 
    !> The location of a record or one of its entries; --set is sorted after all files.
-   pure subroutine place_of(record, entry, place)
+   pure type(place_t) function place_of(record, entry) result(place)
       type(record_t), intent(in) :: record
       integer, intent(in) :: entry            !! 0: the record itself
-      type(place_t), intent(out) :: place
-      integer :: line
 
-      line = record%line
-      if (entry > 0) line = record%entries(entry)%line
-      call place_in(record%file, record%source, line, place)
+      place = place_in(record%file, record%source, record%line)
+      if (entry > 0) place = place_in(record%file, record%source, record%entries(entry)%line)
       place%side = record%side
       if (entry == 0) return
       if (allocated(record%entries(entry)%setting)) then
          place%words = '--set '//record%entries(entry)%setting
          place%source = huge(place%source)
       end if
-   end subroutine place_of
+   end function place_of
 
    !> 'line 12' of a record; 'line 12 of wheels.nml' if the record with the message is in another file.
-   pure function line_words(record, seen_from) result(words)
+   pure function line_text(record, seen_from) result(words)
       type(record_t), intent(in) :: record, seen_from
       character(:), allocatable :: words
       words = 'line '//str(record%line)
       if (record%source /= seen_from%source) words = words//' of '//record%file
-   end function line_words
+   end function line_text
 
    !> The role of a key under y → −y, as in the table of keys; 0: the same on both sides.
    pure integer function role_of(record, key) result(role)
@@ -182,5 +208,80 @@ contains
       type(record_t), intent(in) :: record
       turns = record%group == 'torsion' .or. (record%group == 'measure' .and. lower(element(record, 'type', 1)) == 'rotation')
    end function turns
+
+   !> Whether a name begins with left_ or right_.
+   pure logical function has_side(name)
+      character(*), intent(in) :: name
+      has_side = index(lower(name), 'left_') == 1 .or. index(lower(name), 'right_') == 1
+   end function has_side
+
+   !> Record a mistake. Invisible characters in the message are shown as <U+00A0>.
+   pure subroutine complaints_add(self, place, what)
+      class(deck_errors_t), intent(inout) :: self
+      type(place_t), intent(in) :: place
+      character(*), intent(in) :: what
+      character(:), allocatable :: text
+      integer :: k
+
+      text = visible(what)
+      if (place%side == right_side) then
+         do k = 1, self%used
+            if (self%list(k)%place%side == left_side .and. self%list(k)%place%words == place%words) return
+         end do
+      else if (place%side == left_side) then
+         do
+            k = index(text, "'left_")
+            if (k == 0) exit
+            text = text(:k)//text(k + len("'left_"):)
+         end do
+      end if
+      if (.not. allocated(self%list)) allocate (self%list(8))
+      if (self%used == size(self%list)) self%list = [self%list, self%list]      ! twice the size
+      self%used = self%used + 1
+      self%list(self%used)%place = place
+      self%list(self%used)%text = place%words//': '//text
+   end subroutine complaints_add
+
+   !> The number of recorded mistakes.
+   pure integer function complaints_count(self)
+      class(deck_errors_t), intent(in) :: self
+      complaints_count = self%used
+   end function complaints_count
+
+   !> The messages, one per line, sorted by file and line number; messages about one line keep their order. The list is cut
+   !> at a limit: a file with so many mistakes is probably not a deck.
+   pure function complaints_text(self) result(text)
+      class(deck_errors_t), intent(in) :: self
+      character(:), allocatable :: text
+      integer, parameter :: most = 100
+      integer :: order(self%used), k, j
+
+      do k = 1, self%used
+         do j = k - 1, 1, -1
+            associate (this => self%list(k)%place, other => self%list(order(j))%place)
+               if (this%source > other%source .or. (this%source == other%source .and. this%line >= other%line)) exit
+            end associate
+            order(j + 1) = order(j)
+         end do
+         order(j + 1) = k
+      end do
+      text = ''
+      do k = 1, min(self%used, most)
+         if (k > 1) text = text//new_line('a')
+         text = text//self%list(order(k))%text
+      end do
+      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this a deck?'
+   end function complaints_text
+
+   !> The location of a line of a file; line 0: the file itself.
+   pure type(place_t) function place_in(file, source, line) result(place)
+      character(*), intent(in) :: file
+      integer, intent(in) :: source, line
+
+      place%words = file
+      if (line > 0) place%words = file//':'//str(line)
+      place%source = source
+      place%line = line
+   end function place_in
 
 end module ek_record

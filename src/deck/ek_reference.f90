@@ -4,12 +4,11 @@
 module ek_reference
    use ek_kinds, only: wp
    use ek_text, only: lower, quoted
-   use ek_complaint, only: has_side, single, left_side
-   use ek_record, only: element, own_name
+   use ek_record, only: element, own_name, has_side, single, left_side
    use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
    use ek_design_vector, only: find_vectors
-   use ek_draft, only: draft_t, complain, line_of, has_key, text_of, texts_of, numbers_of, refuse, slot
+   use ek_deck_reading, only: deck_reading_t, complain, line_of, has_key, text_of, texts_of, numbers_of, refuse, slot
    implicit none(type, external)
    private
    public :: find_card, look_up, find_point, find_body, find_bodies, find_direction, find_ends, find_points, check_apart, find_curve
@@ -18,104 +17,100 @@ module ek_reference
 contains
 
    !> The record of this group with this name; 0 if there is none.
-   pure integer function find_card(draft, group, name)
-      type(draft_t), intent(in) :: draft
+   pure integer function find_card(reading, group, name)
+      type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
       character(*), intent(in) :: name
 
-      do find_card = 1, size(draft%cards)
-         if (draft%cards(find_card)%group /= group) cycle
-         if (draft%cards(find_card)%name == name) return
+      do find_card = 1, size(reading%cards)
+         if (reading%cards(find_card)%group /= group) cycle
+         if (reading%cards(find_card)%name == name) return
       end do
       find_card = 0
    end function find_card
 
    !> The names of a group suggested for an unknown name. A record duplicated by &mirror is
    !> suggested under its name in the deck, unless the unknown name has the prefix of a side.
-   function names_of(draft, group, wrong) result(names)
-      type(draft_t), intent(in) :: draft
+   function names_of(reading, group, wrong) result(names)
+      type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
       character(*), intent(in) :: wrong
       character(word_length), allocatable :: names(:)
       logical :: is_sided
       integer :: j
 
-      is_sided = draft%records(draft%k)%side == single .and. (group == wheel_group .or. has_side(wrong))
-      allocate (names(size(draft%cards)))
+      is_sided = reading%records(reading%k)%side == single .and. (group == wheel_group .or. has_side(wrong))
+      allocate (names(size(reading%cards)))
       names = ''
-      do j = 1, size(draft%cards)
-         if (draft%cards(j)%group /= group) cycle
-         if (is_sided .or. draft%records(j)%side == single) then
-            names(j) = draft%cards(j)%name
-         else if (draft%records(j)%side == left_side) then
-            names(j) = own_name(draft%records(j))
+      do j = 1, size(reading%cards)
+         if (reading%cards(j)%group /= group) cycle
+         if (is_sided .or. reading%records(j)%side == single) then
+            names(j) = reading%cards(j)%name
+         else if (reading%records(j)%side == left_side) then
+            names(j) = own_name(reading%records(j))
          end if
       end do
+      if (group == body_group) names = [names, [character(word_length) :: 'chassis']]
    end function names_of
 
    !> The record to which a key refers; 0, with a message, if there is none.
-   subroutine look_up(draft, key, group, name, found)
-      type(draft_t), intent(inout) :: draft
+   subroutine look_up(reading, key, group, name, found)
+      type(deck_reading_t), intent(inout) :: reading
       integer, intent(in) :: group
       character(*), intent(in) :: key, name
       integer, intent(out) :: found
 
       found = 0
       if (name == '') return
-      found = find_card(draft, group, name)
+      found = find_card(reading, group, name)
       if (found > 0) return
-      draft%cards(draft%k)%is_good = .false.
-      if (may_be_meant(draft, group, name)) return
-      if (group == body_group) then
-         call complain(draft, key, key//': there is no body '//quoted(name)// &
-            did_you_mean(name, [names_of(draft, group, name), [character(word_length) :: 'chassis']]))
-      else
-         call complain(draft, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
-            did_you_mean(name, names_of(draft, group, name)))
-      end if
+      reading%cards(reading%k)%is_good = .false.
+      if (may_be_meant(reading, group, name)) return
+      call complain(reading, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
+         did_you_mean(name, names_of(reading, group, name)))
    end subroutine look_up
 
    !> Whether an unknown name may belong to a record whose own name or group was already rejected:
    !> then only that is reported, not the references to it.
-   pure logical function may_be_meant(draft, group, name)
-      type(draft_t), intent(in) :: draft
+   pure logical function may_be_meant(reading, group, name)
+      type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: group
       character(*), intent(in) :: name
-      may_be_meant = any(draft%cards%group == group .and. draft%cards%name == '') .or. &
-         any(draft%cards%group == 0 .and. (draft%cards%name == name .or. draft%cards%name == ''))
+      may_be_meant = any(reading%cards%group == group .and. reading%cards%name == '') .or. &
+         any(reading%cards%group == 0 .and. (reading%cards%name == name .or. reading%cards%name == ''))
    end function may_be_meant
 
    !> Adds a vector to the blueprint and computes its present value.
-   subroutine new_vector(draft, vector, number)
-      type(draft_t), intent(inout) :: draft
+   subroutine new_vector(reading, vector, number)
+      type(deck_reading_t), intent(inout) :: reading
       type(vector_t), intent(in) :: vector
       integer, intent(out) :: number
       logical :: is_good
 
-      call add_vector(draft%plan, vector, number)
-      call find_vectors(draft%plan, draft%parameters%x, draft%vectors, is_good, number)
+      call add_vector(reading%plan, vector, number)
+      call find_vectors(reading%plan, reading%parameters%x, reading%vectors, is_good, number)
    end subroutine new_vector
 
    !> The vector of a named point; is_found is .false. if the point is unknown or was rejected.
-   subroutine find_point(draft, key, name, vector, is_found)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_point(reading, key, name, vector, is_found)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
       integer, intent(out) :: vector
       logical, intent(out) :: is_found
       integer :: found
 
       vector = 0
-      call look_up(draft, key, point_group, name, found)
+      call look_up(reading, key, point_group, name, found)
       is_found = .false.
       if (found == 0) return
-      draft%cards(found)%is_used = .true.
-      vector = draft%cards(found)%index
-      is_found = draft%cards(found)%is_good
+      reading%cards(found)%is_used = .true.
+      vector = reading%cards(found)%index
+      is_found = reading%cards(found)%is_good
    end subroutine find_point
 
    !> The number of a named body, 0 for the chassis.
-   subroutine find_body(draft, key, name, body, is_found)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_body(reading, key, name, body, is_found)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
       integer, intent(out) :: body
       logical, intent(out) :: is_found
@@ -124,67 +119,67 @@ contains
       body = 0
       is_found = lower(name) == 'chassis' .or. lower(name) == 'ground'
       if (is_found) return
-      call look_up(draft, key, body_group, name, found)
+      call look_up(reading, key, body_group, name, found)
       is_found = found > 0
-      if (is_found) body = draft%cards(found)%index
+      if (is_found) body = reading%cards(found)%index
    end subroutine find_body
 
    !> The body named by the key `body`, which must move.
-   subroutine find_moving_body(draft, body, is_found)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_moving_body(reading, body, is_found)
+      type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: body
       logical, intent(out) :: is_found
 
-      call find_body(draft, 'body', text_of(draft, 'body'), body, is_found)
+      call find_body(reading, 'body', text_of(reading, 'body'), body, is_found)
       if (is_found .and. body == 0) &
-         call complain(draft, 'body', 'body must be one that moves, found '//quoted(text_of(draft, 'body')))
+         call complain(reading, 'body', 'body must be one that moves, found '//quoted(text_of(reading, 'body')))
    end subroutine find_moving_body
 
    !> Both bodies of an element (key `bodies`); they must differ. Marks them as attached.
-   subroutine find_bodies(draft, bodies, is_found)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_bodies(reading, bodies, is_found)
+      type(deck_reading_t), intent(inout) :: reading
       integer, intent(out) :: bodies(2)
       logical, intent(out), optional :: is_found
       character(word_length) :: names(2)
       logical :: is_there(2)
       integer :: j, held
 
-      names = texts_of(draft, 'bodies', 2)
+      names = texts_of(reading, 'bodies', 2)
       do j = 1, 2
-         call find_body(draft, 'bodies', trim(names(j)), bodies(j), is_there(j))
-         held = find_card(draft, body_group, names(j))
-         if (held > 0 .and. names(j) /= '') draft%cards(held)%is_used = .true.
+         call find_body(reading, 'bodies', trim(names(j)), bodies(j), is_there(j))
+         held = find_card(reading, body_group, names(j))
+         if (held > 0 .and. names(j) /= '') reading%cards(held)%is_used = .true.
       end do
       if (all(is_there) .and. bodies(1) == bodies(2)) then
-         call complain(draft, 'bodies', 'bodies must be two different ones, found '//quoted(names(1))//' twice')
+         call complain(reading, 'bodies', 'bodies must be two different ones, found '//quoted(names(1))//' twice')
          is_there = .false.
       end if
       if (present(is_found)) is_found = all(is_there)
    end subroutine find_bodies
 
    !> Two distinct points (key `at`); with one point allowed, the second equals the first.
-   subroutine find_ends(draft, may_be_one, ends, is_found)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_ends(reading, may_be_one, ends, is_found)
+      type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_be_one
       integer, intent(out) :: ends(2)      !! vectors
       logical, intent(out), optional :: is_found
       character(word_length) :: at(2)
       logical :: is_there
 
-      at = texts_of(draft, 'at', 2)
+      at = texts_of(reading, 'at', 2)
       if (at(2) == '' .and. may_be_one) then
-         call find_point(draft, 'at', trim(at(1)), ends(1), is_there)
+         call find_point(reading, 'at', trim(at(1)), ends(1), is_there)
          ends(2) = ends(1)
       else
-         call find_points(draft, 'at', ends, is_there)
+         call find_points(reading, 'at', ends, is_there)
       end if
       if (present(is_found)) is_found = is_there
-      if (is_there .and. .not. may_be_one) call check_apart(draft, 'at', ends, '', is_there)
+      if (is_there .and. .not. may_be_one) call check_apart(reading, 'at', ends, '', is_there)
    end subroutine find_ends
 
    !> Both points of a key.
-   subroutine find_points(draft, key, ends, is_found)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_points(reading, key, ends, is_found)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
       integer, intent(out) :: ends(2)      !! vectors
       logical, intent(out) :: is_found
@@ -192,31 +187,31 @@ contains
       logical :: is_there(2)
       integer :: j
 
-      names = texts_of(draft, key, 2)
+      names = texts_of(reading, key, 2)
       do j = 1, 2
-         call find_point(draft, key, trim(names(j)), ends(j), is_there(j))
+         call find_point(reading, key, trim(names(j)), ends(j), is_there(j))
       end do
       is_found = all(is_there)
    end subroutine find_points
 
    !> Reports the two points of a key if they coincide.
-   subroutine check_apart(draft, key, ends, consequence, are_apart)
-      type(draft_t), intent(inout) :: draft
+   subroutine check_apart(reading, key, ends, consequence, are_apart)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key
       integer, intent(in) :: ends(2)       !! vectors
       character(*), intent(in) :: consequence
       logical, intent(out) :: are_apart
       character(word_length) :: names(2)
 
-      are_apart = norm2(draft%vectors(:, ends(2)) - draft%vectors(:, ends(1))) > 0.0_wp
+      are_apart = norm2(reading%vectors(:, ends(2)) - reading%vectors(:, ends(1))) > 0.0_wp
       if (are_apart) return
-      names = texts_of(draft, key, 2)
-      call complain(draft, key, key//': the points '//quoted(names(1))//' and '//quoted(names(2))//' coincide'//consequence)
+      names = texts_of(reading, key, 2)
+      call complain(reading, key, key//': the points '//quoted(names(1))//' and '//quoted(names(2))//' coincide'//consequence)
    end subroutine check_apart
 
    !> A direction given by two points or by a vector.
-   subroutine find_direction(draft, points_key, vector_key, direction, is_given, is_good)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_direction(reading, points_key, vector_key, direction, is_given, is_good)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: points_key, vector_key
       integer, intent(out) :: direction          !! vector: a unit vector; 0 if not is_good
       logical, intent(out) :: is_given           !! either key is present
@@ -227,85 +222,85 @@ contains
 
       direction = 0
       is_good = .false.
-      has_points = has_key(draft, points_key)
-      has_vector = has_key(draft, vector_key)
+      has_points = has_key(reading, points_key)
+      has_vector = has_key(reading, vector_key)
       is_given = has_points .or. has_vector
       if (.not. is_given) return
       if (has_points) then
-         call find_points(draft, points_key, ends, is_found)
+         call find_points(reading, points_key, ends, is_found)
          if (.not. is_found) return
-         call check_apart(draft, points_key, ends, ' and give no direction', is_found)
+         call check_apart(reading, points_key, ends, ' and give no direction', is_found)
          if (.not. is_found) return
          vector%kind = along
          vector%a = ends(1)
          vector%b = ends(2)
       end if
       if (has_points .and. has_vector) then
-         call complain(draft, vector_key, 'give either '//points_key//' or '//vector_key//', not both')
+         call complain(reading, vector_key, 'give either '//points_key//' or '//vector_key//', not both')
          return
       end if
       if (has_vector) then
          vector%kind = given
-         if (.not. norm2(numbers_of(draft, vector_key, 3)) > 0.0_wp) then
-            if (draft%cards(draft%k)%is_good) call complain(draft, vector_key, vector_key//' has zero length')
+         if (.not. norm2(numbers_of(reading, vector_key, 3)) > 0.0_wp) then
+            if (reading%cards(reading%k)%is_good) call complain(reading, vector_key, vector_key//' has zero length')
             return
          end if
-         call slot(draft, vector_key, 1.0_wp, vector%first, count=3)
+         call slot(reading, vector_key, 1.0_wp, vector%first, count=3)
       end if
-      call new_vector(draft, vector, direction)
+      call new_vector(reading, vector, direction)
       is_good = .true.
    end subroutine find_direction
 
    !> The curve named by a key; 0 if there is none or it was rejected.
-   subroutine find_curve(draft, key, name, curve)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_curve(reading, key, name, curve)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, name
       integer, intent(out) :: curve
       integer :: found
 
       curve = 0
-      call look_up(draft, key, curve_group, name, found)
+      call look_up(reading, key, curve_group, name, found)
       if (found == 0) return
-      if (draft%cards(found)%is_good) curve = draft%cards(found)%index
+      if (reading%cards(found)%is_good) curve = reading%cards(found)%index
    end subroutine find_curve
 
    !> Whether record k is a driver joint.
-   pure logical function is_driver(draft, k)
-      type(draft_t), intent(in) :: draft
+   pure logical function is_driver(reading, k)
+      type(deck_reading_t), intent(in) :: reading
       integer, intent(in) :: k
-      is_driver = draft%cards(k)%group == joint_group .and. lower(element(draft%records(k), 'type', 1)) == 'driver'
+      is_driver = reading%cards(k)%group == joint_group .and. lower(element(reading%records(k), 'type', 1)) == 'driver'
    end function is_driver
 
    !> The driver joint named by a case; reports a mistake if there is none.
-   subroutine find_driver(draft, name, others, unit)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_driver(reading, name, others, unit)
+      type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: name, others(:)     !! others: other names that may be driven, for suggestions
       real(wp), intent(inout) :: unit                 !! deck unit of the driven value → SI; unchanged if not found
       integer :: j, found
 
-      found = find_card(draft, joint_group, name)
+      found = find_card(reading, joint_group, name)
       if (found == 0) then
-         call complain(draft, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, &
-            [character(word_length) :: pack(draft%cards%name, [(is_driver(draft, j), j=1, size(draft%cards))]), others]))
+         call complain(reading, 'drive', 'drive: there is no driver joint '//quoted(name)//did_you_mean(name, &
+            [character(word_length) :: pack(reading%cards%name, [(is_driver(reading, j), j=1, size(reading%cards))]), others]))
          return
       end if
-      unit = draft%cards(found)%factor
-      if (.not. is_driver(draft, found)) call complain(draft, 'drive', 'drive: the joint '//quoted(name)//' in '// &
-         line_of(draft, found)//' is not a driver')
+      unit = reading%cards(found)%factor
+      if (.not. is_driver(reading, found)) call complain(reading, 'drive', 'drive: the joint '//quoted(name)//' in '// &
+         line_of(reading, found)//' is not a driver')
    end subroutine find_driver
 
    !> The wheel named by a case, if it names one; reports a mistake if there is none, or if the case takes no wheel.
-   subroutine find_wheel(draft, may_have_one, which, wheel)
-      type(draft_t), intent(inout) :: draft
+   subroutine find_wheel(reading, may_have_one, which, wheel)
+      type(deck_reading_t), intent(inout) :: reading
       logical, intent(in) :: may_have_one
       character(*), intent(in) :: which      !! the cases that take the key `wheel`, for the message
       integer, intent(inout) :: wheel        !! its number
       integer :: found
 
-      if (text_of(draft, 'wheel') == '') return
-      call look_up(draft, 'wheel', wheel_group, text_of(draft, 'wheel'), found)
-      if (found > 0) wheel = draft%cards(found)%index
-      if (.not. may_have_one) call refuse(draft, ['wheel'], 'only a case '//which//' takes this key')
+      if (text_of(reading, 'wheel') == '') return
+      call look_up(reading, 'wheel', wheel_group, text_of(reading, 'wheel'), found)
+      if (found > 0) wheel = reading%cards(found)%index
+      if (.not. may_have_one) call refuse(reading, ['wheel'], 'only a case '//which//' takes this key')
    end subroutine find_wheel
 
 end module ek_reference

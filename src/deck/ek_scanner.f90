@@ -12,24 +12,22 @@ module ek_scanner
    use ek_letters, only: is_wide, with_line_ends, save_as_utf8
    use ek_cursor, only: cursor_t, skip_blanks, next_character, key_follows, lacks_equals, take_subscript, take_word, &
       take_anything, take_line, drop_unit, unit_message, is_word_begin, quotes, tab, newline, return
-   use ek_complaint, only: place_t, complaints_t, place_in
-   use ek_record, only: entry_t, record_t, add_value, add_entry, add_record, entry_index
+   use ek_record, only: deck_errors_t, place_in, entry_t, record_t, add_value, add_entry, add_record, entry_index
    implicit none(type, external)
    private
    public :: scan_text, scan_values
 
-   integer, parameter :: most_repeats = 1000   !! n in n*value; no key takes so many values
-   character(*), parameter :: byte_order_mark = char(239)//char(187)//char(191)
+   integer, parameter :: max_repeats = 1000   !! n in n*value; no key takes so many values
 
 contains
 
    !> All records of a text. Mistakes are added to the list of messages as `file:line: what`. Line ends of any system are accepted.
-   subroutine scan_text(written, file, records, used, complaints, source)
+   subroutine scan_text(written, file, records, used, deck_errors, source)
       character(*), intent(in) :: written
       character(*), intent(in) :: file                        !! name for messages
       type(record_t), allocatable, intent(out) :: records(:)  !! the first `used` are filled
       integer, intent(out) :: used
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       integer, intent(in), optional :: source                 !! number of the file, in the order of reading; default 1
       type(record_t) :: blank, record
       type(cursor_t) :: cursor
@@ -42,11 +40,10 @@ contains
       blank%file = file
       if (present(source)) blank%source = source
       if (is_wide(written)) then
-         call complain(complaints, blank, 0, save_as_utf8)
+         call complain(deck_errors, blank, 0, save_as_utf8)
          return
       end if
       text = with_line_ends(written)
-      if (index(text(:min(3, len(text))), byte_order_mark) == 1) cursor%at = 4
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) exit
@@ -57,17 +54,17 @@ contains
             call take_word(text, cursor, word)
             record%group = lower(word)
             if (record%group == 'end') then
-               call complain(complaints, record, record%line, "'&end' without a group before it")
+               call complain(deck_errors, record, record%line, "'&end' without a group before it")
                cycle
             else if (word == '') then
-               call complain(complaints, record, record%line, "'&' without a group name")
+               call complain(deck_errors, record, record%line, "'&' without a group name")
             end if
-            call scan_record(text, cursor, record, complaints)
+            call scan_record(text, cursor, record, deck_errors)
             call add_record(records, used, record)
          else
             call take_line(text, cursor, word)
             ! one message per line is enough
-            if (cursor%line /= last_stray) call complain(complaints, blank, cursor%line, 'text outside any group: '// &
+            if (cursor%line /= last_stray) call complain(deck_errors, blank, cursor%line, 'text outside any group: '// &
                quoted(word)//" (a group begins with &, ends with /, a comment begins with !)")
             last_stray = cursor%line
          end if
@@ -79,7 +76,7 @@ contains
       character(*), intent(in) :: text
       type(entry_t), intent(inout) :: entry               !! values are appended
       character(:), allocatable, intent(out) :: message   !! '' if there is no mistake
-      type(complaints_t) :: complaints
+      type(deck_errors_t) :: deck_errors
       type(record_t) :: record
       type(cursor_t) :: cursor
       character(:), allocatable :: unit
@@ -95,23 +92,23 @@ contains
             message = 'unexpected '//quoted(text(cursor%at:cursor%at))
             return
          end if
-         call scan_value(text, cursor, record, entry, after_comma, complaints)
+         call scan_value(text, cursor, record, entry, after_comma, deck_errors)
          call drop_unit(text, cursor, entry, unit)
          if (unit /= '') then
             message = unit_message(entry, unit)
             return
          end if
       end do
-      if (complaints%count() > 0) message = 'the string has no closing quote, or the repeat count is wrong'
+      if (deck_errors%count() > 0) message = 'the string has no closing quote, or the repeat count is wrong'
       if (entry%used == 0) message = 'no value'
    end subroutine scan_values
 
    !> Reads one group, from after its name to its end.
-   subroutine scan_record(text, cursor, record, complaints)
+   subroutine scan_record(text, cursor, record, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       type(record_t), intent(inout) :: record
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       type(entry_t) :: entry, lost
       type(cursor_t) :: start
       character(:), allocatable :: word
@@ -123,7 +120,7 @@ contains
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) then
-            call complain(complaints, record, record%line, '&'//record%group//" is not terminated by '/'")
+            call complain(deck_errors, record, record%line, '&'//record%group//" is not terminated by '/'")
             exit
          end if
          start = cursor
@@ -136,7 +133,7 @@ contains
             call take_word(text, cursor, word)
             if (lower(word) == 'end') exit
             cursor = start
-            call complain(complaints, record, record%line, '&'//record%group// &
+            call complain(deck_errors, record, record%line, '&'//record%group// &
                " is not terminated by '/' before the next group in line "//str(cursor%line))
             exit
          end if
@@ -148,40 +145,39 @@ contains
          end if
 
          if (is_key) then
-            if (is_open) call close_entry(entry, record, complaints)
-            call open_entry(text, cursor, record, entry, complaints)
+            if (is_open) call close_entry(entry, record, deck_errors)
+            call open_entry(text, cursor, record, entry, deck_errors)
             is_open = .true.
             after_comma = .true.           ! a comma here leaves the first value empty
          else if (.not. is_open) then
             lost%used = 0
             after_comma = .true.
-            call scan_value(text, cursor, record, lost, after_comma, complaints)
-            call complain(complaints, record, start%line, '&'//record%group//': found '//quoted(lost%values(1)%text)// &
+            call scan_value(text, cursor, record, lost, after_comma, deck_errors)
+            call complain_of(deck_errors, record, start%line, 'found '//quoted(lost%values(1)%text)// &
                " where a key and '=' were expected")
          else if (c == '(') then
             call take_subscript(text, cursor, word)
             call add_value(entry, '('//word//')', .false.)
          else if (c == '=' .or. c == ')') then
-            call complain(complaints, record, cursor%line, '&'//record%group//': unexpected '//quoted(c)//' after '// &
-               quoted(entry%key))
+            call complain_of(deck_errors, record, cursor%line, 'unexpected '//quoted(c)//' after '//quoted(entry%key))
             cursor%at = cursor%at + 1
          else
-            call scan_value(text, cursor, record, entry, after_comma, complaints)
+            call scan_value(text, cursor, record, entry, after_comma, deck_errors)
             if (after_comma) cycle
             call drop_unit(text, cursor, entry, word)
-            if (word /= '') call complain(complaints, record, cursor%line, '&'//record%group//': '//unit_message(entry, word))
+            if (word /= '') call complain_of(deck_errors, record, cursor%line, unit_message(entry, word))
          end if
       end do
-      if (is_open) call close_entry(entry, record, complaints)
+      if (is_open) call close_entry(entry, record, deck_errors)
    end subroutine scan_record
 
    !> Takes a key, its subscript and the = sign.
-   subroutine open_entry(text, cursor, record, entry, complaints)
+   subroutine open_entry(text, cursor, record, entry, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       type(record_t), intent(in) :: record
       type(entry_t), intent(out) :: entry
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       character(:), allocatable :: subscript, word
       integer :: status
 
@@ -195,58 +191,50 @@ contains
          if (verify(subscript, '0123456789') == 0 .and. len(subscript) > 0 .and. len(subscript) < 7) &
             read (subscript, *, iostat=status) entry%first
          if (status /= 0 .or. entry%first < 1) then
-            call complain_here(': the subscript of '//quoted(entry%key)//' must be one positive whole number, found ('// &
-               subscript//')')
+            call complain_of(deck_errors, record, entry%line, 'the subscript of '//quoted(entry%key)// &
+               ' must be one positive whole number, found ('//subscript//')')
             entry%first = 1
          end if
          call skip_blanks(text, cursor)
       end if
       if (next_character(text, cursor) == ':') then
-         call complain_here(': expected = after '//quoted(entry%key)//', found :')
+         call complain_of(deck_errors, record, entry%line, 'expected = after '//quoted(entry%key)//', found :')
          cursor%at = cursor%at + 1
       else if (next_character(text, cursor) /= '=') then
-         call complain_here(': the = after '//quoted(entry%key)//' is missing')
+         call complain_of(deck_errors, record, entry%line, 'the = after '//quoted(entry%key)//' is missing')
       end if
       if (next_character(text, cursor) == '=') cursor%at = cursor%at + 1
-
-   contains
-
-      subroutine complain_here(what)
-         character(*), intent(in) :: what
-         call complain(complaints, record, entry%line, '&'//record%group//what)
-      end subroutine complain_here
 
    end subroutine open_entry
 
    !> Adds a complete entry to its record, unless its key was given before.
-   subroutine close_entry(entry, record, complaints)
+   subroutine close_entry(entry, record, deck_errors)
       type(entry_t), intent(in) :: entry
       type(record_t), intent(inout) :: record
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       integer :: k, before
 
-      if (entry%used == 0) call complain(complaints, record, entry%line, '&'//record%group//': '//quoted(entry%key)// &
-         ' has no value')
+      if (entry%used == 0) call complain_of(deck_errors, record, entry%line, quoted(entry%key)//' has no value')
       before = 0
       do k = 1, max(entry%used, 1)
          if (before == 0) before = entry_index(record, entry%key, entry%first + k - 1)
       end do
       if (before > 0) then
-         call complain(complaints, record, entry%line, '&'//record%group//': '//quoted(entry%key)// &
-            ' is given twice, first in line '//str(record%entries(before)%line))
+         call complain_of(deck_errors, record, entry%line, quoted(entry%key)//' is given twice, first in line '// &
+            str(record%entries(before)%line))
       else
          call add_entry(record, entry)
       end if
    end subroutine close_entry
 
    !> One value or comma. Two commas in a row, or n* alone, leave values empty.
-   subroutine scan_value(text, cursor, record, entry, after_comma, complaints)
+   subroutine scan_value(text, cursor, record, entry, after_comma, deck_errors)
       character(*), intent(in) :: text
       type(cursor_t), intent(inout) :: cursor
       type(record_t), intent(in) :: record     !! for messages
       type(entry_t), intent(inout) :: entry
       logical, intent(inout) :: after_comma    !! a comma here would end an empty value
-      type(complaints_t), intent(inout) :: complaints
+      type(deck_errors_t), intent(inout) :: deck_errors
       character(:), allocatable :: word
       logical :: is_string
       integer :: repeats, star, k
@@ -268,9 +256,9 @@ contains
          if (star > 1 .and. verify(word(:max(star, 1) - 1), '0123456789') == 0) then
             repeats = 0
             if (star < 9) read (word(:star - 1), *) repeats
-            if (repeats < 1 .or. repeats > most_repeats) then
-               call complain(complaints, record, cursor%line, 'the repeat count of '//quoted(word)//' must be 1 to '// &
-                  str(most_repeats))
+            if (repeats < 1 .or. repeats > max_repeats) then
+               call complain(deck_errors, record, cursor%line, 'the repeat count of '//quoted(word)//' must be 1 to '// &
+                  str(max_repeats))
                repeats = 1
             end if
             word = word(star + 1:)
@@ -308,7 +296,7 @@ contains
             content = content//quote
             k = k + 1
          end do
-         call complain(complaints, record, cursor%line, 'the string '//quote//content//text(k:last)// &
+         call complain(deck_errors, record, cursor%line, 'the string '//quote//content//text(k:last)// &
             ' has no closing quote on its line')
          ! continue after its first word: most strings are names, and the rest of the line is then read as intended
          cursor%at = first - 1 + scan(text(first:last)//' ', ' ,/!'//tab)
@@ -317,16 +305,22 @@ contains
 
    end subroutine scan_value
 
-   !> Reports a mistake in a line of the file of a record.
-   subroutine complain(complaints, record, line, what)
-      type(complaints_t), intent(inout) :: complaints
+   !> Reports a mistake in a group: '&spring: what'.
+   subroutine complain_of(deck_errors, record, line, what)
+      type(deck_errors_t), intent(inout) :: deck_errors
       type(record_t), intent(in) :: record
       integer, intent(in) :: line
       character(*), intent(in) :: what
-      type(place_t) :: place
+      call complain(deck_errors, record, line, '&'//record%group//': '//what)
+   end subroutine complain_of
 
-      call place_in(record%file, record%source, line, place)
-      call complaints%add(place, what)
+   !> Reports a mistake in a line of the file of a record.
+   subroutine complain(deck_errors, record, line, what)
+      type(deck_errors_t), intent(inout) :: deck_errors
+      type(record_t), intent(in) :: record
+      integer, intent(in) :: line
+      character(*), intent(in) :: what
+      call deck_errors%add(place_in(record%file, record%source, line), what)
    end subroutine complain
 
 end module ek_scanner

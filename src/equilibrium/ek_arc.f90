@@ -23,10 +23,10 @@
 module ek_arc
    use ek_kinds, only: wp
    use ek_measure, only: distance
-   use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, demand_rate, &
+   use ek_suspension, only: suspension_t, has_symmetric_loads
+   use ek_state, only: state_t, inputs_t, design_state, coordinates, pack_state, unpack_state, inputs_rate, &
       motion_between, move_as_screw
-   use ek_schedule, only: schedule_t, demand_at
+   use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, whole_tangent, residual_only
    use ek_lapack, only: dgesv
    implicit none(type, external)
@@ -36,12 +36,12 @@ module ek_arc
    real(wp), parameter :: first_step = 1.0e-2_wp      !! of the unit of length
    real(wp), parameter :: longest_step = 1.0e-1_wp
    real(wp), parameter :: corner_step = 1.0e-5_wp     !! below it a change of direction is accepted as the corner of a law
-   real(wp), parameter :: least_step = 1.0e-9_wp      !! if no step of this length is found the path has ended
-   real(wp), parameter :: most_turn = 0.17_wp         !! rad, 10 degrees: between the tangents at the ends of a step
+   real(wp), parameter :: min_step = 1.0e-9_wp      !! if no step of this length is found the path has ended
+   real(wp), parameter :: max_rotation = 0.17_wp         !! rad, 10 degrees: between the tangents at the ends of a step
    real(wp), parameter :: good_turn = 0.1_wp          !! rad: aim for the next step
-   real(wp), parameter :: most_of_corner = 1.5_wp     !! rad, 86 degrees: a larger angle means another path
+   real(wp), parameter :: max_of_corner = 1.5_wp     !! rad, 86 degrees: a larger angle means another path
    real(wp), parameter :: smooth = 1.0e-2_wp          !! of a step: allowed error of the trapezoidal rule
-   integer, parameter :: most_iterations = 10         !! Newton's method converges quadratically: more would not help
+   integer, parameter :: max_iterations = 10         !! Newton's method converges quadratically: more would not help
 
    !> A segment of the path from a to b, the position of a probe on it, and work space.
    type :: arc_t
@@ -79,7 +79,7 @@ contains
       real(wp), intent(in) :: range          !! place, above 0
       real(wp), intent(in) :: tolerance      !! m
       type(arc_t) :: self
-      integer :: n, k
+      integer :: n
 
       n = suspension%unknowns() + suspension%constraints() + 1
       allocate (self%tangent_a(n), self%tangent_b(n), self%tangent_0(n), self%tangent(n), self%motion(n), &
@@ -90,14 +90,9 @@ contains
       self%other = self%state
       self%schedule = schedule
       self%range = range
-      self%size = length
-      do k = 1, size(suspension%elements)
-         if (suspension%elements(k)%measure%kind == distance) self%size = max(self%size, suspension%elements(k)%design_length)
-      end do
+      self%size = max(length, maxval(suspension%elements%design_length, mask=suspension%elements%measure%kind == distance))
       self%tolerance = tolerance
-      do k = 1, size(suspension%loads)
-         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
-      end do
+      self%is_symmetric = has_symmetric_loads(suspension)
    end function new_arc
 
    !> Starts at an equilibrium on the path, in either direction.
@@ -145,13 +140,13 @@ contains
          if (is_found) call find_tangent(self, suspension, kkt, is_found)
          if (is_found) then
             turn = acos(min(max(inner(self, kkt, self%tangent_a, self%tangent), -1.0_wp), 1.0_wp))
-            is_found = turn <= most_turn
+            is_found = turn <= max_rotation
             if (is_found) is_found = rest() <= smooth
-            if (.not. is_found .and. self%step <= corner_step) is_found = turn <= most_of_corner
+            if (.not. is_found .and. self%step <= corner_step) is_found = turn <= max_of_corner
          end if
          if (is_found) exit
          self%step = 0.5_wp*self%step
-         if (self%step < least_step) then
+         if (self%step < min_step) then
             self%width = 0.0_wp
             return
          end if
@@ -183,7 +178,7 @@ contains
       real(wp), intent(in) :: width              !! length along the tangent of a
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       real(wp) :: length, longest, before
       integer :: iteration
 
@@ -194,9 +189,9 @@ contains
       is_found = .false.
       longest = max(merge(20.0_wp, 1.0_wp, width <= corner_step)*width, self%tolerance/self%size)
       before = huge(before)
-      do iteration = 1, most_iterations
-         call demand_at(self%schedule, self%place, demand)
-         call assemble(suspension, self%state, demand, whole_tangent, kkt)
+      do iteration = 1, max_iterations
+         call inputs_at(self%schedule, self%place, inputs)
+         call assemble(suspension, self%state, inputs, whole_tangent, kkt)
          self%residual = kkt%rhs
          call solve_bordered(self, suspension, 0.0_wp, kkt, is_found)
          if (.not. is_found) return
@@ -219,23 +214,23 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
-      type(demand_t) :: demand
-      integer, parameter :: most_refinements = 8
+      type(inputs_t) :: inputs
+      integer, parameter :: max_refinements = 8
       real(wp), parameter :: small = 1.0e-6_wp, exact = 1.0e-9_wp
       real(wp) :: length
       integer :: k
 
-      call demand_at(self%schedule, self%place, demand)
+      call inputs_at(self%schedule, self%place, inputs)
       self%residual = 0.0_wp
       self%tangent = 0.0_wp
-      do k = 0, merge(0, most_refinements, self%is_symmetric)
+      do k = 0, merge(0, max_refinements, self%is_symmetric)
          if (k > 0) then
             call shifted_residual(small)
             self%residual = kkt%rhs
             call shifted_residual(-small)
             self%residual = (self%residual - kkt%rhs)/(2.0_wp*small)
          end if
-         call assemble(suspension, self%state, demand, whole_tangent, kkt)
+         call assemble(suspension, self%state, inputs, whole_tangent, kkt)
          call solve_bordered(self, suspension, merge(1.0_wp, 0.0_wp, k == 0), kkt, is_found)
          if (.not. is_found) return
          length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
@@ -251,7 +246,7 @@ contains
       !> The residual at a small distance along the tangent.
       subroutine shifted_residual(by)
          real(wp), intent(in) :: by
-         type(demand_t) :: there
+         type(inputs_t) :: there
          real(wp) :: place
 
          self%other%poses(:) = self%state%poses
@@ -259,7 +254,7 @@ contains
          place = self%place
          self%rhs(:, 1) = by*self%tangent
          call move_all(self, kkt, self%rhs(:, 1), self%other, place)
-         call demand_at(self%schedule, place, there)
+         call inputs_at(self%schedule, place, there)
          call assemble(suspension, self%other, there, residual_only, kkt)
       end subroutine shifted_residual
 
@@ -275,12 +270,12 @@ contains
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
       real(wp), parameter :: part = 1.0e-5_wp      ! of the range: the inputs are smooth, most of them linear
-      type(demand_t) :: low, high
+      type(inputs_t) :: low, high
       integer :: i, j, n, info
 
-      call demand_at(self%schedule, self%place - part*self%range, low)
-      call demand_at(self%schedule, self%place + part*self%range, high)
-      call assemble_rate(suspension, self%state, demand_rate(low, high, 2.0_wp*part*self%range), kkt)
+      call inputs_at(self%schedule, self%place - part*self%range, low)
+      call inputs_at(self%schedule, self%place + part*self%range, high)
+      call assemble_rate(suspension, self%state, inputs_rate(low, high, 2.0_wp*part*self%range), kkt)
       n = kkt%n
       do j = 1, n
          do i = j, n

@@ -4,13 +4,13 @@
 module ek_arc_survey
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: demand_t
-   use ek_schedule, only: demand_at
+   use ek_state, only: inputs_t
+   use ek_schedule, only: inputs_at
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_arc, only: arc_t, begin, advance, probe, find_tangent, find_motion, inner
    implicit none(type, external)
    private
-   public :: survey_t, survey, go_to, length_at, tell_limits
+   public :: survey_t, survey, go_to, length_at, print_limits
 
    integer, parameter, public :: arrived = 0        !! at the end of the case
    integer, parameter, public :: stuck = 1          !! no step was found
@@ -18,8 +18,8 @@ module ek_arc_survey
    integer, parameter, public :: gone_round = 3     !! the path is closed: it came back to design
    integer, parameter, public :: gone_on = 4        !! too many steps
 
-   integer, parameter, public :: most_limits = 16   !! limit points, and bifurcations, that are reported
-   integer, parameter, public :: most_steps = 20000 !! per path
+   integer, parameter, public :: max_limits = 16   !! limit points, and bifurcations, that are reported
+   integer, parameter, public :: max_steps = 20000 !! per path
 
    real(wp), parameter :: far_away = 10.0_wp        !! sizes of the model
    real(wp), parameter :: farthest = 3.0_wp         !! m: no suspension moves that far
@@ -34,9 +34,9 @@ module ek_arc_survey
       real(wp) :: near_length = 0.0_wp, far_length = 0.0_wp      !! lengths of the path from design to either end of the states
       real(wp) :: last_place = 0.0_wp                            !! the swept value to which the path was followed
       integer :: limits = 0
-      real(wp) :: limit_place(most_limits) = 0.0_wp, limit_length(most_limits) = 0.0_wp
+      real(wp) :: limit_place(max_limits) = 0.0_wp, limit_length(max_limits) = 0.0_wp
       integer :: crossings = 0
-      real(wp) :: crossing_place(most_limits) = 0.0_wp
+      real(wp) :: crossing_place(max_limits) = 0.0_wp
    end type survey_t
 
 contains
@@ -55,7 +55,7 @@ contains
 
       is_past_near = .not. abs(near) > 0.0_wp
       call begin(arc, suspension, settled, 0.0_wp, far > 0.0_wp, kkt, is_found)
-      do k = 1, most_steps
+      do k = 1, max_steps
          if (is_found) call advance(arc, suspension, kkt, is_found)
          found%far_length = arc%length
          found%last_place = arc%place_a
@@ -75,16 +75,16 @@ contains
          if (has_top) call find_limit(arc, suspension, kkt, top, place)
          ! a limit point of a load changes the inertia by one; any other change is a bifurcation
          if (arc%negative_a /= arc%negative_b .and. .not. has_top) then
-            found%crossings = min(found%crossings + 1, most_limits)
+            found%crossings = min(found%crossings + 1, max_limits)
             call find_crossing(arc, suspension, kkt, found%crossing_place(found%crossings))
          end if
-         call look_between(0.0_wp, arc%place_a, top, place)
+         call evaluate_between(0.0_wp, arc%place_a, top, place)
          if (found%ending == arrived) return
          if (.not. has_top) cycle
-         found%limits = min(found%limits + 1, most_limits)
+         found%limits = min(found%limits + 1, max_limits)
          found%limit_place(found%limits) = place
          found%limit_length(found%limits) = arc%length + top
-         call look_between(top, place, arc%width, arc%place_b)
+         call evaluate_between(top, place, arc%width, arc%place_b)
          if (found%ending == arrived) return
       end do
       found%ending = gone_on
@@ -106,7 +106,7 @@ contains
       end function ending
 
       !> Finds the places near and far on a part of the segment over which the swept value is monotonic.
-      subroutine look_between(low, place_low, high, place_high)
+      subroutine evaluate_between(low, place_low, high, place_high)
          real(wp), intent(in) :: low, place_low, high, place_high
          real(wp) :: width
 
@@ -121,7 +121,7 @@ contains
          found%far_length = arc%length + width
          found%last_place = far
          found%ending = arrived
-      end subroutine look_between
+      end subroutine evaluate_between
 
    end subroutine survey
 
@@ -135,7 +135,7 @@ contains
    end function length_at
 
    !> Adds the limit points to a list, each with the nearest state between `first` and `last`.
-   pure subroutine tell_limits(found, first, last, limits, places, states)
+   pure subroutine print_limits(found, first, last, limits, places, states)
       type(survey_t), intent(in) :: found
       integer, intent(in) :: first, last
       integer, intent(inout) :: limits
@@ -151,7 +151,7 @@ contains
          states(limits) = 0
          if (share >= 0.0_wp) states(limits) = first + nint(share*(last - first))
       end do
-   end subroutine tell_limits
+   end subroutine print_limits
 
    !> The limit point on the current segment: the root of ds/dl.
    !> Equation (K.20) of docs/theory/kkt.md.
@@ -161,7 +161,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(inout) :: width       !! in: length of the segment; out: length to the limit point
       real(wp), intent(inout) :: place       !! in: at the end of the segment; out: at the limit point
-      integer, parameter :: most_probes = 60
+      integer, parameter :: max_probes = 60
       real(wp) :: low, high, f_low, f_high, f, x, slope, before, f_before
       logical :: is_found
       integer :: k, side
@@ -173,7 +173,7 @@ contains
       before = high
       f_before = f_high
       side = 0
-      do k = 1, most_probes
+      do k = 1, max_probes
          x = low - f_low*((high - low)/(f_high - f_low))
          call probe(arc, suspension, x, kkt, is_found)
          if (is_found) call find_tangent(arc, suspension, kkt, is_found)
@@ -197,7 +197,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: place
-      integer, parameter :: most_probes = 20     ! 1e-6 of a step
+      integer, parameter :: max_probes = 20     ! 1e-6 of a step
       real(wp) :: low, high, place_low, place_high, width
       logical :: is_found
       integer :: k
@@ -206,7 +206,7 @@ contains
       high = arc%width
       place_low = arc%place_a
       place_high = arc%place_b
-      do k = 1, most_probes
+      do k = 1, max_probes
          width = 0.5_wp*(low + high)
          call probe(arc, suspension, width, kkt, is_found)
          if (is_found) call find_tangent(arc, suspension, kkt, is_found)
@@ -230,7 +230,7 @@ contains
       real(wp), intent(in) :: goal
       real(wp), intent(in) :: from, place_from, to, place_to     !! lengths beyond a, and places, at both ends of the part
       real(wp), intent(out) :: width                             !! length beyond a
-      integer, parameter :: most_probes = 80
+      integer, parameter :: max_probes = 80
       real(wp) :: low, high, f_low, f_high, f
       logical :: is_found
       integer :: k, side
@@ -244,7 +244,7 @@ contains
       width = low
       if (abs(f_low) <= same) return
       side = 0
-      do k = 1, most_probes
+      do k = 1, max_probes
          width = low - f_low*((high - low)/(f_high - f_low))
          call probe(arc, suspension, width, kkt, is_found)
          if (.not. is_found) return
@@ -282,7 +282,7 @@ contains
       real(wp), intent(in) :: length
       type(kkt_t), intent(inout) :: kkt
       logical, intent(out) :: is_found
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
 
       is_found = .true.
       do while (is_found .and. arc%length + arc%width < length)
@@ -290,8 +290,8 @@ contains
       end do
       if (is_found) call probe(arc, suspension, length - arc%length, kkt, is_found)
       if (.not. is_found) return
-      call demand_at(arc%schedule, arc%place, demand)
-      call assemble(suspension, arc%state, demand, whole_tangent, kkt)
+      call inputs_at(arc%schedule, arc%place, inputs)
+      call assemble(suspension, arc%state, inputs, whole_tangent, kkt)
       call factorise(kkt)
    end subroutine go_to
 

@@ -13,19 +13,19 @@ module ek_balance
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
-   use ek_measure, only: view_t, look
+   use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated, add_gradient
    use ek_element, only: axial_spring, element_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state
+   use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
    use ek_reach, only: settle, failure_t
-   use ek_singular_values, only: singular_values_t, decompose, least_norm
+   use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)
    private
-   public :: balance, balance_words, takes_part
+   public :: balance, balance_remarks, takes_part
 
    real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
    character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
@@ -77,7 +77,7 @@ contains
    end function takes_part
 
    !> Remarks about a balance: excluded drivers, preloads that are not unique.
-   subroutine balance_words(suspension, words)
+   subroutine balance_remarks(suspension, words)
       type(suspension_t), intent(in) :: suspension
       type(message_list_t), intent(inout) :: words
       integer :: k, springs
@@ -98,7 +98,7 @@ contains
             plural(size(suspension%wheels), 'wheel', 'wheels')//', so their preloads are not unique; the smallest change of '// &
             'them is used. Springs in series carry one force: set balance = .false. in the &spring that is to keep its preload')
       end select
-   end subroutine balance_words
+   end subroutine balance_remarks
 
    !> '; driver … is excluded', for an error message.
    function kept_out(suspension) result(text)
@@ -135,13 +135,11 @@ contains
       end if
       kkt = new_kkt(suspension)
       state = design_state(suspension)
-      call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+      call assemble(suspension, state, inputs_t(), whole_tangent, kkt)
       call factorise(kkt)
       if (.not. kkt%is_singular) then
          call solve(kkt)
-         do w = 1, size(height)
-            height(w) = rise(suspension, state, w, kkt%rhs)
-         end do
+         height = [(rise(suspension, state, w, kkt%rhs), w=1, size(height))]
          call lower_by(height, suspension, state, kkt, error)
          if (allocated(error)) return
       end if
@@ -160,7 +158,7 @@ contains
             end associate
          end do
          if (maxval(abs(height)) <= 10.0_wp*tolerance) return
-         call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+         call assemble(suspension, state, inputs_t(), whole_tangent, kkt)
          call factorise(kkt)
          call lower_by(height, suspension, state, kkt, error)
          if (allocated(error)) return
@@ -177,7 +175,7 @@ contains
       type(kkt_t), intent(inout) :: kkt                    !! with the factors at this state
       type(error_t), allocatable, intent(out) :: error     !! exit_convergence: the tangent is singular
       type(singular_values_t) :: parts
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       real(wp) :: slope(size(suspension%wheels), suspension%scalars)
       real(wp) :: change(suspension%scalars)         ! per spring; 0 for other elements
       integer :: s, w
@@ -190,24 +188,22 @@ contains
       do s = 1, size(change)
          if (.not. is_free(suspension%elements(s))) cycle
          associate (m => suspension%elements(s)%measure)
-            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
             kkt%rhs = 0.0_wp     ! a unit preload pushes the ends apart
-            call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), kkt%rhs)
+            call add_gradient(1.0_wp, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), kkt%rhs)
          end associate
          call solve(kkt)
-         do w = 1, size(height)
-            slope(w, s) = rise(suspension, state, w, kkt%rhs)
-         end do
+         slope(:, s) = [(rise(suspension, state, w, kkt%rhs), w=1, size(height))]
       end do
       call decompose(slope, rank_share, parts)
       if (.not. parts%is_found) then
          call fail(error, exit_convergence, "balance = 'spring': "//not_finite)
          return
       end if
-      call least_norm(parts, -height, change)
-      do s = 1, size(change)
-         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = suspension%elements(s)%preload + change(s)
-      end do
+      call min_norm(parts, -height, change)
+      associate (springs => suspension%elements(:size(change)))
+         where (is_free(springs)) springs%preload = springs%preload + change
+      end associate
    end subroutine lower_by
 
    !> The upward motion of a wheel centre in a step of all bodies [m].
@@ -231,15 +227,13 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(kkt_t) :: kkt
       type(state_t) :: state
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       type(singular_values_t) :: carried, held
       real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), uncarried(:, :)
       real(wp), allocatable :: root(:), column(:)
       integer :: b, k, s, t, nx, ny
 
-      do s = 1, suspension%scalars
-         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = 0.0_wp
-      end do
+      where (is_free(suspension%elements)) suspension%elements%preload = 0.0_wp
       do b = 1, size(suspension%elements) - suspension%scalars
          suspension%elements(suspension%scalars + b)%bushing%preload_force = 0.0_wp
          suspension%elements(suspension%scalars + b)%bushing%preload_moment = 0.0_wp
@@ -247,7 +241,7 @@ contains
       end do
       kkt = new_kkt(suspension)
       state = design_state(suspension)
-      call assemble(suspension, state, demand_t(), residual_only, kkt)
+      call assemble(suspension, state, inputs_t(), residual_only, kkt)
       allocate (load(kkt%nq), remainder(kkt%nq))
       load = kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
       nx = 6*(size(suspension%elements) - suspension%scalars)
@@ -263,8 +257,8 @@ contains
       do s = 1, suspension%scalars
          if (.not. is_free(suspension%elements(s))) cycle
          associate (m => suspension%elements(s)%measure)
-            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            call add_gradient(1.0_wp, view%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, s))
+            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+            call add_gradient(1.0_wp, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, s))
          end associate
       end do
       do k = 1, kkt%nc
@@ -275,9 +269,7 @@ contains
             end associate
          end do
       end do
-      do k = 1, ny
-         free(:, k) = free(:, k)*kkt%scale(:kkt%nq)
-      end do
+      free = free*spread(kkt%scale(:kkt%nq), 2, ny)
 
       ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
       ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
@@ -289,21 +281,20 @@ contains
          return
       end if
       allocate (x(nx), y(ny))
-      call least_norm(held, -matmul(uncarried, load), x)
+      call min_norm(held, -matmul(uncarried, load), x)
       remainder = -load - matmul(weighted, x)
-      call least_norm(carried, remainder, y)
+      call min_norm(carried, remainder, y)
       remainder = remainder - matmul(free, y)
       if (.not. norm2(remainder) <= 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
          call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
          if (has_details) error%message = error%message//kept_out(suspension)
          return
       end if
-      do s = 1, suspension%scalars
-         if (is_free(suspension%elements(s))) suspension%elements(s)%preload = y(s)
-      end do
-      do k = 1, kkt%nc      ! the prescribed value of a driver with a stiffness compensates its deflection
-         suspension%rows(k)%target = suspension%rows(k)%target - suspension%rows(k)%compliance*y(suspension%scalars + k)
-      end do
+      associate (springs => suspension%elements(:suspension%scalars))
+         where (is_free(springs)) springs%preload = y(:suspension%scalars)
+      end associate
+      ! the prescribed value of a driver with a stiffness compensates its deflection
+      suspension%rows%target = suspension%rows%target - suspension%rows%compliance*y(suspension%scalars + 1:)
       do b = 1, size(suspension%elements) - suspension%scalars
          suspension%elements(suspension%scalars + b)%bushing%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
          suspension%elements(suspension%scalars + b)%bushing%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
@@ -316,32 +307,17 @@ contains
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: b, k
       real(wp), intent(out) :: column(:)
-      real(wp) :: axis(3)
-      integer :: at
+      real(wp), parameter :: none(3) = 0.0_wp
+      real(wp) :: axis(3), gradient(12)
 
       column = 0.0_wp
       associate (bushing => suspension%elements(suspension%scalars + b)%bushing, &
          measure => suspension%elements(suspension%scalars + b)%measure)
          axis = bushing%axes(:, merge(k, k - 3, k <= 3))
-         at = 6*(measure%body_j - 1)
-         if (at >= 0) call put(at, measure%arm_j, 1.0_wp)
-         at = 6*(measure%body_i - 1)
-         if (at >= 0) call put(at, measure%arm_i + bushing%gap0, -1.0_wp)
+         gradient = [none, -axis, none, axis]
+         if (k <= 3) gradient = [-axis, -cross(measure%arm_i + bushing%gap0, axis), axis, cross(measure%arm_j, axis)]
+         call add_gradient(1.0_wp, gradient, 6*(measure%body_i - 1), 6*(measure%body_j - 1), column)
       end associate
-
-   contains
-
-      subroutine put(at, arm, sign_of)
-         integer, intent(in) :: at
-         real(wp), intent(in) :: arm(3), sign_of
-         if (k <= 3) then
-            column(at + 1:at + 3) = sign_of*axis
-            column(at + 4:at + 6) = sign_of*cross(arm, axis)
-         else
-            column(at + 4:at + 6) = sign_of*axis
-         end if
-      end subroutine put
-
    end subroutine bushing_column
 
 end module ek_balance

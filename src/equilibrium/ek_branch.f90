@@ -15,17 +15,18 @@
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state, unpack_state, demand_rate, motion_between, move_as_screw
+   use ek_state, only: state_t, inputs_t, design_state, coordinates, unpack_state, inputs_rate, motion_between, move_as_screw, &
+      largest_motion
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_newton, only: outcome_t
-   use ek_predictor, only: predictor_t, depth
-   use ek_tangent, only: tangent_t, new_tangent, find_tangent, largest_motion, body_motion, trapezoidal_rest, smooth, nothing
-   use ek_chord, only: chord_t, new_chord, straighten, look_along_chord, at_a, at_b
+   use ek_predictor, only: predictor_t, new_predictor, forget, remember, depth
+   use ek_tangent, only: tangent_t, new_tangent, find_tangent, body_motion, trapezoidal_rest, smooth
+   use ek_chord, only: chord_t, new_chord, straighten, evaluate_along_chord, at_a, at_b
    use ek_factors, only: factors_t, new_factors, mark, exchange
    use ek_orientation, only: orientation_t, new_orientation, compare_orientation
    implicit none(type, external)
    private
-   public :: branch_t, new_branch, leave, largest_motion, compare, is_overturning, is_uneven, is_near_zero, accept
+   public :: branch_t, new_branch, leave, compare, is_overturning, is_uneven, is_near_zero, accept
    public :: note_crossing, go_along
    public :: same_branch, crossing, doubtful
 
@@ -35,12 +36,12 @@ module ek_branch
 
    real(wp), parameter :: same_place = 20.0_wp      !! of the width of a step across a bifurcation
 
-   integer, parameter, public :: most_crossings = 8   !! largest number of bifurcations reported
+   integer, parameter, public :: max_crossings = 8   !! largest number of bifurcations reported
 
    real(wp), parameter :: bent = 5.0e-2_wp         !! of the motion: allowed in the shortest steps
    real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
    real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
-   real(wp), parameter :: least_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
+   real(wp), parameter :: min_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
    real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
@@ -50,7 +51,7 @@ module ek_branch
 
    !> What is known of a step from a to b.
    type :: step_t
-      type(demand_t) :: demand_a, demand_b, rate
+      type(inputs_t) :: inputs_a, inputs_b, rate
       real(wp) :: width = 0.0_wp            !! h: place of b minus place of a
       real(wp) :: rest = 0.0_wp             !! of the tangents' agreement with the motion
       integer :: negative_b = 0             !! negative eigenvalues of N at b
@@ -61,8 +62,9 @@ module ek_branch
       logical :: is_new_at_a = .false.      !! the tangents at a are from new factors there
    end type step_t
 
-   !> Data of the newest state of the path, and work space.
+   !> The last states of the path, data of the newest, and work space.
    type :: branch_t
+      type(predictor_t) :: predictor
       integer :: negative = -1              !! negative eigenvalues of N there; −1: not known
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| there; huge: not known
       logical :: was_uneven = .true.        !! |det N| changed much in the step to it
@@ -87,7 +89,7 @@ module ek_branch
       real(wp) :: least = 0.0_wp            !! shortest step tried before the path is reported to end [place]
       real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [place]
       integer :: crossings = 0              !! bifurcations met so far
-      real(wp) :: crossing_place(most_crossings) = 0.0_wp
+      real(wp) :: crossing_place(max_crossings) = 0.0_wp
    end type branch_t
 
 contains
@@ -97,6 +99,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(branch_t) :: self
 
+      self%predictor = new_predictor(coordinates(suspension))
       self%orientation = new_orientation(suspension)
       self%work = new_tangent(suspension)
       self%chord = new_chord(suspension)
@@ -110,10 +113,13 @@ contains
    end function new_branch
 
    !> Continues from another state, of which only the inertia may be known.
-   pure subroutine leave(self, negative)
+   pure subroutine leave(self, place, packed, negative)
       type(branch_t), intent(inout) :: self
-      integer, intent(in) :: negative     !! −1: not known
+      real(wp), intent(in) :: place, packed(:)      !! of that state
+      integer, intent(in) :: negative               !! −1: not known
 
+      call forget(self%predictor)
+      call remember(self%predictor, place, packed)
       self%negative = negative
       self%has_tangent = .false.
       self%log_determinant = huge(1.0_wp)
@@ -124,51 +130,51 @@ contains
    !>
    !> It first uses these factors and a tangent at a that may be old; if the step disagrees with them, new ones. On
    !> return self%tangent_b belongs to b; `accept` makes it that of the newest state.
-   subroutine compare(self, suspension, predictor, demand_a, demand_b, place, state_b, outcome, kkt, verdict)
+   !> Equation (K.15) of docs/theory/kkt.md: three states and the tangent at b, as long as that at a is not known.
+   subroutine compare(self, suspension, inputs_a, inputs_b, place, state_b, outcome, kkt, verdict)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(predictor_t), intent(in) :: predictor             !! its newest state is a
-      type(demand_t), intent(in) :: demand_a, demand_b
+      type(inputs_t), intent(in) :: inputs_a, inputs_b
       real(wp), intent(in) :: place                          !! of b
       type(state_t), intent(in) :: state_b
       type(outcome_t), intent(in) :: outcome                 !! of the iteration to b
       type(kkt_t), intent(inout) :: kkt
       integer, intent(out) :: verdict
       type(step_t) :: step
-      real(wp) :: width
+      real(wp) :: width, bow
       integer :: older
 
-      width = place - predictor%abscissa(predictor%newest)
-      step%demand_a = demand_a
-      step%demand_b = demand_b
-      step%rate = demand_rate(demand_a, demand_b, width)
-      step%width = width
-      step%negative_b = kkt%negative
+      width = place - self%predictor%abscissa(self%predictor%newest)
+      step = step_t(inputs_a, inputs_b, inputs_rate(inputs_a, inputs_b, width), width, huge(width), kkt%negative)
       self%factorisations = 0
       self%serial = kkt%factorisations
       self%missed = outcome%missed
       self%is_over = .false.
       self%is_singular = .false.
-      call unpack_state(predictor%packed(:, predictor%newest), self%before)
+      call unpack_state(self%predictor%packed(:, self%predictor%newest), self%before)
       call motion_between(self%before, state_b, self%motion)
-      older = modulo(predictor%newest - 2, depth) + 1
+      older = modulo(self%predictor%newest - 2, depth) + 1
       self%width_before = 0.0_wp
-      if (predictor%count > 1) self%width_before = predictor%abscissa(predictor%newest) - predictor%abscissa(older)
+      if (self%predictor%count > 1) &
+         self%width_before = self%predictor%abscissa(self%predictor%newest) - self%predictor%abscissa(older)
       if (abs(self%width_before) > 0.0_wp .and. .not. self%has_tangent) then
-         call unpack_state(predictor%packed(:, older), self%shifted)
+         call unpack_state(self%predictor%packed(:, older), self%shifted)
          call motion_between(self%shifted, self%before, self%motion_before)
       end if
-      call find_tangent(self%work, suspension, state_b, demand_b, step%rate, kkt, self%tangent_b)
+      call find_tangent(self%work, suspension, state_b, inputs_b, step%rate, kkt, self%tangent_b)
       if (self%has_tangent) then
          step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
-      else
-         step%rest = three_point_rest(self, kkt%nq, width, kkt%length)
+      else if (abs(self%width_before) > 0.0_wp) then
+         ! with this tangent at a, the error of the trapezoidal rule is that of the parabola
+         bow = width/(width + self%width_before)
+         self%tangent_a(:kkt%nq) = self%tangent_b(:kkt%nq) &
+            + (2.0_wp*bow)*(self%motion_before/self%width_before - self%motion/width)
+         step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, width, kkt%length)
          ! the step to a approximates its tangent
-         if (step%rest > smooth .and. abs(self%width_before) > 0.0_wp) &
-            self%tangent_a(:kkt%nq) = self%motion_before/self%width_before
+         if (step%rest > smooth) self%tangent_a(:kkt%nq) = self%motion_before/self%width_before
       end if
       step%is_explained = step%rest <= smooth
-      if (.not. step%is_explained) call look_closer(self, step, suspension, state_b, kkt)
+      if (.not. step%is_explained) call evaluate_closer(self, step, suspension, state_b, kkt)
       verdict = doubtful
       if (step%is_explained .or. step%is_past) then
          verdict = same_branch
@@ -176,7 +182,7 @@ contains
             verdict = crossing
          else if (step%rest > exact .or. is_uneven(self, outcome) .or. &
             largest_motion(self%motion, kkt%length) > long*kkt%length) then
-            call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, self%is_over, &
+            call compare_orientation(self%orientation, suspension, self%before%poses, state_b%poses, kkt%scale, self%is_over, &
                self%is_singular)
             if (self%is_over) verdict = crossing
             if (self%is_singular .and. abs(width) > tiny_step*self%least) verdict = doubtful
@@ -188,69 +194,67 @@ contains
    end subroutine compare
 
    !> The same with what a first look lacks: the tangent at a, the chords of laws that bend, new factors at b.
-   subroutine look_closer(self, step, suspension, state_b, kkt)
+   subroutine evaluate_closer(self, step, suspension, state_b, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state_b
       type(kkt_t), intent(inout) :: kkt          !! factors at or near b
+      logical :: knows_a
 
       call straighten(self%chord, suspension, self%before, state_b, step%is_bent)
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
-         self%chord_b, step%is_regular(at_b))
-      if (self%negative >= 0 .and. self%factors%is_kept) then
+      knows_a = self%negative >= 0 .and. self%factors%is_kept
+      if (knows_a) then
          call exchange(self%factors, kkt)
-         call look_at_beginning(self, step, suspension, kkt)
+         call evaluate_beginning(self, step, suspension, .false., kkt)
          call exchange(self%factors, kkt)
-         call decide(self, step, kkt%length)
-         if (step%is_explained .or. step%is_past) return
+         if (step%is_explained) return
       end if
-      if (self%negative < 0) call look_anew_at_beginning(self, step, suspension, kkt)
+      if (step%is_bent) call evaluate_along_chord(self%chord, suspension, self%work, at_b, state_b, step%inputs_b, step%rate, kkt, &
+         self%chord_b, step%is_regular(at_b))
+      if (knows_a) call decide(self, step, kkt%length)
+      if (step%is_past) return
+      if (self%negative < 0) call evaluate_beginning(self, step, suspension, .true., kkt)
       if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
          step%is_past = is_bend(self, step%width, kkt%length)
       if (step%is_past) return
-      if (.not. step%is_new_at_a) call look_anew_at_beginning(self, step, suspension, kkt)
+      if (.not. step%is_new_at_a) call evaluate_beginning(self, step, suspension, .true., kkt)
       call decide(self, step, kkt%length)
       if (step%is_explained .or. step%is_past) return
-      call assemble(suspension, state_b, step%demand_b, whole_tangent, kkt)
+      call assemble(suspension, state_b, step%inputs_b, whole_tangent, kkt)
       call factorise(kkt)
       step%negative_b = kkt%negative
       self%factorisations = self%factorisations + 1
       self%serial = kkt%factorisations
       self%missed = 0.0_wp
-      call find_tangent(self%work, suspension, state_b, step%demand_b, step%rate, kkt, self%tangent_b)
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_b, state_b, step%demand_b, step%rate, kkt, &
+      call find_tangent(self%work, suspension, state_b, step%inputs_b, step%rate, kkt, self%tangent_b)
+      if (step%is_bent) call evaluate_along_chord(self%chord, suspension, self%work, at_b, state_b, step%inputs_b, step%rate, kkt, &
          self%chord_b, step%is_regular(at_b))
       call decide(self, step, kkt%length)
-   end subroutine look_closer
+   end subroutine evaluate_closer
 
-   !> The tangents at a from new factors there.
-   subroutine look_anew_at_beginning(self, step, suspension, kkt)
+   !> The tangent at a; if it does not explain the step, that with the chords of bent laws.
+   subroutine evaluate_beginning(self, step, suspension, is_anew, kkt)
       type(branch_t), intent(inout) :: self
       type(step_t), intent(inout) :: step
       type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: is_anew             !! from new factors there, not from the current ones
       type(kkt_t), intent(inout) :: kkt
 
-      call assemble(suspension, self%before, step%demand_a, whole_tangent, kkt)
-      call factorise(kkt)
-      self%factorisations = self%factorisations + 1
-      self%negative = kkt%negative
-      step%is_new_at_a = .true.
-      call look_at_beginning(self, step, suspension, kkt)
-   end subroutine look_anew_at_beginning
-
-   !> The tangent at a, and that with the chords of bent laws, from the current factors.
-   subroutine look_at_beginning(self, step, suspension, kkt)
-      type(branch_t), intent(inout) :: self
-      type(step_t), intent(inout) :: step
-      type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(inout) :: kkt
-
-      call find_tangent(self%work, suspension, self%before, step%demand_a, step%rate, kkt, self%tangent_a)
+      if (is_anew) then
+         call assemble(suspension, self%before, step%inputs_a, whole_tangent, kkt)
+         call factorise(kkt)
+         self%factorisations = self%factorisations + 1
+         self%negative = kkt%negative
+         step%is_new_at_a = .true.
+      end if
+      call find_tangent(self%work, suspension, self%before, step%inputs_a, step%rate, kkt, self%tangent_a)
       self%has_tangent = .true.
-      if (step%is_bent) call look_along_chord(self%chord, suspension, self%work, at_a, self%before, step%demand_a, step%rate, &
-         kkt, self%chord_a, step%is_regular(at_a))
-   end subroutine look_at_beginning
+      step%rest = trapezoidal_rest(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
+      step%is_explained = step%rest <= smooth
+      if (step%is_bent .and. .not. step%is_explained) call evaluate_along_chord(self%chord, suspension, self%work, at_a, &
+         self%before, step%inputs_a, step%rate, kkt, self%chord_a, step%is_regular(at_a))
+   end subroutine evaluate_beginning
 
    !> Whether the tangents agree with the motion, or those along the chords of bent laws do and N stays regular.
    pure subroutine decide(self, step, length)
@@ -297,13 +301,16 @@ contains
    end function is_near_zero
 
    !> Extrapolates from the newest state along its tangent.
-   pure subroutine go_along(self, width, state)
+   pure subroutine go_along(self, place, state)
       type(branch_t), intent(inout) :: self
-      real(wp), intent(in) :: width              !! place
-      type(state_t), intent(inout) :: state      !! the newest → the guess
+      real(wp), intent(in) :: place
+      type(state_t), intent(inout) :: state
+      real(wp) :: width
       integer :: nq
 
       nq = size(self%motion)
+      call unpack_state(self%predictor%packed(:, self%predictor%newest), state)
+      width = place - self%predictor%abscissa(self%predictor%newest)
       state%reaction = state%reaction + width*self%tangent_a(nq + 1:)
       self%twist = width*self%tangent_a(:nq)
       call move_as_screw(state, self%twist)
@@ -317,33 +324,9 @@ contains
       if (self%crossings > 0) then
          if (abs(place - self%crossing_place(self%crossings)) <= same_place*self%width) return
       end if
-      self%crossings = min(self%crossings + 1, most_crossings)
+      self%crossings = min(self%crossings + 1, max_crossings)
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
-
-   !> The error of the parabola through the state before a, a and b: the difference of its slope at b from the tangent there;
-   !> a share of the motion.
-   !> Equation (K.15) of docs/theory/kkt.md.
-   pure real(wp) function three_point_rest(self, nq, width, length) result(rest)
-      type(branch_t), intent(in) :: self
-      integer, intent(in) :: nq
-      real(wp), intent(in) :: width, length
-      real(wp) :: twist(6), part, bow
-      integer :: k
-
-      rest = huge(rest)
-      if (.not. abs(self%width_before) > 0.0_wp) return
-      rest = 0.0_wp
-      bow = width/(width + self%width_before)
-      do k = 1, nq, 6
-         twist = (1.0_wp + bow)*self%motion(k:k + 5) - (bow*width/self%width_before)*self%motion_before(k:k + 5) &
-            - width*self%tangent_b(k:k + 5)
-         part = body_motion(twist, length)
-         if (.not. part < huge(rest)) part = huge(rest)
-         rest = max(rest, part)
-      end do
-      if (rest < huge(rest)) rest = rest/max(largest_motion(self%motion, length), nothing)
-   end function three_point_rest
 
    !> Whether the motion lies between the tangents at both ends and no body changes direction.
    pure logical function is_bend(self, width, length)
@@ -373,23 +356,21 @@ contains
          if (body_motion(self%motion(k:k + 5), length) < takes_part*largest) cycle
          a = norm2(self%tangent_a(k:k + 5)*scale)
          b = norm2(self%tangent_b(k:k + 5)*scale)
-         if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < least_cosine*a*b) return
+         if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < min_cosine*a*b) return
       end do
       is_bend = rest <= bent*largest
    end function is_bend
 
    !> Whether the assembly of the joints changes, or may, as its end is singular, in a predicted step that was not compared.
-   logical function is_overturning(self, suspension, predictor, demand_a, state_b, demand_b, kkt)
+   logical function is_overturning(self, suspension, state_b, scale)
       type(branch_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(predictor_t), intent(in) :: predictor             !! its newest state is a
-      type(demand_t), intent(in) :: demand_a, demand_b
       type(state_t), intent(in) :: state_b
-      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(in) :: scale(:)                       !! D of ek_scale
       logical :: is_singular
 
-      call unpack_state(predictor%packed(:, predictor%newest), self%before)
-      call compare_orientation(self%orientation, suspension, self%before, state_b, demand_a, demand_b, kkt, is_overturning, &
+      call unpack_state(self%predictor%packed(:, self%predictor%newest), self%before)
+      call compare_orientation(self%orientation, suspension, self%before%poses, state_b%poses, scale, is_overturning, &
          is_singular)
       is_overturning = is_overturning .or. is_singular
    end function is_overturning

@@ -7,11 +7,11 @@
 module ek_break
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state
+   use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, assemble, whole_tangent
-   use ek_diagnosis, only: scaled_parts
+   use ek_diagnosis, only: scaled_parts, modes
+   use ek_motion_text, only: body_parts
    use ek_singular_values, only: singular_values_t, decompose
-   use ek_lapack, only: dsyev
    implicit none(type, external)
    private
    public :: break_t, why_it_ends, no_reason, lock, limit_point, mechanism
@@ -33,19 +33,18 @@ module ek_break
 contains
 
    !> Examines the last equilibrium of a path. Cost: a few dense decompositions.
-   subroutine why_it_ends(suspension, state, demand, kkt, found)
+   subroutine why_it_ends(suspension, state, inputs, kkt, found)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state            !! the last equilibrium
-      type(demand_t), intent(in) :: demand          !! there
+      type(inputs_t), intent(in) :: inputs          !! there
       type(kkt_t), intent(inout) :: kkt             !! work space of this model
       type(break_t), intent(out) :: found
       real(wp) :: left(kkt%nc), motion(kkt%nq), closing(2), stiffness(2)
-      real(wp) :: part, most
       integer :: k
 
       allocate (found%locks(size(suspension%joints)), source=.false.)
-      call examine(suspension, design_state(suspension), demand_t(), kkt, closing(1), stiffness(1), left, motion)
-      call examine(suspension, state, demand, kkt, closing(2), stiffness(2), left, motion)
+      call examine(suspension, design_state(suspension), inputs_t(), kkt, closing(1), stiffness(1), left, motion)
+      call examine(suspension, state, inputs, kkt, closing(2), stiffness(2), left, motion)
       if (closing(2) < vanished*closing(1)) then
          found%reason = lock
          do k = 1, kkt%nc
@@ -54,30 +53,26 @@ contains
       else if (abs(stiffness(2)) < vanished*abs(stiffness(1))) then
          found%reason = merge(mechanism, limit_point, abs(stiffness(2)) < gone*abs(stiffness(1)))
          found%motion = motion
-         most = 0.0_wp
-         do k = 1, size(suspension%bodies)
-            part = norm2(motion(6*k - 5:6*k))
-            if (part > most) found%body = k
-            most = max(most, part)
-         end do
+         found%body = maxloc(body_parts(motion), dim=1)
       end if
    end subroutine why_it_ends
 
    !> The smallest singular value of Φq with its left vector, and the eigenvalue of Zᵀ T Z closest to zero with its motion.
-   subroutine examine(suspension, state, demand, kkt, closing, stiffness, left_vector, motion)
+   subroutine examine(suspension, state, inputs, kkt, closing, stiffness, left_vector, motion)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: closing, stiffness
       real(wp), intent(out) :: left_vector(:)       !! one element per row; 0 for rows with a stiffness
       real(wp), intent(out) :: motion(:)            !! scaled unknowns
       type(singular_values_t) :: parts
-      real(wp), allocatable :: jacobian(:, :), tangent(:, :), free(:, :), reduced(:, :), value(:), work(:)
+      real(wp), allocatable :: jacobian(:, :), tangent(:, :), motions(:, :), value(:), noise(:)
       integer, allocatable :: rows(:)
-      integer :: i, m, n, info
+      logical :: is_found
+      integer :: i, m, n
 
-      call assemble(suspension, state, demand, whole_tangent, kkt)
+      call assemble(suspension, state, inputs, whole_tangent, kkt)
       call scaled_parts(suspension, kkt, rows, jacobian, tangent)
       call decompose(jacobian, 0.0_wp, parts, wants_null_space=.true.)
       left_vector = 0.0_wp
@@ -92,14 +87,12 @@ contains
          left_vector(rows) = parts%left(:, m)
       end if
       if (n == 0) return
-      free = parts%right(:, m + 1:)
-      reduced = matmul(transpose(free), matmul(tangent, free))
-      allocate (value(n), work(40*n))
-      call dsyev('V', 'L', n, reduced, n, value, work, size(work), info)
-      if (info /= 0) return
+      allocate (motions(kkt%nq, n), value(n), noise(n))
+      call modes(tangent, parts%right(:, m + 1:), 0.0_wp, motions, value, noise, is_found)
+      if (.not. is_found) return
       i = minloc(abs(value), dim=1)
       stiffness = value(i)
-      motion = matmul(free, reduced(:, i))
+      motion = motions(:, i)
    end subroutine examine
 
 end module ek_break

@@ -14,16 +14,16 @@
 module ek_chord
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_measure, only: measure_t, view_t, body_gap, rotation, measure_value, look
+   use ek_measure, only: measure_t, evaluation_t, body_gap, rotation, measure_value, evaluate
    use ek_law, only: law_t, look_up_law, find_slopes
    use ek_element, only: bushing_element
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t
    use ek_tangent, only: tangent_t, find_tangent
    use ek_dyads, only: dyads_t, new_dyads, add_dyad, solve_columns, set_changes
    implicit none(type, external)
    private
-   public :: chord_t, new_chord, straighten, look_along_chord
+   public :: chord_t, new_chord, straighten, evaluate_along_chord
    public :: at_a, at_b, least, mean, most
 
    integer, parameter :: at_a = 1, at_b = 2
@@ -148,39 +148,39 @@ contains
 
    !> The tangent of the changed model at one end, with the factors of N there, and whether N stays regular for all slopes.
    !> Equation (K.16) of docs/theory/kkt.md.
-   subroutine look_along_chord(self, suspension, work, end, state, demand, rate, kkt, tangent, is_regular)
+   subroutine evaluate_along_chord(self, suspension, work, end, state, inputs, rate, kkt, tangent, is_regular)
       type(chord_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(tangent_t), intent(inout) :: work
       integer, intent(in) :: end                   !! at_a or at_b
       type(state_t), intent(in) :: state           !! there
-      type(demand_t), intent(in) :: demand, rate
+      type(inputs_t), intent(in) :: inputs, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)
       logical, intent(out) :: is_regular
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       integer :: k, slope
 
       self%dyads%number = 0
       do k = 1, self%bends
          associate (measure => self%place(self%bent_law(k))%measure)
-            call look(measure, state%poses(measure%body_i + 1), state%poses(measure%body_j + 1), view)
-            call add_dyad(self%dyads, measure%body_i, measure%body_j, view%gradient)
+            call evaluate(measure, state%poses(measure%body_i + 1), state%poses(measure%body_j + 1), evaluation)
+            call add_dyad(self%dyads, measure%body_i, measure%body_j, evaluation%gradient)
          end associate
       end do
       call solve_columns(self%dyads, kkt)
       is_regular = .true.
       tangent = 0.0_wp
       do slope = least, most
-         do k = 1, self%bends
-            self%change(k) = self%slope(slope, self%bent_law(k)) - self%own(end, self%bent_law(k))
-         end do
+         associate (laws => self%bent_law(:self%bends))
+            self%change(:self%bends) = self%slope(slope, laws) - self%own(end, laws)
+         end associate
          call set_changes(self%dyads, self%change, kkt%negative)
          is_regular = is_regular .and. self%dyads%negative == kkt%negative
          if (.not. is_regular) return
          if (slope /= mean) cycle
-         call find_tangent(work, suspension, state, demand, rate, kkt, tangent, self%dyads)
+         call find_tangent(work, suspension, state, inputs, rate, kkt, tangent, self%dyads)
       end do
-   end subroutine look_along_chord
+   end subroutine evaluate_along_chord
 
 end module ek_chord

@@ -8,18 +8,17 @@ module ek_confirm
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_case, only: default_tolerance
-   use ek_state, only: state_t, demand_t, design_state, unpack_state, pack_state, motion_between
-   use ek_schedule, only: schedule_t, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state, pack_state, motion_between, largest_motion
+   use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_predictor, only: predictor_t, new_predictor, remember
-   use ek_branch, only: branch_t, new_branch, leave, largest_motion
+   use ek_branch, only: branch_t, new_branch, leave
    use ek_reach, only: failure_t, reach, settle
    implicit none(type, external)
    private
    public :: confirm
 
-   integer, parameter :: most_looks = 10          !! number of comparisons per direction
+   integer, parameter :: max_evaluations = 10          !! number of comparisons per direction
    real(wp), parameter :: apart = 1.0e-6_wp       !! m: equilibria further apart are different
 
 contains
@@ -36,9 +35,8 @@ contains
       logical, intent(inout) :: is_reached(:)
       type(failure_t), intent(inout) :: failure      !! state: the first rejected state
       type(state_t) :: exact, linear
-      type(predictor_t) :: predictor
       type(branch_t) :: branch
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       type(outcome_t) :: outcome
       type(failure_t) :: lost
       real(wp) :: motion(kkt%nq)
@@ -58,13 +56,11 @@ contains
       if (lost%state > 0) return
       allocate (settled(size(packed, 1)))
       call pack_state(exact, settled)
-      predictor = new_predictor(size(packed, 1))
-      call remember(predictor, 0.0_wp, settled)
       branch = new_branch(suspension)
       branch%least = least
       branch%width = 1.0e3_wp*least
-      call leave(branch, kkt%negative)
-      stride = max(1, (abs(end - first) + most_looks)/most_looks)
+      call leave(branch, 0.0_wp, settled, kkt%negative)
+      stride = max(1, (abs(end - first) + max_evaluations)/max_evaluations)
       sure = first - direction
       k = first
       if (abs(place(first)) <= 0.0_wp) then       ! design itself
@@ -73,7 +69,7 @@ contains
          k = first + sign(min(stride, abs(end - first)), direction)
       end if
       do
-         call reach(suspension, schedule, place(k), default_tolerance, predictor, branch, exact, kkt, iterations, lost)
+         call reach(suspension, schedule, place(k), default_tolerance, branch, exact, kkt, iterations, lost)
          if (lost%state > 0) then
             ! states before the end of the path are kept
             do while (sure /= k)
@@ -83,8 +79,8 @@ contains
             exit
          end if
          call unpack_state(packed(:, k), linear)
-         call demand_at(schedule, place(k), demand)
-         call find_equilibrium(suspension, demand, default_tolerance, linear, kkt, outcome)
+         call inputs_at(schedule, place(k), inputs)
+         call find_equilibrium(suspension, inputs, default_tolerance, linear, kkt, outcome)
          if (.not. outcome%is_converged) exit
          call motion_between(exact, linear, motion)
          if (.not. largest_motion(motion, kkt%length) <= apart) exit

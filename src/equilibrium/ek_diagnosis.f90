@@ -20,14 +20,14 @@ module ek_diagnosis
    use ek_element, only: axial_spring, bushing_element, element_label
    use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, condition, whole_tangent, material_only
-   use ek_motion_words, only: motion_words, place
+   use ek_motion_text, only: motion_text, body_parts, place
    use ek_singular_values, only: singular_values_t, decompose
    use ek_lapack, only: dsyev
    implicit none(type, external)
    private
-   public :: diagnosis_t, diagnose, softest_rate, scaled_parts
+   public :: diagnosis_t, diagnose, softest_rate, scaled_parts, modes
    public :: rank_tolerance, no_stiffness, rounding
 
    real(wp), parameter :: rank_tolerance = 1.0e-9_wp      !! of the largest singular value of scaled Φq
@@ -88,9 +88,9 @@ contains
       real(wp), allocatable :: jacobian(:, :), tangent(:, :), material(:, :)
       integer, allocatable :: rows(:)
 
-      call condition(suspension, state, demand_t(), kkt, diagnosis%rcond)
+      call condition(suspension, state, inputs_t(), kkt, diagnosis%rcond)
       diagnosis%negative = kkt%negative
-      call assemble(suspension, state, demand_t(), whole_tangent, kkt)
+      call assemble(suspension, state, inputs_t(), whole_tangent, kkt)
       call scaled_parts(suspension, kkt, rows, jacobian, tangent)
       call decompose(jacobian, rank_tolerance, parts, wants_null_space=.true.)
       diagnosis%unknowns = kkt%nq
@@ -106,7 +106,7 @@ contains
          diagnosis)
       if (diagnosis%freedoms == 0 .or. .not. present(wants_preload_held)) return
       if (.not. wants_preload_held) return
-      call assemble(suspension, state, demand_t(), material_only, kkt)
+      call assemble(suspension, state, inputs_t(), material_only, kkt)
       call scaled_parts(suspension, kkt, rows, jacobian, material)
       call name_preload_held(suspension, state, tangent, material, parts%right(:, parts%rank + 1:), kkt, diagnosis)
    end subroutine diagnose
@@ -228,17 +228,17 @@ contains
       allocate (free, source=pick(motions, is_free))
       call make_sparse(free)
       do k = 1, size(free, 2)
-         call diagnosis%mechanisms%add('mechanism: '//motion_words(suspension, state, kkt, free(:, k)))
+         call diagnosis%mechanisms%add('mechanism: '//motion_text(suspension, state, kkt, free(:, k)))
       end do
       do k = 1, size(eigenvalue)
          if (eigenvalue(k) < -noise(k)) call diagnosis%warnings%add('unstable at design (negative stiffness): '// &
-            motion_words(suspension, state, kkt, motions(:, k)))
+            motion_text(suspension, state, kkt, motions(:, k)))
       end do
       k = findloc(eigenvalue > noise, .true., dim=1)       ! the softest motion with a stiffness
       others = count(eigenvalue > noise .and. eigenvalue < soft_stiffness) - 1
       if (others < 0) return
       text = 'very soft ('//str(eigenvalue(k), 2)//' of the characteristic stiffness'// &
-         softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '//motion_words(suspension, state, kkt, motions(:, k))
+         softer_than(suspension, eigenvalue(k)*kkt%stiffness)//'): '//motion_text(suspension, state, kkt, motions(:, k))
       if (others > 0) text = text//'; and '//plural(others, 'motion', 'motions')//' more'
       call diagnosis%warnings%add(text)
    end subroutine name_mechanisms
@@ -269,7 +269,7 @@ contains
       call make_sparse(motions_held)
       do k = 1, size(motions_held, 2)
          call diagnosis%preload_held%add('held by preloads or loads alone; no spring, bushing or link resists it: '// &
-            motion_words(suspension, state, kkt, motions_held(:, k)))
+            motion_text(suspension, state, kkt, motions_held(:, k)))
       end do
    end subroutine name_preload_held
 
@@ -303,11 +303,7 @@ contains
    pure real(wp) function bodies_in(motion) result(bodies)
       real(wp), intent(in) :: motion(:)
       real(wp) :: part(size(motion)/6)
-      integer :: k
-
-      do k = 1, size(part)
-         part(k) = norm2(motion(6*k - 5:6*k))
-      end do
+      part = body_parts(motion)
       bodies = sum(part)**2/max(sum(part**2), tiny(1.0_wp))
    end function bodies_in
 
@@ -332,15 +328,8 @@ contains
       real(wp), intent(in) :: matrix(:, :)
       logical, intent(in) :: mask(:)
       real(wp), allocatable :: columns(:, :)
-      integer :: k, used
-
-      allocate (columns(size(matrix, 1), count(mask)))
-      used = 0
-      do k = 1, size(mask)
-         if (.not. mask(k)) cycle
-         used = used + 1
-         columns(:, used) = matrix(:, k)
-      end do
+      integer :: k
+      columns = matrix(:, pack([(k, k=1, size(mask))], mask))
    end function pick
 
    !> ", 3E+10 times softer than bushing 'x'"; empty if no bushing is much stiffer.

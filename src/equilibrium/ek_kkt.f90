@@ -13,14 +13,14 @@
 module ek_kkt
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_measure, only: view_t, look, add_measure_hessian
-   use ek_turn, only: pose_t
+   use ek_measure, only: evaluation_t, evaluate, add_measure_hessian
+   use ek_relative_rotation, only: pose_t
    use ek_block, only: add_block, add_gradient, add_s_block, rotated
-   use ek_element_force, only: element_view_t, look_element, add_element_tangent, add_element_material
+   use ek_element_force, only: element_evaluation_t, evaluate_element, add_element_tangent
    use ek_rotation, only: cross, skew
    use ek_vector, only: add_multiple, multiply
    use ek_suspension, only: suspension_t, load_t
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_scale, only: characteristic, scale_factors
    use ek_lapack, only: dsytrf, dsycon
    use ek_substitution, only: substitute
@@ -98,10 +98,10 @@ contains
    !>
    !> The residual is complete for material_only too; the recursion replaces it.
    !> Equation (K.1) of docs/theory/kkt.md.
-   pure subroutine assemble(suspension, state, demand, mode, kkt)
+   pure subroutine assemble(suspension, state, inputs, mode, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: mode                !! whole_tangent, material_only or residual_only
       type(kkt_t), intent(inout) :: kkt          !! matrix not yet scaled, rhs, gradients, values
 
@@ -110,45 +110,42 @@ contains
             'assemble: the system is of another model')
          call require(size(state%poses) == size(suspension%bodies) + 1 .and. size(state%reaction) == kkt%nc, &
             'assemble: the state is of another model')
-         call require(demand%loads <= size(demand%load) .and. all(demand%load(:demand%loads) <= size(suspension%loads)) .and. &
-            all(demand%row(:demand%rows) <= kkt%nc), 'assemble: the inputs are of another model')
+         call require(inputs%loads <= size(inputs%load) .and. all(inputs%load(:inputs%loads) <= size(suspension%loads)) .and. &
+            all(inputs%row(:inputs%rows) <= kkt%nc), 'assemble: the inputs are of another model')
       end if
       if (mode /= residual_only) kkt%stage = assembled
-      call assemble_into(suspension, state%poses, state%reaction, demand, mode, kkt%nq, kkt%n, kkt%gradients, &
+      call assemble_into(suspension, state%poses, state%reaction, inputs, mode, kkt%nq, kkt%n, kkt%gradients, &
          kkt%values, kkt%matrix, kkt%rhs)
-      if (demand%relief > 0.0_wp) call add_multiple(kkt%nq, -demand%relief, kkt%imbalance, kkt%rhs)
+      if (inputs%homotopy > 0.0_wp) call add_multiple(kkt%nq, -inputs%homotopy, kkt%imbalance, kkt%rhs)
    end subroutine assemble
 
    !> The same with explicit shapes, which the compiler turns into tight code.
    !> Equations (K.3), (K.4) of docs/theory/kkt.md.
    !> Equation (M.19) of docs/theory/measures.md.
    !> Equation (R.13) of docs/theory/rotations.md.
-   pure subroutine assemble_into(suspension, poses, reaction, demand, mode, nq, n, gradients, values, matrix, rhs)
+   pure subroutine assemble_into(suspension, poses, reaction, inputs, mode, nq, n, gradients, values, matrix, rhs)
       type(suspension_t), intent(in) :: suspension
       type(pose_t), intent(in) :: poses(0:*)     !! the chassis, then the bodies
       real(wp), intent(in) :: reaction(*)
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: mode, nq, n
       real(wp), intent(inout) :: gradients(12, *), values(*)
       real(wp), intent(inout) :: matrix(n, n), rhs(n)
-      type(view_t) :: view
-      type(element_view_t) :: element_view
+      type(evaluation_t) :: evaluation
+      type(element_evaluation_t) :: element_evaluation
       real(wp) :: value, force(3), moment(3), arm(3), block(3, 3)
       integer :: k, t, i, j, at_i, at_j
 
       rhs = 0.0_wp
       if (mode /= residual_only) then
-         do k = 1, n
-            matrix(k:n, k) = 0.0_wp
-            ! diagonal 3×3 blocks are added in full, including elements above the diagonal
-            if (k > 2) matrix(k - 2:k - 1, k) = 0.0_wp
-            if (k == 2) matrix(1, 2) = 0.0_wp
+         do k = 1, n    ! diagonal 3×3 blocks are added in full, including elements above the diagonal
+            matrix(max(k - 2, 1):n, k) = 0.0_wp
          end do
       end if
 
       do k = 1, size(suspension%loads)
          value = 1.0_wp
-         if (suspension%loads(k)%is_case) value = load_factor(demand, k)
+         if (suspension%loads(k)%is_case) value = load_factor(inputs, k)
          if (abs(value) <= 0.0_wp) cycle
          j = suspension%loads(k)%body
          at_j = 6*(j - 1)
@@ -174,13 +171,10 @@ contains
             j = element%measure%body_j
             at_i = 6*(i - 1)
             at_j = 6*(j - 1)
-            call look_element(element, poses(i), poses(j), element_view)
-            call add_gradient(-1.0_wp, element_view%pull, at_i, at_j, rhs)     ! the force ON the bodies is −dV/dz
-            if (mode == whole_tangent) then
-               call add_element_tangent(element, element_view, at_i, at_j, n, matrix)
-            else if (mode == material_only) then
-               call add_element_material(element, element_view, at_i, at_j, n, matrix)
-            end if
+            call evaluate_element(element, poses(i), poses(j), element_evaluation)
+            call add_gradient(-1.0_wp, element_evaluation%generalised_force, at_i, at_j, rhs)     ! ON the bodies: −dV/dz
+            if (mode /= residual_only) &
+               call add_element_tangent(element, element_evaluation, mode == material_only, at_i, at_j, n, matrix)
          end associate
       end do
 
@@ -192,22 +186,22 @@ contains
                j = term%measure%body_j
                at_i = 6*(i - 1)
                at_j = 6*(j - 1)
-               call look(term%measure, poses(i), poses(j), view)
-               value = value + term%coefficient*view%value
-               gradients(:, t) = term%coefficient*view%gradient
+               call evaluate(term%measure, poses(i), poses(j), evaluation)
+               value = value + term%coefficient*evaluation%value
+               gradients(:, t) = term%coefficient*evaluation%gradient
                call add_gradient(-reaction(k), gradients(:, t), at_i, at_j, rhs)
                if (mode /= residual_only) then
                   if (i > 0) matrix(nq + k, at_i + 1:at_i + 6) = matrix(nq + k, at_i + 1:at_i + 6) + gradients(1:6, t)
                   if (j > 0) matrix(nq + k, at_j + 1:at_j + 6) = matrix(nq + k, at_j + 1:at_j + 6) + gradients(7:12, t)
-                  if (mode == whole_tangent) call add_measure_hessian(term%measure%kind, view, &
+                  if (mode == whole_tangent) call add_measure_hessian(term%measure%kind, evaluation, &
                      reaction(k)*term%coefficient, at_i, at_j, n, matrix)
                end if
             end associate
          end do
          values(k) = value - suspension%rows(k)%target - suspension%rows(k)%compliance*reaction(k)
       end do
-      do k = 1, demand%rows
-         values(demand%row(k)) = values(demand%row(k)) - demand%change(k)
+      do k = 1, inputs%rows
+         values(inputs%row(k)) = values(inputs%row(k)) - inputs%change(k)
       end do
       do k = 1, size(suspension%rows)
          rhs(nq + k) = -values(k)
@@ -229,13 +223,13 @@ contains
    pure subroutine assemble_rate(suspension, state, rate, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: rate         !! derivative of the inputs with the path coordinate
+      type(inputs_t), intent(in) :: rate         !! derivative of the inputs with the path coordinate
       type(kkt_t), intent(inout) :: kkt          !! rhs
       real(wp) :: force(3), moment(3), arm(3)
       integer :: k, at
 
       kkt%rhs = 0.0_wp
-      if (abs(rate%relief) > 0.0_wp) call add_multiple(kkt%nq, -rate%relief, kkt%imbalance, kkt%rhs)
+      if (abs(rate%homotopy) > 0.0_wp) call add_multiple(kkt%nq, -rate%homotopy, kkt%imbalance, kkt%rhs)
       do k = 1, rate%loads
          associate (load => suspension%loads(rate%load(k)))
             at = 6*(load%body - 1)
@@ -250,15 +244,10 @@ contains
    end subroutine assemble_rate
 
    !> The scale factor of a case load: 0 if the inputs do not include it.
-   pure real(wp) function load_factor(demand, load)
-      type(demand_t), intent(in) :: demand
+   pure real(wp) function load_factor(inputs, load)
+      type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: load      !! number of the load
-      integer :: k
-
-      load_factor = 0.0_wp
-      do k = 1, demand%loads
-         if (demand%load(k) == load) load_factor = load_factor + demand%factor(k)
-      end do
+      load_factor = sum(inputs%factor(:inputs%loads), mask=inputs%load(:inputs%loads) == load)
    end function load_factor
 
    !> Scales the matrix and factorises it (Bunch–Kaufman, LAPACK dsytrf); sets the inertia.
@@ -353,16 +342,16 @@ contains
    end subroutine solve
 
    !> Reciprocal condition number of the scaled matrix at a state (LAPACK dsycon). Factorises.
-   pure subroutine condition(suspension, state, demand, kkt, rcond)
+   pure subroutine condition(suspension, state, inputs, kkt, rcond)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: rcond             !! 0: singular; 1: unit matrix
       real(wp) :: column
       integer :: i, j, info
 
-      call assemble(suspension, state, demand, whole_tangent, kkt)
+      call assemble(suspension, state, inputs, whole_tangent, kkt)
       kkt%norm = 0.0_wp
       do j = 1, kkt%n
          column = 0.0_wp

@@ -7,14 +7,14 @@ module ek_newton
    use ek_kinds, only: wp
    use ek_vector, only: add_multiple
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, move_as_screw
+   use ek_state, only: state_t, inputs_t, move_as_screw, largest_motion
    use ek_kkt, only: kkt_t, assemble, factorise, solve, whole_tangent, residual_only
    implicit none(type, external)
    private
    public :: outcome_t, find_equilibrium
 
-   integer, parameter :: most_iterations = 15   !! Newton's method converges quadratically: more would not help
-   integer, parameter :: most_chords = 4        !! steps with old factors: three cost less than one factorisation
+   integer, parameter :: max_iterations = 15   !! Newton's method converges quadratically: more would not help
+   integer, parameter :: max_chords = 4        !! steps with old factors: three cost less than one factorisation
    real(wp), parameter :: rest = 1.0e-6_wp      !! of the tolerance: allowed error of a state found with old factors
    real(wp), parameter :: good_chord = 0.03_wp  !! of the step before; with slower convergence new factors are cheaper
 
@@ -35,9 +35,9 @@ contains
 
    !> Newton's method to `tolerance`: the last correction of any body [m, rad × characteristic length].
    !> Equation (K.10) of docs/theory/kkt.md.
-   pure subroutine find_equilibrium(suspension, demand, tolerance, state, kkt, outcome)
+   pure subroutine find_equilibrium(suspension, inputs, tolerance, state, kkt, outcome)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       real(wp), intent(in) :: tolerance       !! m
       type(state_t), intent(inout) :: state   !! guess → equilibrium
       type(kkt_t), intent(inout) :: kkt
@@ -49,8 +49,8 @@ contains
       ! a correction longer than a quarter of the mechanism is useless: halve the increment
       largest = 0.25_wp*kkt%length + 0.05_wp
       previous = huge(previous)
-      do iteration = 1, most_iterations
-         call assemble(suspension, state, demand, whole_tangent, kkt)
+      do iteration = 1, max_iterations
+         call assemble(suspension, state, inputs, whole_tangent, kkt)
          call factorise(kkt)
          outcome%factorisations = iteration
          outcome%negative = kkt%negative
@@ -66,10 +66,10 @@ contains
          if (0.5_wp*outcome%last > previous) return   ! not 2*previous: huge at first
          previous = outcome%last
          is_done = .false.
-         do chord = 1, most_chords
+         do chord = 1, max_chords
             if (.not. outcome%last < 0.01_wp*kkt%length) exit
             before = outcome%last
-            call assemble(suspension, state, demand, residual_only, kkt)
+            call assemble(suspension, state, inputs, residual_only, kkt)
             call take_step(state, kkt, before, outcome%last)
             if (.not. outcome%last <= good_chord*before) exit
             ! the next step would be shorter by the same ratio
@@ -89,28 +89,10 @@ contains
       real(wp), intent(out) :: length     !! largest |Δr|, |Δπ| × characteristic length [m]
 
       call solve(kkt)
-      length = step_length(kkt%rhs(:kkt%nq), kkt%length)
+      length = largest_motion(kkt%rhs(:kkt%nq), kkt%length)
       if (.not. length < limit) return
       call add_multiple(kkt%nc, 1.0_wp, kkt%rhs(kkt%nq + 1:), state%reaction)
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine take_step
-
-   !> The largest translation or rotation × length of any body.
-   !> Equation (K.11) of docs/theory/kkt.md.
-   pure real(wp) function step_length(step, length)
-      real(wp), contiguous, intent(in) :: step(:)
-      real(wp), intent(in) :: length
-      real(wp) :: square
-      integer :: k
-
-      square = 0.0_wp
-      do k = 1, size(step), 6
-         square = max(square, step(k)**2 + step(k + 1)**2 + step(k + 2)**2, &
-            length**2*(step(k + 3)**2 + step(k + 4)**2 + step(k + 5)**2))
-         ! max() may drop a NaN: return it
-         if (.not. step(k) + step(k + 3) < huge(square)) square = huge(square)
-      end do
-      step_length = sqrt(square)
-   end function step_length
 
 end module ek_newton

@@ -4,10 +4,11 @@
 !> its determinant is proportional to the square of that of Φq. No memory is allocated after new_orientation.
 module ek_orientation
    use ek_kinds, only: wp
+   use ek_relative_rotation, only: pose_t
+   use ek_vector, only: add_multiple
+   use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: add_gradient
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t
-   use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_lapack, only: dgesv
    implicit none(type, external)
    private
@@ -15,13 +16,18 @@ module ek_orientation
 
    !> Of the largest pivot of Φq Φqᵀ: some 1e-5 rad from a loss of rank, where Newton's method loses half of its digits
    real(wp), parameter :: vanished = 2.5e-11_wp
-   !> The share of the same pivot of Φq(a) Φq(b)ᵀ: b lies so much nearer to a loss of rank than a that its side means nothing
-   real(wp), parameter :: near = 1.0e-2_wp
+   !> The share of the smallest pivot at a: b lies so much nearer to a loss of rank than a that its side means nothing
+   real(wp), parameter :: near = 1.0e-4_wp
+   !> m, and of a quaternion: poses as near as this are the same but for rounding
+   real(wp), parameter :: same = 1.0e-12_wp
 
    !> The rigid rows (all except drivers with a stiffness), and work space.
    type :: orientation_t
       private
-      real(wp), allocatable :: rows_a(:, :), rows_b(:, :), product(:, :), unit(:, :)   !! scaled Φq
+      real(wp), allocatable :: rows_a(:, :), rows_b(:, :)  !! scaled Φq: (unknown, row)
+      type(pose_t), allocatable :: poses_b(:)              !! of rows_b
+      real(wp) :: min_b = 0.0_wp                         !! smallest pivot of Φq Φqᵀ there, as a share of the largest
+      real(wp), allocatable :: product(:, :), factors(:, :), unit(:, :)
       integer, allocatable :: held(:), pivots(:)
       integer, allocatable :: touching(:, :), count(:)     !! held rows that touch a body, and how many
    end type orientation_t
@@ -35,11 +41,11 @@ contains
       integer :: k, n, body
 
       n = count(.not. suspension%rows%compliance > 0.0_wp)
-      allocate (self%held(n))
-      self%held(:) = pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp)
+      allocate (self%held, source=pack([(k, k=1, suspension%constraints())], .not. suspension%rows%compliance > 0.0_wp))
       allocate (self%rows_a(suspension%unknowns(), n), self%rows_b(suspension%unknowns(), n), self%product(n, n), &
-         self%unit(n, 1), source=0.0_wp)
+         self%factors(n, n), self%unit(n, 1), source=0.0_wp)
       allocate (self%pivots(n), source=0)
+      allocate (self%poses_b(size(suspension%bodies) + 1), source=pose_t(r=huge(1.0_wp)))     ! not those of any state
       allocate (self%touching(n, size(suspension%bodies)), self%count(size(suspension%bodies)), source=0)
       do body = 1, size(suspension%bodies)
          do k = 1, n
@@ -54,85 +60,129 @@ contains
    end function new_orientation
 
    !> Compares two states: det(Φq(a) Φq(b)ᵀ) < 0, and whether Φq loses rank at b itself, where that sign means nothing.
+   !>
+   !> x·Φq(a) Φq(b)ᵀ x > 0 for all x means a positive determinant; otherwise its sign is that of the LU factors.
    !> Equation (K.17) of docs/theory/kkt.md.
-   subroutine compare_orientation(self, suspension, state_a, state_b, demand_a, demand_b, kkt, is_turned_over, is_singular)
+   pure subroutine compare_orientation(self, suspension, poses_a, poses_b, scale, is_turned_over, is_singular)
       type(orientation_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state_a, state_b
-      type(demand_t), intent(in) :: demand_a, demand_b
-      type(kkt_t), intent(inout) :: kkt
+      type(pose_t), intent(in) :: poses_a(:), poses_b(:)   !! of the chassis and the bodies
+      real(wp), intent(in) :: scale(:)                     !! of the unknowns, then of the rows: D of ek_scale
       logical, intent(out) :: is_turned_over, is_singular
-      real(wp) :: least, at_end
+      real(wp), allocatable :: rows(:, :)
+      real(wp) :: min_a, least
+      integer :: k, n, info
 
-      call assemble(suspension, state_b, demand_b, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_a)
-      self%rows_b = self%rows_a
-      call multiply_out(self, is_turned_over, least)
-      at_end = least
-      call assemble(suspension, state_a, demand_a, residual_only, kkt)
-      call gather_rows(self, suspension, kkt, self%rows_a)
-      call multiply_out(self, is_turned_over, least)
-      is_singular = at_end < vanished .or. at_end < near*least
+      n = size(self%held)
+      is_turned_over = .false.
+      is_singular = .false.
+      if (n == 0) return
+      min_a = self%min_b
+      if (are_same(poses_a, self%poses_b)) then            ! b of the last comparison
+         call move_alloc(self%rows_a, rows)
+         call move_alloc(self%rows_b, self%rows_a)
+         call move_alloc(rows, self%rows_b)
+      else
+         call gather_rows(self, suspension, poses_a, scale, self%rows_a)
+         call multiply_out(self, self%rows_a, self%rows_a, self%factors)
+         call eliminate(n, self%factors, min_a)
+      end if
+      call gather_rows(self, suspension, poses_b, scale, self%rows_b)
+      call multiply_out(self, self%rows_b, self%rows_b, self%factors)
+      call eliminate(n, self%factors, self%min_b)
+      self%poses_b(:) = poses_b
+      is_singular = self%min_b < vanished .or. self%min_b < near*min_a
+
+      call multiply_out(self, self%rows_a, self%rows_b, self%product)
+      do k = 1, n
+         self%factors(k:, k) = self%product(k:, k) + self%product(k, k:)
+      end do
+      call eliminate(n, self%factors, least)
+      if (least > 0.0_wp) return
+      self%unit = 0.0_wp      ! for the LU factors; without a right-hand side OpenBLAS would not compute them
+      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
+      if (info /= 0) return
+      do k = 1, n
+         if ((self%product(k, k) < 0.0_wp) .neqv. self%pivots(k) /= k) is_turned_over = .not. is_turned_over
+      end do
    end subroutine compare_orientation
 
-   !> The sign of det(Φq(a) Φq(b)ᵀ), from the gathered rows, and the smallest of its pivots as a share of the largest.
-   subroutine multiply_out(self, is_negative, least)
-      type(orientation_t), intent(inout) :: self
-      logical, intent(out) :: is_negative
-      real(wp), intent(out) :: least
-      real(wp) :: pivot, most
-      integer :: i, j, k, l, body, n, info
+   !> Whether poses are the same but for rounding.
+   pure logical function are_same(a, b)
+      type(pose_t), intent(in) :: a(:), b(:)
+      integer :: k
 
-      is_negative = .false.
-      least = 1.0_wp
-      n = size(self%held)
-      if (n == 0) return
-      self%product = 0.0_wp
+      are_same = .false.
+      do k = 1, size(a)
+         if (.not. (maxval(abs(a(k)%r - b(k)%r)) <= same .and. maxval(abs(a(k)%q - b(k)%q)) <= same)) return
+      end do
+      are_same = .true.
+   end function are_same
+
+   !> The products a·b of all rows.
+   pure subroutine multiply_out(self, rows_a, rows_b, product)
+      type(orientation_t), intent(in) :: self
+      real(wp), intent(in) :: rows_a(6, size(self%count), *), rows_b(6, size(self%count), *)
+      real(wp), intent(out) :: product(:, :)
+      integer :: i, j, k, l, body
+
+      product = 0.0_wp
       do body = 1, size(self%count)
          do j = 1, self%count(body)
             l = self%touching(j, body)
             do i = 1, self%count(body)
                k = self%touching(i, body)
-               self%product(k, l) = self%product(k, l) &
-                  + dot_product(self%rows_a(6*body - 5:6*body, k), self%rows_b(6*body - 5:6*body, l))
+               product(k, l) = product(k, l) + dot_product(rows_a(:, body, k), rows_b(:, body, l))
             end do
          end do
       end do
-      ! for the LU factors; without a right-hand side OpenBLAS would not compute them
-      self%unit = 0.0_wp
-      call dgesv(n, 1, self%product, n, self%pivots, self%unit, n, info)
-      least = 0.0_wp
-      if (info /= 0) return
+   end subroutine multiply_out
+
+   !> Gauss's elimination of a sparse symmetric matrix, of which only the lower half is used.
+   pure subroutine eliminate(n, matrix, least)
+      integer, intent(in) :: n
+      real(wp), intent(inout) :: matrix(n, n)
+      real(wp), intent(out) :: least         !! the smallest pivot as a share of the largest; 0: it is not positive definite
+      real(wp) :: most
+      integer :: i, k
+
       least = huge(least)
       most = 0.0_wp
       do k = 1, n
-         pivot = self%product(k, k)
-         least = min(least, abs(pivot))
-         most = max(most, abs(pivot))
-         if (pivot < 0.0_wp) is_negative = .not. is_negative
-         if (self%pivots(k) /= k) is_negative = .not. is_negative
+         least = min(least, matrix(k, k))
+         most = max(most, matrix(k, k))
+         if (.not. matrix(k, k) > 0.0_wp) exit
+         do i = k + 1, n
+            if (.not. abs(matrix(i, k)) > 0.0_wp) cycle
+            call add_multiple(n - i + 1, -matrix(i, k)/matrix(k, k), matrix(i:, k), matrix(i:, i))
+         end do
       end do
-      least = least/most
-   end subroutine multiply_out
+      least = max(least, 0.0_wp)/max(most, tiny(most))
+   end subroutine eliminate
 
-   !> Scaled Φq of the rigid rows, from the gradients of the last assembly.
-   pure subroutine gather_rows(self, suspension, kkt, rows)
+   !> Scaled Φq of the rigid rows.
+   pure subroutine gather_rows(self, suspension, poses, scale, rows)
       type(orientation_t), intent(in) :: self
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt
+      type(pose_t), intent(in) :: poses(0:)                  !! the chassis, then the bodies
+      real(wp), intent(in) :: scale(:)
       real(wp), contiguous, intent(inout) :: rows(:, :)      !! (unknown, row)
-      integer :: k, t
+      type(evaluation_t) :: evaluation
+      integer :: k, t, nq
 
+      nq = size(rows, 1)
       rows = 0.0_wp
       do k = 1, size(self%held)
          associate (row => suspension%rows(self%held(k)))
             do t = row%first, row%first + row%terms - 1
                associate (m => suspension%terms(t)%measure)
-                  call add_gradient(1.0_wp, kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), rows(:, k))
+                  call evaluate(m, poses(m%body_i), poses(m%body_j), evaluation)
+                  call add_gradient(suspension%terms(t)%coefficient, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), &
+                     rows(:, k))
                end associate
             end do
          end associate
-         rows(:, k) = rows(:, k)*(kkt%scale(kkt%nq + self%held(k))*kkt%scale(:kkt%nq))
+         rows(:, k) = rows(:, k)*(scale(nq + self%held(k))*scale(:nq))
       end do
    end subroutine gather_rows
 

@@ -7,23 +7,23 @@ module ek_path
    use ek_kinds, only: wp
    use ek_case, only: case_t, follows_table
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state, coordinates, pack_state, unpack_state
-   use ek_schedule, only: schedule_t, new_schedule, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, coordinates, pack_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: start_recursion, recursive_increment, corrected_increment, check_increment
-   use ek_branch, only: branch_t, new_branch, leave, note_crossing, most_crossings
+   use ek_branch, only: branch_t, new_branch, leave, note_crossing, max_crossings
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
-   use ek_arc_survey, only: survey_t, survey, go_to, length_at, tell_limits, most_limits, arrived
-   use ek_predictor, only: predictor_t, new_predictor, remember, forget, depth
+   use ek_arc_survey, only: survey_t, survey, go_to, length_at, print_limits, max_limits, arrived
+   use ek_predictor, only: predictor_t, remember, forget, depth
    implicit none(type, external)
    private
    public :: path_t, sweep, new_path, walk, progress_procedure
 
-   real(wp), parameter :: least_step = 4.0e-10_wp     !! of the range: resolution of the end of a path
+   real(wp), parameter :: min_step = 4.0e-10_wp     !! of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
-   real(wp), parameter :: least_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
+   real(wp), parameter :: min_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
 
    abstract interface
       !> Called at intervals with the number of states done and the total.
@@ -46,10 +46,10 @@ module ek_path
       logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
       logical :: is_table = .false.               !! rows of a table, each an independent state
       integer :: crossings = 0                    !! number of bifurcations on the path
-      real(wp) :: crossing_place(most_crossings) = 0.0_wp   !! their places
+      real(wp) :: crossing_place(max_crossings) = 0.0_wp   !! their places
       integer :: limits = 0                       !! number of limit points (follow = 'arc'), and their places
-      real(wp) :: limit_place(2*most_limits) = 0.0_wp
-      integer :: limit_state(2*most_limits) = 0   !! index of the nearest state; 0: before the range begins
+      real(wp) :: limit_place(2*max_limits) = 0.0_wp
+      integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
       type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
    end type path_t
 
@@ -57,10 +57,9 @@ module ek_path
    type :: walk_t
       type(state_t) :: state
       real(wp) :: here = 0.0_wp        !! value of the path coordinate, and inputs; of the linear methods
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       type(schedule_t) :: schedule
       real(wp), allocatable :: held(:)     !! of the recursion
-      type(predictor_t) :: predictor
       type(branch_t) :: branch
       type(arc_t) :: arc
       logical :: is_along_arc = .false.
@@ -88,7 +87,7 @@ contains
       ends = ways(path)
       do w = 1, size(ends, 2)
          call confirm(suspension, new_schedule(suspension, case), path%value, path%packed, ends(1, w), ends(2, w), &
-            least_step*span(path), kkt, path%is_reached, path%failure(w))
+            min_step*span(path), kkt, path%is_reached, path%failure(w))
       end do
    end subroutine sweep
 
@@ -189,7 +188,7 @@ contains
                cycle
             end if
             if (path%failure(1)%state == 0) path%failure(1) = failure
-            self%branch%least = least_of_row
+            self%branch%least = min_of_row
             self%schedule%rest = nint(path%value(k))
             call restart(self, suspension, case, path, kkt)
          end do
@@ -204,7 +203,7 @@ contains
          direction = sign(1, last - first)
          call restart(self, suspension, case, path, kkt)
          if (first == path%start) then
-            call seed(self%predictor, path, first, -direction)
+            call seed(self%branch%predictor, path, first, -direction)
          else
             steps = max(1, nint(abs(path%value(first))/abs(path%value(2) - path%value(1))))
             do k = 1, steps
@@ -231,11 +230,10 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       self%schedule = new_schedule(suspension, case)
-      self%predictor = new_predictor(size(path%settled))
       self%branch = new_branch(suspension)
       self%is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
       if (self%is_along_arc) self%arc = new_arc(suspension, self%schedule, kkt%length, maxval(abs(path%value)), case%tolerance)
-      self%branch%least = least_step*span(path)
+      self%branch%least = min_step*span(path)
       self%branch%width = crossing_step*span(path)
       self%state = design_state(suspension)
       path%limits = 0
@@ -269,8 +267,8 @@ contains
       path%pivot_ratio(k) = kkt%pivot_ratio
       if (kkt%pivot_ratio < suspect .and. case%method /= 'recursive') then
          ! a small pivot may be one of a well-conditioned matrix
-         call demand_at(self%schedule, path%value(k), self%demand)
-         call condition(suspension, self%state, self%demand, kkt, rcond)
+         call inputs_at(self%schedule, path%value(k), self%inputs)
+         call condition(suspension, self%state, self%inputs, kkt, rcond)
          path%pivot_ratio(k) = max(path%pivot_ratio(k), rcond)
       end if
       self%done = self%done + 1
@@ -297,7 +295,7 @@ contains
       direction = sign(1, last - first)
       associate (arc => self%arc)
          call survey(arc, suspension, path%settled, path%value(first), path%value(last), kkt, found)
-         call tell_limits(found, first, last, path%limits, path%limit_place, path%limit_state)
+         call print_limits(found, first, last, path%limits, path%limit_place, path%limit_state)
          do k = 1, found%crossings
             call note_crossing(self%branch, found%crossing_place(k))
          end do
@@ -333,11 +331,9 @@ contains
 
       call unpack_state(path%settled, self%state)
       self%here = self%schedule%rest
-      call demand_at(self%schedule, self%here, self%demand)
+      call inputs_at(self%schedule, self%here, self%inputs)
       if (case%method == 'recursive') call start_recursion(suspension, self%state, kkt, self%held)
-      call forget(self%predictor)
-      call remember(self%predictor, self%here, path%settled)
-      call leave(self%branch, self%negative)
+      call leave(self%branch, self%here, path%settled, self%negative)
    end subroutine restart
 
    !> Uses the states of the other direction to predict the first states of this one.
@@ -369,23 +365,23 @@ contains
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
-      type(demand_t) :: next
+      type(inputs_t) :: next
 
       if (case%method == 'equilibrium') then
-         call reach(suspension, self%schedule, value, case%tolerance, self%predictor, self%branch, self%state, kkt, &
+         call reach(suspension, self%schedule, value, case%tolerance, self%branch, self%state, kkt, &
             path%iterations(k), failure)
          if (failure%state > 0) failure%state = k
          return
       end if
-      call demand_at(self%schedule, value, next)
+      call inputs_at(self%schedule, value, next)
       if (case%method == 'recursive') then
-         call recursive_increment(suspension, self%demand, next, self%state, kkt, self%held)
+         call recursive_increment(suspension, self%inputs, next, self%state, kkt, self%held)
       else
          call corrected_increment(suspension, next, self%state, kkt)
       end if
       path%iterations(k) = 1
       call check_increment(kkt, k, self%here, value, failure)
-      self%demand = next
+      self%inputs = next
       self%here = value
    end subroutine advance
 

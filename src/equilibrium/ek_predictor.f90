@@ -79,8 +79,8 @@ contains
       real(wp), contiguous, intent(in) :: packed(:)
       integer, intent(in) :: used
       logical, intent(in) :: is_good
-      real(wp) :: weight(depth), error, least, expected
-      integer :: slot(depth), most, n, j, k
+      real(wp) :: weight(depth), error, least
+      integer :: slot(depth), most, n, k
 
       if (is_good) then
          self%trusted = min(self%trusted + 1, depth)
@@ -92,11 +92,7 @@ contains
          call find_weights(self, abscissa, n, slot, weight)
          error = 0.0_wp
          do k = 1, used
-            expected = 0.0_wp
-            do j = 1, n
-               expected = expected + weight(j)*self%packed(k, slot(j))
-            end do
-            error = max(error, abs(expected - packed(k)))
+            error = max(error, abs(sum(weight(:n)*self%packed(k, slot(:n))) - packed(k)))
          end do
          if (error >= least) cycle
          least = error

@@ -3,13 +3,13 @@
 module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, coordinates, pack_state, unpack_state
-   use ek_schedule, only: schedule_t, demand_at
+   use ek_state, only: state_t, inputs_t, pack_state, unpack_state
+   use ek_schedule, only: schedule_t, inputs_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_predictor, only: predictor_t, new_predictor, remember, predict, judge
+   use ek_predictor, only: predictor_t, remember, predict, judge
    use ek_factors, only: keep
-   use ek_branch, only: branch_t, new_branch, leave, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
+   use ek_branch, only: branch_t, new_branch, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
       is_near_zero, long, tiny_step, same_branch, crossing, doubtful
    implicit none(type, external)
    private
@@ -20,7 +20,7 @@ module ek_reach
    integer, parameter :: quick = 6                    !! iterations: Newton's method needs more only where N is singular
    real(wp), parameter :: coarse = 10.0_wp            !! of branch%width: a step across a loss of rank of the joints
    real(wp), parameter :: away = 0.6_wp               !! of a step that ends at one: the next
-   integer, parameter :: most_attempts = 400          !! per increment
+   integer, parameter :: max_attempts = 400          !! per increment
 
    !> Where and how a sweep stopped.
    type :: failure_t
@@ -40,7 +40,7 @@ module ek_reach
    !> A step from the newest stored state, a, to b.
    type :: step_t
       real(wp) :: place = 0.0_wp                 !! of b
-      type(demand_t) :: demand_a, demand_b
+      type(inputs_t) :: inputs_a, inputs_b
       type(outcome_t) :: outcome                 !! of the iteration to b
       integer :: verdict = doubtful              !! of ek_branch
       logical :: was_compared = .false.
@@ -59,32 +59,29 @@ contains
       type(state_t), intent(inout) :: state      !! design → equilibrium
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
-      type(predictor_t) :: predictor
       type(branch_t) :: branch
       type(schedule_t) :: schedule
-      real(wp), parameter :: least_share = 1.0e-6_wp
+      real(wp), parameter :: min_share = 1.0e-6_wp
       integer :: iterations
 
-      call assemble(suspension, state, demand_t(), residual_only, kkt)
+      call assemble(suspension, state, inputs_t(), residual_only, kkt)
       kkt%imbalance = kkt%rhs(:kkt%nq)
-      predictor = new_predictor(coordinates(suspension))
       branch = new_branch(suspension)
-      branch%least = least_share
-      call store(predictor, 0.0_wp, state, .true.)
+      branch%least = min_share
+      call store(branch%predictor, 0.0_wp, state, .true.)
       schedule%is_settling = .true.
-      call reach(suspension, schedule, 1.0_wp, tolerance, predictor, branch, state, kkt, iterations, failure)
+      call reach(suspension, schedule, 1.0_wp, tolerance, branch, state, kkt, iterations, failure)
    end subroutine settle
 
    !> Goes from the newest stored state to equilibrium at the swept value `goal` of a path, in one step if the path allows it.
    !>
    !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
    !> accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
-   subroutine reach(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, iterations, failure)
+   subroutine reach(suspension, schedule, goal, tolerance, branch, state, kkt, iterations, failure)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal               !! place
       real(wp), intent(in) :: tolerance          !! m
-      type(predictor_t), intent(inout) :: predictor
       type(branch_t), intent(inout) :: branch    !! branch of the newest stored state
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
@@ -96,18 +93,18 @@ contains
       real(wp) :: beyond      ! the nearest swept value known behind a bifurcation
       logical :: is_there, knows_beyond, is_last_try
 
-      here = predictor%abscissa(predictor%newest)
-      call demand_at(schedule, here, step%demand_a)
+      here = branch%predictor%abscissa(branch%predictor%newest)
+      call inputs_at(schedule, here, step%inputs_a)
       knows_beyond = .false.
       is_last_try = .false.
       beyond = 0.0_wp
-      points = predictor%trusted
+      points = branch%predictor%trusted
       width = goal - here
-      do attempt = 1, most_attempts
+      do attempt = 1, max_attempts
          step%place = here + width
          if (abs(width) >= abs(goal - here)) step%place = goal
-         call find_end(suspension, schedule, points, branch%has_tangent, tolerance, predictor, branch, state, kkt, step)
-         call judge_end(suspension, tolerance, predictor, branch, state, kkt, step)
+         call find_end(suspension, schedule, points, branch%has_tangent, tolerance, branch, state, kkt, step)
+         call judge_end(suspension, tolerance, branch, state, kkt, step)
          iterations = step%iterations
          if (step%verdict == crossing) then
             if (abs(step%place - here) > across(branch) .and. .not. is_last_try) then
@@ -120,12 +117,12 @@ contains
          end if
          if (step%verdict == same_branch) then
             call accept(branch, step%outcome, kkt, step%was_compared)
-            call store(predictor, step%place, state, step%outcome%factorisations == 1)
+            call store(branch%predictor, step%place, state, step%outcome%factorisations == 1)
             ! no polynomial goes round a corner
-            if (step%was_compared .and. branch%was_bent) predictor%trusted = min(predictor%trusted, 2)
+            if (step%was_compared .and. branch%was_bent) branch%predictor%trusted = min(branch%predictor%trusted, 2)
             here = step%place
             if (abs(goal - here) <= 0.0_wp) return
-            step%demand_a = step%demand_b
+            step%inputs_a = step%inputs_b
             width = 2.0_wp*width
             if (is_last_try) knows_beyond = .false.
             is_last_try = .false.
@@ -136,7 +133,7 @@ contains
          width = merge(away, 0.5_wp, branch%is_singular)*(step%place - here)
          if ((branch%is_singular .or. abs(width) < branch%least) .and. abs(goal - here) <= across(branch) &
             .and. .not. schedule%is_settling) then
-            call step_over(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, step, is_there)
+            call step_over(suspension, schedule, goal, tolerance, branch, state, kkt, step, is_there)
             iterations = step%iterations
             if (is_there) return
          end if
@@ -148,41 +145,38 @@ contains
             width = beyond - here
          end if
       end do
-      call blame(suspension, predictor, step, state, kkt, failure)
+      call blame(suspension, branch%predictor, step, state, kkt, failure)
    end subroutine reach
 
    !> Predicts the state at step%place, along the tangent or from earlier states, and iterates to equilibrium.
-   subroutine find_end(suspension, schedule, points, has_tangent, tolerance, predictor, branch, state, kkt, step)
+   subroutine find_end(suspension, schedule, points, has_tangent, tolerance, branch, state, kkt, step)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       integer, intent(in) :: points              !! earlier states that may be used
       logical, intent(in) :: has_tangent         !! use it rather than two states
       real(wp), intent(in) :: tolerance
-      type(predictor_t), intent(inout) :: predictor
       type(branch_t), intent(inout) :: branch
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(step_t), intent(inout) :: step
 
-      call demand_at(schedule, step%place, step%demand_b)
-      if (has_tangent .and. min(points, predictor%count) <= 2) then
-         call unpack_state(predictor%packed(:, predictor%newest), state)
-         call go_along(branch, step%place - predictor%abscissa(predictor%newest), state)
-         call pack_state(state, predictor%guess)
+      call inputs_at(schedule, step%place, step%inputs_b)
+      if (has_tangent .and. min(points, branch%predictor%count) <= 2) then
+         call go_along(branch, step%place, state)
+         call pack_state(state, branch%predictor%guess)
       else
-         call predict(predictor, step%place, points)
-         call unpack_state(predictor%guess, state)
+         call predict(branch%predictor, step%place, points)
+         call unpack_state(branch%predictor%guess, state)
       end if
       call keep(branch%factors, kkt)
-      call find_equilibrium(suspension, step%demand_b, tolerance, state, kkt, step%outcome)
+      call find_equilibrium(suspension, step%inputs_b, tolerance, state, kkt, step%outcome)
       step%iterations = step%iterations + step%outcome%factorisations
    end subroutine find_end
 
    !> Whether the end of a step is on the path: the prediction was close, or a comparison with the beginning says so.
-   subroutine judge_end(suspension, tolerance, predictor, branch, state, kkt, step)
+   subroutine judge_end(suspension, tolerance, branch, state, kkt, step)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance
-      type(predictor_t), intent(in) :: predictor
       type(branch_t), intent(inout) :: branch
       type(state_t), intent(in) :: state
       type(kkt_t), intent(inout) :: kkt
@@ -192,15 +186,16 @@ contains
       step%verdict = doubtful
       associate (outcome => step%outcome)
          branch%is_singular = is_near_zero(branch, outcome) .or. (outcome%factorisations > quick .and. is_uneven(branch, outcome))
-         if (abs(step%place - predictor%abscissa(predictor%newest)) <= tiny_step*branch%least) branch%is_singular = .false.
+         if (abs(step%place - branch%predictor%abscissa(branch%predictor%newest)) <= tiny_step*branch%least) &
+            branch%is_singular = .false.
          if (branch%is_singular .or. .not. outcome%is_converged) return
          step%verdict = same_branch
-         step%was_compared = .not. is_foreseen(predictor, state, outcome%negative, branch%negative, tolerance, kkt%length, is_long)
+         step%was_compared = .not. is_foreseen(branch%predictor, state, outcome%negative, branch%negative, tolerance, &
+            kkt%length, is_long)
          is_long = is_long .or. is_uneven(branch, outcome)
-         if (is_long .and. .not. step%was_compared) step%was_compared = is_overturning(branch, suspension, predictor, &
-            step%demand_a, state, step%demand_b, kkt)
+         if (is_long .and. .not. step%was_compared) step%was_compared = is_overturning(branch, suspension, state, kkt%scale)
          if (.not. step%was_compared) return
-         call compare(branch, suspension, predictor, step%demand_a, step%demand_b, step%place, state, outcome, kkt, step%verdict)
+         call compare(branch, suspension, step%inputs_a, step%inputs_b, step%place, state, outcome, kkt, step%verdict)
          step%iterations = step%iterations + branch%factorisations
          kkt%pivot_ratio = outcome%pivot_ratio
       end associate
@@ -208,11 +203,10 @@ contains
 
    !> The goal itself is a bifurcation: N is singular there. The path is taken up again just behind it, and the state is what
    !> lies between; the width is so small that the path is straight.
-   subroutine step_over(suspension, schedule, goal, tolerance, predictor, branch, state, kkt, step, is_there)
+   subroutine step_over(suspension, schedule, goal, tolerance, branch, state, kkt, step, is_there)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal, tolerance
-      type(predictor_t), intent(inout) :: predictor
       type(branch_t), intent(inout) :: branch
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
@@ -222,21 +216,23 @@ contains
       integer :: older
 
       is_there = .false.
-      here = predictor%abscissa(predictor%newest)
+      here = branch%predictor%abscissa(branch%predictor%newest)
       step%place = goal + sign(across(branch), goal - here)
-      call find_end(suspension, schedule, 2, .false., tolerance, predictor, branch, state, kkt, step)
+      call find_end(suspension, schedule, 2, .false., tolerance, branch, state, kkt, step)
       if (.not. step%outcome%is_converged) return
-      call compare(branch, suspension, predictor, step%demand_a, step%demand_b, step%place, state, step%outcome, kkt, step%verdict)
+      call compare(branch, suspension, step%inputs_a, step%inputs_b, step%place, state, step%outcome, kkt, step%verdict)
       step%iterations = step%iterations + branch%factorisations
       if (step%verdict == doubtful) return
       if (step%verdict == crossing) call note_crossing(branch, goal)
       call accept(branch, step%outcome, kkt, .true.)
       ! the next step begins behind the bifurcation: at it the joints may be on either side
-      older = predictor%newest
+      older = branch%predictor%newest
       share = (goal - here)/(step%place - here)
-      call store(predictor, step%place, state, .false.)
-      predictor%guess = (1.0_wp - share)*predictor%packed(:, older) + share*predictor%packed(:, predictor%newest)
-      call unpack_state(predictor%guess, state)
+      call store(branch%predictor, step%place, state, .false.)
+      associate (past => branch%predictor)
+         past%guess = (1.0_wp - share)*past%packed(:, older) + share*past%packed(:, past%newest)
+         call unpack_state(past%guess, state)
+      end associate
       is_there = .true.
    end subroutine step_over
 
@@ -316,13 +312,11 @@ contains
             failure%body = k - 1
          end if
       end do
-      call assemble(suspension, state, step%demand_b, residual_only, kkt)
-      do k = 1, kkt%nc
-         if (abs(kkt%values(k)) > abs(failure%gap)) then
-            failure%gap = kkt%values(k)
-            failure%row = k
-         end if
-      end do
+      call assemble(suspension, state, step%inputs_b, residual_only, kkt)
+      if (any(abs(kkt%values) > 0.0_wp)) then
+         failure%row = maxloc(abs(kkt%values), dim=1)
+         failure%gap = kkt%values(failure%row)
+      end if
       state = before
    end subroutine blame
 

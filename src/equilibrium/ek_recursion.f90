@@ -4,7 +4,7 @@ module ek_recursion
    use ek_vector, only: add_multiple
    use ek_block, only: add_gradient
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, demand_rate, move, move_as_screw
+   use ek_state, only: state_t, inputs_t, inputs_rate, move, move_as_screw
    use ek_kkt, only: kkt_t, assemble, assemble_rate, factorise, solve, whole_tangent, material_only
    use ek_reach, only: failure_t
    implicit none(type, external)
@@ -26,12 +26,8 @@ contains
 
       allocate (held(kkt%nq), source=0.0_wp)
       state%reaction = 0.0_wp
-      call assemble(suspension, state, demand_t(), material_only, kkt)
-      call factorise(kkt)
-      if (kkt%is_singular) return
-      call solve(kkt)
-      state%reaction(:) = kkt%rhs(kkt%nq + 1:)
-      call gather(suspension, kkt, state%reaction, held)
+      call assemble(suspension, state, inputs_t(), material_only, kkt)
+      call solve_and_hold(suspension, state, kkt, held)
    end subroutine start_recursion
 
    !> One increment of Kang (2005), eqs. (25)–(29), literally:
@@ -43,24 +39,20 @@ contains
    !> Equations (K.8), (K.9) of docs/theory/kkt.md.
    pure subroutine recursive_increment(suspension, before, after, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
+      type(inputs_t), intent(in) :: before, after     !! the inputs at both ends, with the same items in the same order
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(inout) :: held(:)              !! of start_recursion
       integer :: k
 
       call assemble(suspension, state, before, material_only, kkt)
-      call assemble_rate(suspension, state, demand_rate(before, after, 1.0_wp), kkt)
+      call assemble_rate(suspension, state, inputs_rate(before, after, 1.0_wp), kkt)
       call add_multiple(kkt%nq, 1.0_wp, held, kkt%rhs)
       do k = 1, kkt%nc
          kkt%rhs(kkt%nq + k) = kkt%rhs(kkt%nq + k) - suspension%rows(k)%compliance*state%reaction(k)
       end do
-      call factorise(kkt)
-      if (kkt%is_singular) return
-      call solve(kkt)
-      state%reaction(:) = kkt%rhs(kkt%nq + 1:)
-      call gather(suspension, kkt, state%reaction, held)
-      call move(state, kkt%rhs(:kkt%nq))
+      call solve_and_hold(suspension, state, kkt, held)
+      if (.not. kkt%is_singular) call move(state, kkt%rhs(:kkt%nq))
    end subroutine recursive_increment
 
    !> One full Newton step towards the next inputs, once per increment: same matrix size, one solution.
@@ -70,7 +62,7 @@ contains
    !> Equation (K.10) of docs/theory/kkt.md.
    pure subroutine corrected_increment(suspension, after, state, kkt)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: after
+      type(inputs_t), intent(in) :: after
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
 
@@ -82,23 +74,27 @@ contains
       call move_as_screw(state, kkt%rhs(:kkt%nq))
    end subroutine corrected_increment
 
-   !> Φqᵀλ with the gradients of the last assembly.
-   pure subroutine gather(suspension, kkt, reaction, pull)
+   !> Solves the assembled system for the new λ, and forms Φqᵀλ; nothing changes if the matrix is singular.
+   pure subroutine solve_and_hold(suspension, state, kkt, held)
       type(suspension_t), intent(in) :: suspension
-      type(kkt_t), intent(in) :: kkt
-      real(wp), intent(in) :: reaction(:)
-      real(wp), intent(inout) :: pull(:)
+      type(state_t), intent(inout) :: state
+      type(kkt_t), intent(inout) :: kkt
+      real(wp), intent(inout) :: held(:)
       integer :: k, t
 
-      pull = 0.0_wp
+      call factorise(kkt)
+      if (kkt%is_singular) return
+      call solve(kkt)
+      state%reaction(:) = kkt%rhs(kkt%nq + 1:)
+      held = 0.0_wp
       do k = 1, size(suspension%rows)
          do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
             associate (m => suspension%terms(t)%measure)
-               call add_gradient(reaction(k), kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), pull)
+               call add_gradient(state%reaction(k), kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), held)
             end associate
          end do
       end do
-   end subroutine gather
+   end subroutine solve_and_hold
 
    !> An increment of the linear methods has failed if the matrix was singular or a body moved too far.
    subroutine check_increment(kkt, state_number, before, value, failure)

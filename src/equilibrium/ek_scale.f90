@@ -24,21 +24,21 @@ contains
       real(wp), intent(out) :: stiffness    !! k [N/m]; that of a coil spring if nothing is elastic
       real(wp) :: sum_log, least, rates(6)
       real(wp), parameter :: usual = 2.0e4_wp     ! N/m: a coil spring, for a model without elastic elements
-      integer :: k, count
+      integer :: k, used
 
       least = 1.0e-3_wp     ! a model whose points all coincide still needs a length: 1 mm
       length = 0.0_wp
-      count = 0
+      used = 0
       do k = 1, size(suspension%terms)
          call include_arms(suspension%terms(k)%measure)
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
          call include_arms(suspension%elements(k)%measure)
       end do
-      length = max(length/max(count, 1), least)
+      length = max(length/max(used, 1), least)
 
       sum_log = 0.0_wp
-      count = 0
+      used = 0
       do k = 1, size(suspension%elements)
          associate (kind => suspension%elements(k)%kind)       ! gas, stops and anti-roll bars carry no wheel at design
             if (.not. (element_kinds(kind)%carries .or. kind == bushing_element)) cycle
@@ -46,26 +46,22 @@ contains
          rates = design_stiffness(suspension%elements(k))
          call include_rates(rates(1:3))
       end do
-      if (count == 0) then      ! torsion springs and rotational bushing rates only
+      if (used == 0) then      ! torsion springs and rotational bushing rates only
          do k = 1, size(suspension%elements)
             rates = design_stiffness(suspension%elements(k))
             call include_rates(rates(4:6)/length**2)
          end do
       end if
       stiffness = usual
-      if (count > 0) stiffness = exp(sum_log/count)
+      if (used > 0) stiffness = exp(sum_log/used)
 
    contains
 
       subroutine include_rates(rates)
          real(wp), intent(in) :: rates(3)      !! N/m
-         integer :: axis
 
-         do axis = 1, 3
-            if (rates(axis) <= 0.0_wp) cycle
-            sum_log = sum_log + log(rates(axis))
-            count = count + 1
-         end do
+         sum_log = sum_log + sum(log(pack(rates, .not. rates <= 0.0_wp)))      ! a NaN stays
+         used = used + count(.not. rates <= 0.0_wp)
       end subroutine include_rates
 
       subroutine include_arms(measure)
@@ -73,7 +69,7 @@ contains
 
          if (measure%body_i > 0) length = length + norm2(measure%arm_i)
          if (measure%body_j > 0) length = length + norm2(measure%arm_j)
-         count = count + merge(1, 0, measure%body_i > 0) + merge(1, 0, measure%body_j > 0)
+         used = used + merge(1, 0, measure%body_i > 0) + merge(1, 0, measure%body_j > 0)
       end subroutine include_arms
 
    end subroutine characteristic

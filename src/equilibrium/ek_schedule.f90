@@ -4,19 +4,19 @@
 !> or the row number of a table. Each actuation of a case is a function of it.
 module ek_schedule
    use ek_kinds, only: wp
-   use ek_case, only: most_driven, case_t, actuation_t, follows_tangent, follows_table
+   use ek_case, only: max_driven, case_t, actuation_t, follows_tangent, follows_table
    use ek_suspension, only: suspension_t, driver_row, load_number
-   use ek_state, only: demand_t
+   use ek_state, only: inputs_t
    implicit none(type, external)
    private
-   public :: schedule_t, new_schedule, demand_at
+   public :: schedule_t, new_schedule, inputs_at
 
    !> The actuations of a case, with their names resolved.
    type :: schedule_t
       integer :: loads = 0, rows = 0
       logical :: is_settling = .false.  !! no case: the swept value is the share of the imbalance at design that acts
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
-      integer :: load(most_driven) = 0, row(most_driven) = 0     !! their numbers in the suspension
+      integer :: load(max_driven) = 0, row(max_driven) = 0     !! their numbers in the suspension
       type(actuation_t), allocatable :: load_actuation(:), row_actuation(:)
    end type schedule_t
 
@@ -30,7 +30,7 @@ contains
       type(actuation_t) :: actuation
       integer :: k
 
-      allocate (schedule%load_actuation(most_driven), schedule%row_actuation(most_driven))
+      allocate (schedule%load_actuation(max_driven), schedule%row_actuation(max_driven))
       if (allocated(case%actuations)) then
          do k = 1, size(case%actuations)
             call include(case%actuations(k))
@@ -48,13 +48,13 @@ contains
          integer :: number
 
          number = load_number(suspension, this%load)
-         if (number > 0 .and. schedule%loads < most_driven) then
+         if (number > 0 .and. schedule%loads < max_driven) then
             schedule%loads = schedule%loads + 1
             schedule%load(schedule%loads) = number
             schedule%load_actuation(schedule%loads) = this
          end if
          number = driver_row(suspension, this%drive)
-         if (number > 0 .and. schedule%rows < most_driven) then
+         if (number > 0 .and. schedule%rows < max_driven) then
             schedule%rows = schedule%rows + 1
             schedule%row(schedule%rows) = number
             schedule%row_actuation(schedule%rows) = this
@@ -64,25 +64,25 @@ contains
    end function new_schedule
 
    !> The inputs at a value of the path coordinate.
-   pure subroutine demand_at(schedule, place, demand)
+   pure subroutine inputs_at(schedule, place, inputs)
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: place
-      type(demand_t), intent(inout) :: demand    !! what is beyond the number of loads and rows stays
+      type(inputs_t), intent(inout) :: inputs    !! what is beyond the number of loads and rows stays
       integer :: k
 
-      demand%relief = 0.0_wp
-      if (schedule%is_settling) demand%relief = 1.0_wp - place
-      demand%loads = schedule%loads
+      inputs%homotopy = 0.0_wp
+      if (schedule%is_settling) inputs%homotopy = 1.0_wp - place
+      inputs%loads = schedule%loads
       do k = 1, schedule%loads
-         demand%load(k) = schedule%load(k)
-         demand%factor(k) = value_at(schedule%load_actuation(k), place, schedule%rest)
+         inputs%load(k) = schedule%load(k)
+         inputs%factor(k) = value_at(schedule%load_actuation(k), place, schedule%rest)
       end do
-      demand%rows = schedule%rows
+      inputs%rows = schedule%rows
       do k = 1, schedule%rows
-         demand%row(k) = schedule%row(k)
-         demand%change(k) = value_at(schedule%row_actuation(k), place, schedule%rest)
+         inputs%row(k) = schedule%row(k)
+         inputs%change(k) = value_at(schedule%row_actuation(k), place, schedule%rest)
       end do
-   end subroutine demand_at
+   end subroutine inputs_at
 
    !> share × place, share × tan(place), or the value of the table: linear between its rows, and from 0 at
    !> place `rest` to the next row (initially from swept value 0 to row 1).

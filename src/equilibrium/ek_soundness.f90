@@ -10,7 +10,7 @@
 module ek_soundness
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, condition
    use ek_diagnosis, only: softest_rate, rank_tolerance, no_stiffness, rounding
    implicit none(type, external)
@@ -31,7 +31,7 @@ contains
       type(kkt_t), intent(inout) :: kkt
       real(wp) :: rcond, stiffness
 
-      call condition(suspension, state, demand_t(), kkt, rcond)
+      call condition(suspension, state, inputs_t(), kkt, rcond)
       stiffness = max(no_stiffness*softest_rate(suspension, kkt), rounding*kkt%nq*(kkt%norm + driver_stiffness(suspension, kkt)))
       is_surely_sound = .false.
       if (kkt%is_singular .or. kkt%negative /= negative) return

@@ -2,14 +2,14 @@
 module ek_state
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_rotation, only: cross, rotate_quaternion, rotation_matrix, quaternion_product
    use ek_suspension, only: suspension_t, design_poses
-   use ek_case, only: most_driven
+   use ek_case, only: max_driven
    implicit none(type, external)
    private
-   public :: state_t, demand_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
-   public :: demand_rate, motion_between
+   public :: state_t, inputs_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+   public :: inputs_rate, motion_between, largest_motion
 
    !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
    type :: state_t
@@ -19,28 +19,28 @@ module ek_state
 
    !> The inputs of one state: scaled loads and prescribed values, in addition to the constant loads. The size
    !> is fixed, so that passing it allocates no memory.
-   type :: demand_t
+   type :: inputs_t
       integer :: loads = 0, rows = 0               !! number of each
-      integer :: load(most_driven) = 0             !! numbers of the scaled loads
-      integer :: row(most_driven) = 0              !! numbers of the driven constraint rows
-      real(wp) :: factor(most_driven) = 0.0_wp     !! of each load [-]
-      real(wp) :: change(most_driven) = 0.0_wp     !! of each row's value [m, rad]
-      real(wp) :: relief = 0.0_wp       !! homotopy: share of the design imbalance removed, 1 at design, 0 in the real problem
-   end type demand_t
+      integer :: load(max_driven) = 0             !! numbers of the scaled loads
+      integer :: row(max_driven) = 0              !! numbers of the driven constraint rows
+      real(wp) :: factor(max_driven) = 0.0_wp     !! of each load [-]
+      real(wp) :: change(max_driven) = 0.0_wp     !! of each row's value [m, rad]
+      real(wp) :: homotopy = 0.0_wp       !! homotopy: share of the design imbalance removed, 1 at design, 0 in the real problem
+   end type inputs_t
 
 contains
 
    !> The difference of two sets of inputs of the same items, per unit of the path coordinate.
-   pure function demand_rate(a, b, width) result(rate)
-      type(demand_t), intent(in) :: a, b
+   pure function inputs_rate(a, b, width) result(rate)
+      type(inputs_t), intent(in) :: a, b
       real(wp), intent(in) :: width      !! place of b minus place of a; not 0
-      type(demand_t) :: rate
+      type(inputs_t) :: rate
 
       rate = b
       rate%factor = (b%factor - a%factor)/width
       rate%change = (b%change - a%change)/width
-      rate%relief = (b%relief - a%relief)/width
-   end function demand_rate
+      rate%homotopy = (b%homotopy - a%homotopy)/width
+   end function inputs_rate
 
    !> The motion of every body between two states: Δr of its reference point, and its rotation vector, global axes.
    !> Equation (R.6) of docs/theory/rotations.md.
@@ -63,6 +63,23 @@ contains
          at = at + 6
       end do
    end subroutine motion_between
+
+   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if one is not a number.
+   !> Equation (K.11) of docs/theory/kkt.md.
+   pure real(wp) function largest_motion(motion, length) result(largest)
+      real(wp), contiguous, intent(in) :: motion(:)    !! [Δr Δπ] of each body [m, rad]
+      real(wp), intent(in) :: length                   !! m
+      integer :: k
+
+      largest = 0.0_wp
+      do k = 1, size(motion), 6
+         largest = max(largest, motion(k)**2 + motion(k + 1)**2 + motion(k + 2)**2, &
+            length**2*(motion(k + 3)**2 + motion(k + 4)**2 + motion(k + 5)**2))
+         ! max() may drop a NaN: return it
+         if (.not. motion(k) + motion(k + 3) < huge(largest)) largest = huge(largest)
+      end do
+      if (largest < huge(largest)) largest = sqrt(largest)
+   end function largest_motion
 
    !> The design position, without reactions.
    function design_state(suspension) result(state)

@@ -1,16 +1,16 @@
 !> The tangent of a path at a state: how the bodies and the reactions change with the swept value.
 module ek_tangent
    use ek_kinds, only: wp
-   use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t, design_state, move_as_screw
+   use ek_suspension, only: suspension_t, has_symmetric_loads
+   use ek_state, only: state_t, inputs_t, design_state, move_as_screw, largest_motion
    use ek_kkt, only: kkt_t, assemble, assemble_rate, solve, residual_only
    use ek_dyads, only: dyads_t, correct, resist
    implicit none(type, external)
    private
-   public :: tangent_t, new_tangent, find_tangent, largest_motion, body_motion, trapezoidal_rest
+   public :: tangent_t, new_tangent, find_tangent, body_motion, trapezoidal_rest
 
    real(wp), parameter, public :: smooth = 4.0e-3_wp      !! of the motion: allowed error of the trapezoidal rule
-   real(wp), parameter, public :: nothing = 1.0e-9_wp     !! m: ten times the error of Newton's method
+   real(wp), parameter :: nothing = 1.0e-9_wp     !! m: ten times the error of Newton's method
 
    !> Work space, and what the loads do to the matrix.
    type :: tangent_t
@@ -27,29 +27,14 @@ contains
    function new_tangent(suspension) result(self)
       type(suspension_t), intent(in) :: suspension
       type(tangent_t) :: self
-      integer :: k
 
       allocate (self%whole(suspension%unknowns() + suspension%constraints()), &
          self%defect(suspension%unknowns() + suspension%constraints()), self%twist(suspension%unknowns()), source=0.0_wp)
       self%shifted = design_state(suspension)
-      do k = 1, size(suspension%loads)
-         if (suspension%loads(k)%follows .or. norm2(suspension%loads(k)%moment) > 0.0_wp) self%is_symmetric = .false.
-      end do
+      self%is_symmetric = has_symmetric_loads(suspension)
    end function new_tangent
 
-   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m].
-   pure real(wp) function largest_motion(motion, length)
-      real(wp), contiguous, intent(in) :: motion(:)    !! twists
-      real(wp), intent(in) :: length                   !! m
-      integer :: k
-
-      largest_motion = 0.0_wp
-      do k = 1, size(motion), 6
-         largest_motion = max(largest_motion, body_motion(motion(k:k + 5), length))
-      end do
-   end function largest_motion
-
-   !> The same for one body.
+   !> |Δr|, or |Δπ| × characteristic length, of a body [m].
    pure real(wp) function body_motion(twist, length)
       real(wp), intent(in) :: twist(6), length
       body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
@@ -82,15 +67,15 @@ contains
    !> With a constant moment, a load that rotates with its body, or the imbalance at design, the true matrix is not
    !> symmetric and N is its symmetric part. The derivative of the residual along the tangent then corrects it.
    !> Equation (K.13) of docs/theory/kkt.md.
-   subroutine find_tangent(self, suspension, state, demand, rate, kkt, tangent, dyads)
+   subroutine find_tangent(self, suspension, state, inputs, rate, kkt, tangent, dyads)
       type(tangent_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand, rate
+      type(inputs_t), intent(in) :: inputs, rate
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: tangent(:)
       type(dyads_t), intent(inout), optional :: dyads     !! the matrix is N plus these
-      integer, parameter :: most_refinements = 6
+      integer, parameter :: max_refinements = 6
       real(wp), parameter :: enough = 4.0e-4_wp           ! of the motion: a tenth of what a comparison of tangents allows
       real(wp), parameter :: small_motion = 1.0e-6_wp     ! of the characteristic length: the difference's step
       real(wp) :: step, largest
@@ -100,11 +85,11 @@ contains
       call solve(kkt)
       if (present(dyads)) call correct(dyads, kkt%rhs)
       self%whole = kkt%rhs
-      if (self%is_symmetric .and. .not. abs(rate%relief) > 0.0_wp) then
+      if (self%is_symmetric .and. .not. abs(rate%homotopy) > 0.0_wp) then
          tangent = self%whole
          return
       end if
-      do k = 1, most_refinements
+      do k = 1, max_refinements
          largest = largest_motion(self%whole(:kkt%nq), kkt%length)
          if (.not. (largest > 0.0_wp .and. largest < huge(largest))) exit
          step = small_motion*kkt%length/largest
@@ -132,7 +117,7 @@ contains
          self%shifted%reaction = state%reaction + distance*self%whole(kkt%nq + 1:)
          self%twist = distance*self%whole(:kkt%nq)
          call move_as_screw(self%shifted, self%twist)
-         call assemble(suspension, self%shifted, demand, residual_only, kkt)
+         call assemble(suspension, self%shifted, inputs, residual_only, kkt)
       end subroutine shifted_residual
 
    end subroutine find_tangent

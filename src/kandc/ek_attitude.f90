@@ -13,10 +13,10 @@
 module ek_attitude
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_block, only: rotated
    use ek_suspension, only: suspension_t, wheel_t
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_kkt, only: load_factor, wrench
    use ek_steer_angle, only: steer_rate
    implicit none(type, external)
@@ -185,10 +185,10 @@ contains
    !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and the force of a rig
    !> that holds its height. Weights of bodies are not included. If one body carries both wheels, a load counts for the
    !> nearer wheel, and half for each in the middle.
-   pure real(wp) function vertical_force(suspension, state, demand, wheel) result(force)
+   pure real(wp) function vertical_force(suspension, state, inputs, wheel) result(force)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: wheel
       real(wp) :: factor, share, f(3), moment(3), arm(3)
       integer :: k, t
@@ -199,7 +199,7 @@ contains
             share = share_of(load%body, load%arm)
             if (.not. share > 0.0_wp .or. load%is_weight) cycle
             factor = 1.0_wp
-            if (load%is_case) factor = load_factor(demand, k)
+            if (load%is_case) factor = load_factor(inputs, k)
             call wrench(load, state%poses(load%body + 1), f, moment, arm)
             force = force + share*factor*f(3)
          end associate

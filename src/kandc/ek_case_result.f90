@@ -2,12 +2,11 @@
 !>
 !> Every command and every study solves its cases here; they choose options and print or write the result.
 module ek_case_result
-   use ek_kinds, only: wp, i8
+   use ek_kinds, only: wp, i8, millimetre
    use ek_error, only: error_t, fail, exit_model, exit_convergence, exit_file
-   use ek_units, only: millimetre
    use ek_text, only: str, quoted, plural
    use ek_version, only: version
-   use ek_memory, only: has_memory, memory_words
+   use ek_system, only: has_memory, memory_remarks
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_kkt, only: kkt_t, new_kkt
@@ -15,9 +14,8 @@ module ek_case_result
    use ek_rig, only: mount
    use ek_wheel_side, only: single_side
    use ek_sweep_table, only: observer_t, make_observer, observe, sweep_bytes
-   use ek_failure_words, only: failure_words, stability_remarks
-   use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks
-   use ek_curve_reach, only: curve_reach_remarks
+   use ek_failure_text, only: failure_text, stability_remarks
+   use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
    use ek_table, only: table_t, name_length
    use ek_test_result, only: frame_line
@@ -38,7 +36,7 @@ module ek_case_result
       character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
       logical :: has_remarks = .true.              !! otherwise failures can be seen in the path only
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
-      real(wp) :: least_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
+      real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
@@ -96,7 +94,7 @@ contains
       call make_observer(result%suspension, result%case, tells, options%columns)
       bytes = sweep_bytes(result%suspension, result%case, tells)
       if (.not. has_memory(bytes)) then
-         call give_up(out_of_memory, memory_words(bytes, 'case '//quoted(case%name)//' with '// &
+         call give_up(out_of_memory, memory_remarks(bytes, 'case '//quoted(case%name)//' with '// &
             plural(result%case%increments, 'increment', 'increments')))
          return
       end if
@@ -127,9 +125,9 @@ contains
       associate (suspension => result%suspension, case => result%case, path => result%path, remarks => result%remarks)
          do side = 1, 2
             if (path%failure(side)%state > 0) call remarks%add(failure, on_end, case, &
-               failure_words(suspension, case, path, path%failure(side), result%kkt), path%failure(side)%reached)
+               failure_text(suspension, case, path, path%failure(side), result%kkt), path%failure(side)%reached)
          end do
-         call settling_remarks(suspension, case, path, options%least_settling, remarks)
+         call settling_remarks(suspension, case, path, options%min_settling, remarks)
          if (options%is_compared) call drift_remarks(suspension, case, path, result%kkt, remarks)
          call travel_remarks(suspension, case, path, remarks)
          call stability_remarks(case, path, remarks)

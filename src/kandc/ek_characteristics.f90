@@ -25,8 +25,8 @@ module ek_characteristics
    public :: wheel_characteristics_t, axle_characteristics_t, response_t, stand_t
    public :: wheel_characteristics, axle_characteristics, motion_ratio, quotient
 
-   real(wp), parameter :: least_compliance = 1.0e-12_wp   !! m/N
-   real(wp), parameter :: least_turn = 1.0e-13_wp         !! rad/(N m): its inverse is stiffer than any block of steel
+   real(wp), parameter :: min_compliance = 1.0e-12_wp   !! m/N
+   real(wp), parameter :: min_rotation = 1.0e-13_wp         !! rad/(N m): its inverse is stiffer than any block of steel
    real(wp), parameter :: longest_arm = 1.0e3_wp          !! m
    real(wp), parameter :: gravity = 9.80665_wp            !! m/s², the g of "per g"
    real(wp), parameter, public :: trail = 0.030_wp        !! m: distance of a lateral force behind the patch, typical of a tyre
@@ -142,11 +142,11 @@ contains
       anti = phase(c, place, -1.0_wp)
       tyre = stand%tyre_rate(place)
 
-      is%stiffness = quotient(1.0_wp, [(in(k, k), k=1, 6)], [(merge(least_compliance, least_turn, k <= 3), k=1, 6)])
+      is%stiffness = quotient(1.0_wp, [(in(k, k), k=1, 6)], [(merge(min_compliance, min_rotation, k <= 3), k=1, 6)])
       is%wheel_rate = is%stiffness(3)
-      if (tyre > 0.0_wp) is%ride_rate = quotient(1.0_wp, in(3, 3) + 1.0_wp/tyre, least_compliance)
+      if (tyre > 0.0_wp) is%ride_rate = quotient(1.0_wp, in(3, 3) + 1.0_wp/tyre, min_compliance)
       is%hop_rate = is%wheel_rate + tyre
-      is%bump = respond(stand, place, quotient(in(:, 3), in(3, 3), least_compliance))
+      is%bump = respond(stand, place, quotient(in(:, 3), in(3, 3), min_compliance))
       call swing_arm(in(1, 3), in(3, 3), in(5, 3), is%side_arm_length, is%side_arm_angle)
       call swing_arm(-stand%axes(place)%side*anti(2, 3), anti(3, 3), anti(4, 3), is%front_arm_length, is%front_arm_angle)
       is%side_arm_centre = arm_centre(stand%centre([1, 3], place), in([1, 3], 3), in(5, 3), -1.0_wp)
@@ -198,13 +198,13 @@ contains
       twist = m(at + 1:at + 6, 3) - m(at + 1:at + 6, 9)       ! loads +1 left, −1 right
       height = roll_compliance(cp)
       per_height = cos(stand%roll)**2/stand%track
-      is%wheel_roll = respond(stand, place, quotient(twist, height*per_height, least_compliance*per_height))
+      is%wheel_roll = respond(stand, place, quotient(twist, height*per_height, min_compliance*per_height))
       if (all(stand%tyre_rate > 0.0_wp)) is%roll = respond(stand, place, &
-         quotient(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, least_compliance*per_height))
-      is%single_rate(load_held) = quotient(1.0_wp, c(at + 3, at + 3), least_compliance)
+         quotient(twist, (height + sum(1.0_wp/stand%tyre_rate))*per_height, min_compliance*per_height))
+      is%single_rate(load_held) = quotient(1.0_wp, c(at + 3, at + 3), min_compliance)
       is%single_rate(height_held) = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(c(other + 3, other + 3)) > least_compliance) is%single_rate(height_held) = quotient(1.0_wp, &
-         c(at + 3, at + 3) - c(at + 3, other + 3)*c(other + 3, at + 3)/c(other + 3, other + 3), least_compliance)
+      if (abs(c(other + 3, other + 3)) > min_compliance) is%single_rate(height_held) = quotient(1.0_wp, &
+         c(at + 3, at + 3) - c(at + 3, other + 3)*c(other + 3, at + 3)/c(other + 3, other + 3), min_compliance)
       lift = jacking_forces(cp, [1.0_wp, 1.0_wp])
       is%jacking(in_phase) = lift(place)
       lift = jacking_forces(cp, [1.0_wp, -1.0_wp])
@@ -225,34 +225,28 @@ contains
       real(wp), intent(in) :: c(:, :)               !! 12×12, left wheel first
       type(stand_t), intent(in) :: stand
       type(axle_characteristics_t) :: is
-      real(wp) :: cp(12, 12), patch(3, 2), height, moment, lift(2), tyre(2)
+      real(wp) :: cp(12, 12), patch(3, 2), height, moment, lift(2)
+      real(wp) :: wheel(2), tyre(2)      ! compliances, wheel under opposed loads [m/N]
 
       cp = read_at_patch(load_at_patch(c, stand%arm), stand%arm)
       patch = stand%centre + stand%arm
       height = roll_compliance(cp)
       moment = (stand%track/cos(stand%roll))**2
-      is%suspension_roll_rate = quotient(moment, height, least_compliance)
+      is%suspension_roll_rate = quotient(moment, height, min_compliance)
       is%roll_centre = roll_centre(cp, patch, [0.0_wp, 0.0_wp])
       if (all(stand%tyre_rate > 0.0_wp)) then
          tyre = 1.0_wp/stand%tyre_rate
-         is%total_roll_rate = quotient(moment, height + sum(tyre), least_compliance)
-         is%tramp_rate = tramp_rate(moment, [cp(3, 3) - cp(3, 9), cp(9, 9) - cp(9, 3)], tyre)
+         is%total_roll_rate = quotient(moment, height + sum(tyre), min_compliance)
+         ! each wheel's suspension and tyre in parallel support the unsprung masses in tramp
+         wheel = [cp(3, 3) - cp(3, 9), cp(9, 9) - cp(9, 3)]
+         is%tramp_rate = ieee_value(1.0_wp, ieee_quiet_nan)
+         if (minval(abs(wheel + tyre)) > min_compliance) &
+            is%tramp_rate = quotient(moment, sum(wheel*tyre/(wheel + tyre)), min_compliance)
          is%tyre_roll_centre = roll_centre(cp, patch, tyre)
       end if
       lift = jacking_forces(cp, [1.0_wp, 1.0_wp])
       is%force_roll_centre = -0.5_wp*dot_product(patch(2, :), lift)
    end function axle_characteristics
-
-   !> The roll rate with each wheel's suspension and tyre in parallel, which supports the unsprung masses in tramp.
-   pure real(wp) function tramp_rate(moment, wheel, tyre) result(rate)
-      real(wp), intent(in) :: moment               !! (t/cos φ)² [m²]
-      real(wp), intent(in) :: wheel(2), tyre(2)    !! compliances, wheel under opposed loads [m/N]
-      real(wp) :: both(2)
-
-      rate = ieee_value(1.0_wp, ieee_quiet_nan)
-      both = wheel + tyre
-      if (minval(abs(both)) > least_compliance) rate = quotient(moment, sum(wheel*tyre/both), least_compliance)
-   end function tramp_rate
 
    !> Vertical forces of the ground [N] on the left and the right patch that keep their heights under lateral forces to the right
    !> at the patches: V = −CP_zz⁻¹ CP_zy F. Not a number if the wheels cannot move independently in height.
@@ -265,7 +259,7 @@ contains
       rise = [dot_product(cp(3, [2, 8]), lateral), dot_product(cp(9, [2, 8]), lateral)]
       determinant = cp(3, 3)*cp(9, 9) - cp(3, 9)*cp(9, 3)
       lift = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(determinant) <= 1.0e-10_wp*abs(cp(3, 3)*cp(9, 9)) .or. abs(determinant) <= least_compliance**2) return
+      if (abs(determinant) <= 1.0e-10_wp*abs(cp(3, 3)*cp(9, 9)) .or. abs(determinant) <= min_compliance**2) return
       lift(1) = -(cp(9, 9)*rise(1) - cp(3, 9)*rise(2))/determinant
       lift(2) = -(cp(3, 3)*rise(2) - cp(9, 3)*rise(1))/determinant
    end function jacking_forces
@@ -285,10 +279,9 @@ contains
       real(wp) :: way
 
       way = sqrt(dh**2 + dz**2)
-      length = quotient(way, turn, max(way/longest_arm, least_compliance/longest_arm))
-      length = abs(length)
+      length = abs(quotient(way, turn, max(way, min_compliance)/longest_arm))
       angle = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(dz) > least_compliance) angle = atan(-dh/dz)
+      if (abs(dz) > min_compliance) angle = atan(-dh/dz)
    end subroutine swing_arm
 
    !> The centre (h, z) about which a point swings in a plane: it moves by (dh, dz) while the carrier rotates by ω about the
@@ -303,7 +296,7 @@ contains
 
       size_of = norm2(way)
       centre = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(turn) <= max(size_of, least_compliance)/longest_arm) return
+      if (abs(turn) <= max(size_of, min_compliance)/longest_arm) return
       centre = [point(1) - hand*way(2)/turn, point(2) + hand*way(1)/turn]
    end function arm_centre
 
@@ -324,7 +317,7 @@ contains
       share = axle%brake_share
       if (.not. axle%is_front) share = 1.0_wp - share
       transfer = 0.5_wp*axle%cg_height/axle%wheelbase
-      least = least_compliance*transfer
+      least = min_compliance*transfer
       if (.not. axle%is_front) transfer = -transfer
       lever = in(3, 1)
       if (axle%drives_at_patch) lever = patch_in(3, 1)
@@ -352,7 +345,7 @@ contains
       determinant = way(1, 1)*way(2, 2) - way(2, 1)*way(1, 2)
       size_of_both = norm2(way(:, 1))*norm2(way(:, 2))
       centre = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (abs(determinant) <= 1.0e-8_wp*size_of_both .or. size_of_both <= least_compliance**2) return
+      if (abs(determinant) <= 1.0e-8_wp*size_of_both .or. size_of_both <= min_compliance**2) return
       centre(1) = (right(1)*way(2, 2) - right(2)*way(2, 1))/determinant
       centre(2) = (way(1, 1)*right(2) - way(1, 2)*right(1))/determinant
    end function roll_centre
@@ -369,12 +362,12 @@ contains
       if (size(c, 1) == 12) then
          determinant = c(3, 3)*c(9, 9) - c(3, 9)*c(9, 3)
          if (abs(determinant) > 1.0e-10_wp*abs(c(3, 3)*c(9, 9))) then
-            ratio = quotient(length(3)*(c(9, 9) - c(3, 9)) + length(9)*(c(3, 3) - c(9, 3)), determinant, least_compliance**2)
+            ratio = quotient(length(3)*(c(9, 9) - c(3, 9)) + length(9)*(c(3, 3) - c(9, 3)), determinant, min_compliance**2)
          else
-            ratio = quotient(2.0_wp*(length(3) + length(9)), c(3, 3) + c(3, 9) + c(9, 3) + c(9, 9), least_compliance)
+            ratio = quotient(2.0_wp*(length(3) + length(9)), c(3, 3) + c(3, 9) + c(9, 3) + c(9, 9), min_compliance)
          end if
       else
-         ratio = quotient(length(3), c(3, 3), least_compliance)
+         ratio = quotient(length(3), c(3, 3), min_compliance)
       end if
    end function motion_ratio
 

@@ -61,14 +61,11 @@ contains
       class(column_list_t), intent(inout) :: list
       character(*), intent(in) :: name
       logical, intent(in), optional :: is_of_matrix    !! default .false.
-      character(name_length), allocatable :: names(:)
       integer :: n
 
       n = size(list%is_of_matrix)
       if (list%used == n) then
-         allocate (names(2*n))
-         names(:n) = list%names
-         call move_alloc(names, list%names)
+         list%names = [character(name_length) :: list%names, list%names]
          list%is_of_matrix = [list%is_of_matrix, list%is_of_matrix]
          list%place = [list%place, list%place]
          list%unit = [list%unit, list%unit]

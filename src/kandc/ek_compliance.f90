@@ -30,12 +30,12 @@ module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_measure, only: view_t, look
+   use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
    use ek_element, only: axial_spring
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
    use ek_lapack, only: dsytrs, dgesv
    implicit none(type, external)
@@ -64,7 +64,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: drives
       type(compliance_t) :: self
-      integer :: n, k, side, ports
+      integer :: n, k, ports
 
       self%wheels = size(suspension%wheels)
       self%springs = count(suspension%elements%kind == axial_spring)
@@ -73,32 +73,26 @@ contains
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
-      allocate (self%order(self%wheels), source=0)
+      associate (side => suspension%wheels%side)
+         self%order = [pack([(k, k=1, self%wheels)], side == -1), pack([(k, k=1, self%wheels)], side == 1)]
+      end associate
       allocate (self%ports(n, ports), self%columns(n, ports + merge(1, 0, drives)), source=0.0_wp)
       allocate (self%response(ports, ports + merge(1, 0, drives)), source=0.0_wp)
-      n = 0
-      do side = -1, 1, 2
-         do k = 1, self%wheels
-            if (suspension%wheels(k)%side /= side) cycle
-            n = n + 1
-            self%order(n) = k
-         end do
-      end do
    end function new_compliance
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
-   subroutine wheel_compliance(suspension, state, demand, steer_row, kkt, self)
+   subroutine wheel_compliance(suspension, state, inputs, steer_row, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
       type(kkt_t), intent(inout) :: kkt           !! work space
       type(compliance_t), intent(inout) :: self   !! of new_compliance
       integer :: j, p, info
 
       if (are_checked) call require(size(self%columns, 1) == kkt%n, 'wheel_compliance: work space of another model')
-      call assemble(suspension, state, demand, whole_tangent, kkt)
+      call assemble(suspension, state, inputs, whole_tangent, kkt)
       do j = suspension%own_rows() + 1, suspension%constraints()
          call release(j, kkt)
       end do
@@ -113,8 +107,8 @@ contains
       do j = 1, size(self%columns, 2)
          self%columns(:, j) = self%columns(:, j)*kkt%scale
       end do
-      if (has_skew_part(suspension, demand)) then
-         call solve_full(suspension, state, demand, kkt, self)
+      if (has_skew_part(suspension, inputs)) then
+         call solve_full(suspension, state, inputs, kkt, self)
       else
          call factorise(kkt)
          self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
@@ -153,7 +147,7 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(compliance_t), intent(inout) :: self
-      type(view_t) :: view
+      type(evaluation_t) :: evaluation
       real(wp) :: arm(3)
       integer :: w, k, at, port
 
@@ -173,48 +167,48 @@ contains
       do k = 1, self%springs
          associate (m => suspension%elements(self%spring(k))%measure)
             port = 6*self%wheels + k
-            call look(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
             at = 6*(m%body_i - 1)
-            if (at >= 0) self%ports(at + 1:at + 6, port) = view%gradient(1:6)
+            if (at >= 0) self%ports(at + 1:at + 6, port) = evaluation%gradient(1:6)
             at = 6*(m%body_j - 1)
-            if (at >= 0) self%ports(at + 1:at + 6, port) = self%ports(at + 1:at + 6, port) + view%gradient(7:12)
+            if (at >= 0) self%ports(at + 1:at + 6, port) = self%ports(at + 1:at + 6, port) + evaluation%gradient(7:12)
          end associate
       end do
    end subroutine set_ports
 
    !> Scale of load k under given inputs.
-   pure real(wp) function factor_of(suspension, demand, k) result(factor)
+   pure real(wp) function factor_of(suspension, inputs, k) result(factor)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       integer, intent(in) :: k
 
       factor = 1.0_wp
-      if (suspension%loads(k)%is_case) factor = load_factor(demand, k)
+      if (suspension%loads(k)%is_case) factor = load_factor(inputs, k)
    end function factor_of
 
    !> Whether an active load has no potential.
-   pure logical function has_skew_part(suspension, demand)
+   pure logical function has_skew_part(suspension, inputs)
       type(suspension_t), intent(in) :: suspension
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       integer :: k
 
       has_skew_part = .false.
       do k = 1, size(suspension%loads)
-         if (.not. abs(factor_of(suspension, demand, k)) > 0.0_wp) cycle
+         if (.not. abs(factor_of(suspension, inputs, k)) > 0.0_wp) cycle
          has_skew_part = has_skew_part .or. suspension%loads(k)%follows .or. any(abs(suspension%loads(k)%moment) > 0.0_wp)
       end do
    end function has_skew_part
 
    !> Solves with T + N, scaled like T; the columns are scaled on input and output.
    !> Equation (C.4) of docs/theory/compliance.md.
-   subroutine solve_full(suspension, state, demand, kkt, self)
+   subroutine solve_full(suspension, state, inputs, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(in) :: kkt
       type(compliance_t), intent(inout) :: self
-      real(wp) :: force(3), moment(3), arm(3), factor, least, most
-      integer :: i, j, k, at, info
+      real(wp) :: force(3), moment(3), arm(3), factor, pivots(kkt%n)
+      integer :: j, k, at, info
 
       if (.not. allocated(self%full)) then
          allocate (self%full(kkt%n, kkt%n), source=0.0_wp)
@@ -225,7 +219,7 @@ contains
          self%full(j, j + 1:) = kkt%matrix(j + 1:, j)
       end do
       do k = 1, size(suspension%loads)
-         factor = factor_of(suspension, demand, k)
+         factor = factor_of(suspension, inputs, k)
          associate (load => suspension%loads(k))
             at = 6*(load%body - 1)
             if (load%follows) then
@@ -242,13 +236,8 @@ contains
          self%full(:, j) = self%full(:, j)*(kkt%scale*kkt%scale(j))
       end do
       call dgesv(kkt%n, size(self%columns, 2), self%full, kkt%n, self%pivots, self%columns, kkt%n, info)
-      least = huge(least)
-      most = 0.0_wp
-      do i = 1, kkt%n
-         least = min(least, abs(self%full(i, i)))
-         most = max(most, abs(self%full(i, i)))
-      end do
-      self%is_known = info == 0 .and. least > singular*most
+      pivots = [(abs(self%full(j, j)), j=1, kkt%n)]
+      self%is_known = info == 0 .and. minval(pivots) > singular*maxval(pivots)
 
    contains
 

@@ -15,16 +15,21 @@
 module ek_gradient
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_text, only: str
+   use ek_text, only: str, quoted
    use ek_quantity, only: slope_unit, unit_text
    use ek_table, only: row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
+   use ek_error, only: error_t, fail, exit_file
+   use ek_decimal, only: decimal, get_decimal
+   use ek_file, only: write_whole
+   use ek_json, only: json_t, json_string, json_number, json_numbers
+   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, slope_over_window
+   public :: gradient_t, test_gradients, slope_over_window, gradients_csv, gradients_json, write_gradients, read_gradients
 
-   integer, parameter :: least_points = 3     !! fewer points define no fit
+   integer, parameter :: min_points = 3     !! fewer points define no fit
 
    !> One gradient of the report.
    type :: gradient_t
@@ -39,6 +44,9 @@ module ek_gradient
       integer :: points = 0                    !! states in the window
       character(:), allocatable :: note        !! reason of a missing value, otherwise ''
    end type gradient_t
+
+   character(*), parameter :: columns(11) = [character(12) :: 'test', 'quantity', 'side', 'value', 'unit', 'window', &
+      'points', 'sign', 'column', 'over', 'note']
 
 contains
 
@@ -115,9 +123,9 @@ contains
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
          gradient%note = 'no state in the window'
-         if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(least_points)// &
+         if (gradient%points > 0) gradient%note = 'only '//str(gradient%points)//' of at least '//str(min_points)// &
             ' states in the window'
-         if (gradient%points >= least_points) gradient%note = trim(gradient%over)//' does not change'
+         if (gradient%points >= min_points) gradient%note = trim(gradient%over)//' does not change'
          return
       end if
       if (abs(slope)*gradient%window_half <= noise_of(gradient%column)) slope = 0.0_wp
@@ -128,16 +136,10 @@ contains
    !> lever of 500 mm and 1e-3 N at 10 kN/mm; ten times that.
    pure real(wp) function noise_of(column) result(noise)
       character(*), intent(in) :: column
+      character(4), parameter :: endings(4) = [character(4) :: '_mm', '_deg', '_n', '_nm']
+      real(wp), parameter :: noises(0:4) = [1.0e-12_wp, 1.0e-6_wp, 1.0e-7_wp, 1.0e-2_wp, 1.0e-2_wp]    ! first: any other
 
-      noise = 1.0e-12_wp
-      select case (column(index(column, '_', back=.true.):))
-      case ('_mm')
-         noise = 1.0e-6_wp
-      case ('_deg')
-         noise = 1.0e-7_wp
-      case ('_n', '_nm')
-         noise = 1.0e-2_wp
-      end select
+      noise = noises(findloc(endings == column(index(column, '_', back=.true.):), .true., dim=1))
    end function noise_of
 
    !> s_y/s_x of a wheel.
@@ -172,11 +174,124 @@ contains
       is_inside = ieee_is_finite(x) .and. ieee_is_finite(y)
       where (is_inside) is_inside = abs(x) <= half*rim
       points = count(is_inside)
-      if (points < least_points) return
+      if (points < min_points) return
       if (maxval(x, mask=is_inside) - minval(x, mask=is_inside) <= 1.0e-3_wp*half) return        ! all at one x: no slope
       mean = [sum(x, mask=is_inside), sum(y, mask=is_inside)]/points
       spread = sum((x - mean(1))**2, mask=is_inside)
       slope = sum((x - mean(1))*(y - mean(2)), mask=is_inside)/spread
    end subroutine slope_over_window
+
+   !> Writes gradients.csv and gradients.json: each value with its window, unit and sign convention.
+   subroutine write_gradients(gradients, model, checksum, csv_path, json_path, error)
+      type(gradient_t), intent(in) :: gradients(:)
+      character(*), intent(in) :: model, checksum, csv_path, json_path
+      type(error_t), allocatable, intent(out) :: error
+
+      call write_whole(csv_path, gradients_csv(gradients), error)
+      if (allocated(error)) return
+      call write_whole(json_path, gradients_json(gradients, model, checksum), error)
+   end subroutine write_gradients
+
+   !> One line per gradient; `nan` for a missing value.
+   pure function gradients_csv(gradients) result(text)
+      type(gradient_t), intent(in) :: gradients(:)
+      character(:), allocatable :: text
+      type(text_table_t) :: table
+      integer :: k
+
+      table = new_text_table(columns)
+      do k = 1, size(gradients)
+         call add_row(table)
+         table%cells(1, k)%text = gradients(k)%test
+         table%cells(2, k)%text = gradients(k)%quantity
+         table%cells(3, k)%text = gradients(k)%side
+         table%cells(4, k)%text = decimal(gradients(k)%value)
+         table%cells(5, k)%text = gradients(k)%unit
+         table%cells(6, k)%text = gradients(k)%window
+         table%cells(7, k)%text = str(gradients(k)%points)
+         table%cells(8, k)%text = gradients(k)%sign
+         table%cells(9, k)%text = gradients(k)%column
+         table%cells(10, k)%text = gradients(k)%over
+         table%cells(11, k)%text = gradients(k)%note
+      end do
+      text = text_table_csv(table)
+   end function gradients_csv
+
+   !> { "model", "checksum", "gradients": [ { … } ] }
+   pure function gradients_json(gradients, model, checksum) result(text)
+      type(gradient_t), intent(in) :: gradients(:)
+      character(*), intent(in) :: model, checksum
+      character(:), allocatable :: text
+      type(json_t) :: json
+      integer :: k
+
+      call json%open('{')
+      call json%item('model', json_string(model))
+      call json%item('checksum', json_string(checksum))
+      call json%open('[', 'gradients')
+      do k = 1, size(gradients)
+         associate (g => gradients(k))
+            call json%open('{')
+            call json%item('test', json_string(g%test))
+            call json%item('quantity', json_string(g%quantity))
+            call json%item('side', json_string(g%side))
+            call json%item('value', json_number(g%value))
+            call json%item('unit', json_string(g%unit))
+            call json%item('sign', json_string(g%sign))
+            call json%item('window', json_string(g%window))
+            call json%item('window_limits', json_numbers([-g%window_half, g%window_half]))
+            call json%item('points', str(g%points))
+            call json%item('column', json_string(g%column))
+            call json%item('over', json_string(g%over))
+            if (len(g%note) > 0) call json%item('note', json_string(g%note))
+            call json%close('}')
+         end associate
+      end do
+      call json%close(']')
+      call json%close('}')
+      text = json%text()
+   end function gradients_json
+
+   !> Reads gradients.csv.
+   subroutine read_gradients(path, gradients, error)
+      character(*), intent(in) :: path
+      type(gradient_t), allocatable, intent(out) :: gradients(:)
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
+      type(text_table_t) :: table
+      character(:), allocatable :: points
+      logical :: is_number
+      integer :: k, status
+
+      call read_text_table(path, table, error)
+      if (allocated(error)) return
+      do k = 1, 6
+         if (any(table%columns == columns(k))) cycle
+         call fail(error, exit_file, path//': missing column '//quoted(columns(k)))
+         return
+      end do
+      allocate (gradients(table%rows))
+      do k = 1, table%rows
+         associate (g => gradients(k))
+            g%test = cell_of(table, k, 'test')
+            g%quantity = cell_of(table, k, 'quantity')
+            g%side = cell_of(table, k, 'side')
+            g%unit = cell_of(table, k, 'unit')
+            g%window = cell_of(table, k, 'window')
+            g%sign = cell_of(table, k, 'sign')
+            g%column = cell_of(table, k, 'column')
+            g%over = cell_of(table, k, 'over')
+            g%note = cell_of(table, k, 'note')
+            call get_decimal(cell_of(table, k, 'value'), g%value, is_number)
+            if (.not. is_number) then
+               call fail(error, exit_file, path//':'//str(table%lines(k))//': '//quoted(cell_of(table, k, 'value'))// &
+                  ' is not a number')
+               return
+            end if
+            points = cell_of(table, k, 'points')
+            read (points, *, iostat=status) g%points
+            if (status /= 0) g%points = 0
+         end associate
+      end do
+   end subroutine read_gradients
 
 end module ek_gradient

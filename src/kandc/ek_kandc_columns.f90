@@ -8,14 +8,13 @@
 !> rotation of the carrier about an axis of the deck's frame; `…_deflection` is the movement of the contact point (of the
 !> wheel centre in traction), `…_centre_deflection` that of the wheel centre.
 module ek_kandc_columns
-   use ek_kinds, only: wp
-   use ek_units, only: pi
+   use ek_kinds, only: wp, pi
    use ek_quantity, only: wheel_rates, wheel_forces, wheel_stiffness, of_axle, of_steering, wheel_geometry, axle_geometry, &
       of_rack
    use ek_measure, only: measure_value
    use ek_element, only: stop_spring, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t, driver_row
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t
    use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values, static_toe, vertical_force
    use ek_wheel_side, only: is_axle, prefix_of, design_track, deck_frame
@@ -25,13 +24,12 @@ module ek_kandc_columns
    use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, conditions_of
    use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
       turning_circle
-   use ek_steer_axis, only: instant_axis, locked_twist
-   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values
+   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values, instant_axis, locked_twist
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, same_columns, tell_kandc
+   public :: kandc_t, start_kandc, same_columns, observe_kandc
 
-   real(wp), parameter :: least_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
+   real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
 
    !> The columns of a model and the work space to fill them.
    type, extends(column_list_t) :: kandc_t
@@ -104,30 +102,30 @@ contains
    end function same_columns
 
    !> Fills self%values at an equilibrium: all of them, or those of `choose`.
-   subroutine tell_kandc(suspension, state, demand, kkt, self)
+   subroutine observe_kandc(suspension, state, inputs, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(kandc_t), intent(inout) :: self
       type(attitude_t) :: now(size(suspension%wheels))
-      real(wp) :: lift(size(suspension%wheels)), springs(self%compliance%springs), rack
+      real(wp) :: vertical(size(suspension%wheels)), springs(self%compliance%springs), rack
       type(stand_t) :: stand
       integer :: w, k, n
 
-      if (self%is_matrix_wanted) call wheel_compliance(suspension, state, demand, self%steer_row, kkt, self%compliance)
+      if (self%is_matrix_wanted) call wheel_compliance(suspension, state, inputs, self%steer_row, kkt, self%compliance)
       n = size(suspension%wheels)
       do k = 1, n
          w = self%compliance%order(k)
          now(k) = wheel_attitude(suspension, state, w)
-         lift(k) = vertical_force(suspension, state, demand, w)
+         vertical(k) = vertical_force(suspension, state, inputs, w)
       end do
       if (is_axle(suspension)) stand = stand_of(suspension, now, self%compliance%order)
       do k = 1, n
-         if (self%is_wanted(k)) call fill(k, wheel_values(suspension, k, now(k), lift(k), stand, self))
+         if (self%is_wanted(k)) call fill(k, wheel_values(suspension, k, now(k), vertical(k), stand, self))
          if (self%is_wanted(n + 1 + k)) call fill(n + 1 + k, wheel_geometry_values(suspension, self%compliance, now(k), k))
       end do
-      if (self%is_wanted(n + 1)) call fill(n + 1, [axle_values(suspension, now, lift, stand, self), &
+      if (self%is_wanted(n + 1)) call fill(n + 1, [axle_values(suspension, now, vertical, stand, self), &
          steering_values(suspension, state, now, self)])
       if (self%is_wanted(2*n + 2)) call fill(2*n + 2, axle_geometry_values(suspension, self%compliance, now))
       rack = 0.0_wp
@@ -150,7 +148,7 @@ contains
          call fill_block(self%column_list_t, block, vector, self%compliance%is_known, self%values)
       end subroutine fill
 
-   end subroutine tell_kandc
+   end subroutine observe_kandc
 
    !> Positions of wheels of the compliance matrix: both of an axle, or a single one.
    type(stand_t) function stand_of(suspension, now, order) result(stand)
@@ -171,11 +169,11 @@ contains
    end function stand_of
 
    !> The values of wheel_rates, wheel_forces with loads and with heights held, and wheel_stiffness.
-   function wheel_values(suspension, place, now, lift, both, self) result(values)
+   function wheel_values(suspension, place, now, vertical, both, self) result(values)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: place               !! index of the wheel in the compliance matrix
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: lift               !! force of the ground [N]
+      real(wp), intent(in) :: vertical               !! force of the ground [N]
       type(stand_t), intent(in) :: both          !! both wheels of an axle
       type(kandc_t), intent(in) :: self
       real(wp) :: values(size(wheel_rates) + 2*size(wheel_forces) + size(wheel_stiffness))
@@ -201,7 +199,7 @@ contains
                is = wheel_characteristics(c(6*place - 5:6*place, 6*place - 5:6*place), stand, 1, axle)
             end if
          end if
-         values = [steer_of(now%toe, side), inclination_of(now%camber, side, stand%roll), lift, axis_values(instant), &
+         values = [steer_of(now%toe, side), inclination_of(now%camber, side, stand%roll), vertical, axis_values(instant), &
             is%wheel_rate, is%single_rate, is%ride_rate, is%hop_rate, &
             is%bump%steer, is%bump%camber, is%bump%caster, is%bump%toe, frame*is%bump%rotation, &
             is%roll%steer, is%roll%camber, is%roll%caster, 100.0_wp*is%roll%steer, frame*is%roll%rotation, &
@@ -244,10 +242,10 @@ contains
    end function force_values
 
    !> The values of of_axle; 0 unless there are two wheels.
-   function axle_values(suspension, now, lift, stand, self) result(values)
+   function axle_values(suspension, now, vertical, stand, self) result(values)
       type(suspension_t), intent(in) :: suspension
       type(attitude_t), intent(in) :: now(:)             !! left, right
-      real(wp), intent(in) :: lift(:)
+      real(wp), intent(in) :: vertical(:)
       type(stand_t), intent(in) :: stand
       type(kandc_t), intent(in) :: self
       real(wp) :: values(size(of_axle))
@@ -271,9 +269,9 @@ contains
             turn(2) = ackermann_percent(left, right, axle%wheelbase, track)
             turn(3) = ackermann_error(left, right, axle%wheelbase, track)
          end if
-         values = [is%suspension_roll_rate, is%total_roll_rate, is%tramp_rate, 0.5_wp*track*(lift(1) - lift(2)), stand%roll, &
-            frame(2)*is%roll_centre(1), is%roll_centre(2), is%roll_centre(2) - ground, frame(2)*is%tyre_roll_centre(1), &
-            is%tyre_roll_centre(2) - ground, is%force_roll_centre, turn]
+         values = [is%suspension_roll_rate, is%total_roll_rate, is%tramp_rate, 0.5_wp*track*(vertical(1) - vertical(2)), &
+            stand%roll, frame(2)*is%roll_centre(1), is%roll_centre(2), is%roll_centre(2) - ground, &
+            frame(2)*is%tyre_roll_centre(1), is%tyre_roll_centre(2) - ground, is%force_roll_centre, turn]
       end associate
    end function axle_values
 
@@ -297,7 +295,7 @@ contains
          end do
       end if
       ! the angle of the steering wheel is positive to the left for either direction of the rack
-      values = [quotient(per_rack, abs(rate), least_rack_rate), &
+      values = [quotient(per_rack, abs(rate), min_rack_rate), &
          sign(per_rack, rate)*row_change(suspension, state, self%steer_row)]
    end function steering_values
 

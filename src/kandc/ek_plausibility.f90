@@ -1,10 +1,9 @@
 !> Plausibility of a deck as a road vehicle: wrong units, swapped points, wrong bodies, a coil in tension, a motion that only
 !> preload resists. Findings are remarks, never errors; none with `plausible = .false.` in &model.
 module ek_plausibility
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, degree
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
-   use ek_units, only: degree
    use ek_measure, only: measure_t, axis_axis, rotation, distance
    use ek_element, only: element_t, axial_spring, damper, element_label
    use ek_suspension, only: suspension_t, body_name, driver_row
@@ -121,19 +120,15 @@ contains
       real(wp), parameter :: beyond = 0.05_wp     ! m: over the middle of the car
       real(wp), parameter :: far = 0.9_wp         ! m: from the centre of a wheel that steers
       real(wp) :: at(3)
-      integer :: w
+      integer :: w, own
 
       if (m%kind == axis_axis .or. m%kind == rotation) return
       do w = 1, size(suspension%wheels)
          associate (wheel => suspension%wheels(w))
             if (count(suspension%wheels%body == wheel%body) > 1) cycle
-            if (m%body_i == wheel%body) then
-               at = m%arm_i
-            else if (m%body_j == wheel%body) then
-               at = m%arm_j
-            else
-               cycle
-            end if
+            own = findloc([m%body_i, m%body_j], wheel%body, dim=1)
+            if (own == 0) cycle
+            at = merge(m%arm_i, m%arm_j, own == 1)
             if (wheel%has_steer_axis .and. norm2(at - wheel%centre) > far) call doubts%add('far joint', &
                'on the carrier, but '//doubts%speak(length, norm2(at - wheel%centre))//' from the wheel centre; check '// &
                'the order and the unit of its coordinates')
@@ -157,9 +152,7 @@ contains
          associate (wheel => suspension%wheels(w))
             if (count(suspension%wheels%body == wheel%body) > 1) cycle
             if (any(suspension%wheels%body == m%body_i) .and. any(suspension%wheels%body == m%body_j)) cycle
-            own = 0
-            if (m%body_i == wheel%body) own = 1
-            if (m%body_j == wheel%body) own = 2
+            own = findloc([m%body_i, m%body_j], wheel%body, dim=1)
             if (own == 0) cycle
             if (wheel%side*(ends(2, own) - ends(2, 3 - own)) < -clearly) call doubts%add('swapped', &
                'its end on body '//quoted(body_name(suspension, wheel%body))//' lies inboard of its end on '// &

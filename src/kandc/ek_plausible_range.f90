@@ -4,16 +4,15 @@
 !> A value outside its range is converted with the other units of its dimension: if one of them brings it into the range,
 !> that unit is named. Otherwise the remark gives the text of the table row. No finding is an error.
 module ek_plausible_range
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, units_t, degree
    use ek_error, only: message_list_t
    use ek_text, only: str
-   use ek_units, only: units_t, degree
    implicit none(type, external)
    private
    public :: doubts_t, length, force
 
    ! dimensions
-   integer, parameter :: length = 1, rate = 2, turn_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
+   integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
       acceleration = 9, derived = 10          ! a length computed from other values
 
    !> A unit that may have been used by mistake.
@@ -31,8 +30,8 @@ module ek_plausible_range
       unit_t(length, 'cm', 0.01_wp), &
       unit_t(rate, 'N/m', 1.0_wp), unit_t(rate, 'kN/mm', 1.0e6_wp), unit_t(rate, 'N/mm', 1.0e3_wp), &
       unit_t(rate, 'lbf/in', pound/0.0254_wp), &
-      unit_t(turn_rate, 'N m/rad', 1.0_wp), unit_t(turn_rate, 'N m/deg', 1.0_wp/degree), &
-      unit_t(turn_rate, 'N mm/rad', 1.0e-3_wp), unit_t(turn_rate, 'N mm/deg', 1.0e-3_wp/degree), &
+      unit_t(rotation_rate, 'N m/rad', 1.0_wp), unit_t(rotation_rate, 'N m/deg', 1.0_wp/degree), &
+      unit_t(rotation_rate, 'N mm/rad', 1.0e-3_wp), unit_t(rotation_rate, 'N mm/deg', 1.0e-3_wp/degree), &
       unit_t(force, 'kN', 1.0e3_wp), unit_t(force, 'N', 1.0_wp), unit_t(force, 'kgf', 9.80665_wp), &
       unit_t(moment, 'N mm', 1.0e-3_wp), unit_t(moment, 'kN m', 1.0e3_wp), unit_t(moment, 'N m', 1.0_wp), &
       unit_t(angle, 'minutes', degree/60.0_wp), unit_t(angle, 'rad', 1.0_wp), unit_t(angle, 'deg', degree), &
@@ -72,10 +71,11 @@ module ek_plausible_range
       range_t('rounding', length, 0.0_wp, 10.0_wp, .true., 'such a long transition belongs in the curve'), &
       range_t('stop rate', rate, 3.0_wp, 50000.0_wp, .false., 'give the force per penetration'), &
       range_t('bushing rate kt', rate, 5.0_wp, 1.0e6_wp, .true., 'not in the range of rubber; for a rigid link use a joint'), &
-      range_t('bushing rate kr', turn_rate, 2.0_wp, 5.0e7_wp, .true., 'not in the range of rubber; for a rigid link use a joint'), &
+      range_t('bushing rate kr', rotation_rate, 2.0_wp, 5.0e7_wp, .true., &
+      'not in the range of rubber; for a rigid link use a joint'), &
       range_t('bushing gap', length, 0.0_wp, 20.0_wp, .true., 'its two points are apart; check their names'), &
-      range_t('torsion bar rate', turn_rate, 1500.0_wp, 1.0e6_wp, .false., 'give the rate between the halves of the bar'), &
-      range_t('torsion spring rate', turn_rate, 500.0_wp, 5.0e7_wp, .false., 'give the moment per angle'), &
+      range_t('torsion bar rate', rotation_rate, 1500.0_wp, 1.0e6_wp, .false., 'give the rate between the halves of the bar'), &
+      range_t('torsion spring rate', rotation_rate, 500.0_wp, 5.0e7_wp, .false., 'give the moment per angle'), &
       range_t('driver stiffness', rate, 20.0_wp, 1.0e6_wp, .false., 'give the stiffness at the rack'), &
       range_t('span of the curve', length, 0.5_wp, 600.0_wp, .false., 'its x is a deflection in the deck''s unit'), &
       range_t('angular span of the curve', angle, 0.2_wp, 400.0_wp, .false., 'its x is an angle in the deck''s unit'), &

@@ -1,8 +1,7 @@
 !> Plausibility of the geometry of a deck: wheels, steer axes, carriers, hardpoints.
 module ek_plausible_shape
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, millimetre, degree
    use ek_text, only: str, quoted
-   use ek_units, only: millimetre, degree
    use ek_measure, only: axis_axis, rotation
    use ek_suspension, only: suspension_t, wheel_t, body_name
    use ek_plausible_range, only: doubts_t, length
@@ -101,9 +100,7 @@ contains
       associate (wheel => suspension%wheels(w))
          if (count(suspension%wheels%body == wheel%body) > 1) return      ! a beam from wheel to wheel
          call middle_of_joints(suspension, mean, joints)
-         do b = 1, size(off)
-            off(b) = norm2(mean(:, b) - point_of(suspension, wheel%body, wheel%centre))
-         end do
+         off = norm2(mean(:, 1:) - spread(point_of(suspension, wheel%body, wheel%centre), 2, size(off)), dim=1)
          do b = 1, size(off)
             if (b == wheel%body .or. joints(b) < most .or. any(suspension%wheels%body == b)) cycle
             if (2.0_wp*off(b) < off(wheel%body) .and. off(b) < beside) call doubts%add('carrier', &

@@ -1,13 +1,16 @@
-!> Remarks on the solution of a case as data: notes, warnings and errors, in the order in which they were found.
+!> Remarks on the solution of a case as data: notes, warnings and errors, in the order in which they were found; and the messages on
+!> a model before it is solved: contact points, springs, preloads found by balance.
 module ek_remark
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted
    use ek_case, only: case_t
+   use ek_error, only: message_list_t
+   use ek_element, only: element_kinds, element_label, axial_spring, torsion_spring
+   use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
-   public :: remark_t, remark_list_t, swept_words
-   public :: note, warning, failure
-   public :: on_case, on_end, on_settling, on_drift, on_travel, on_stability, on_rack, on_curve, on_closure
+   public :: remark_t, remark_list_t, swept_text, note, warning, failure, on_case, on_end, on_settling, on_drift, on_travel, &
+      on_stability, on_rack, on_curve, on_closure, patch_remarks, spring_remarks, preload_remarks, has_spring
 
    ! severities
    integer, parameter :: note = 1        !! the results are sound
@@ -35,17 +38,14 @@ module ek_remark
    type :: remark_list_t
       type(remark_t), allocatable, private :: remarks(:)
    contains
-      procedure :: add => list_add
-      procedure :: count => list_count
-      procedure :: item => list_item
-      procedure :: failures => list_failures
-      procedure :: has_failed => list_has_failed
+      procedure :: add => list_add, count => list_count, item => list_item, failures => list_failures, &
+         has_failed => list_has_failed
    end type remark_list_t
 
 contains
 
    !> A swept value of a case on the rig: 'wheel travel = 12.5 mm'.
-   pure function swept_words(case, value, digits) result(text)
+   pure function swept_text(case, value, digits) result(text)
       type(case_t), intent(in) :: case
       real(wp), intent(in) :: value      !! SI
       integer, intent(in) :: digits
@@ -53,7 +53,7 @@ contains
 
       text = case%place_name//' = '//str(value/case%unit, digits)
       if (case%unit_name /= '-') text = text//' '//case%unit_name
-   end function swept_words
+   end function swept_text
 
    !> 'case 'x': text'
    pure function whole(self) result(text)
@@ -120,5 +120,66 @@ contains
          text = text//self%remarks(k)%whole()
       end do
    end function list_failures
+
+   !> Warns of a contact point that is not where a wheel of this radius touches the ground. Tests and compliance matrix both
+   !> use the contact point of the deck, so that an error in it affects both.
+   subroutine patch_remarks(suspension, words)
+      type(suspension_t), intent(in) :: suspension
+      type(message_list_t), intent(inout) :: words
+      real(wp), parameter :: much = 0.02_wp      ! share of the radius; the camber of a real wheel moves the point by half of this
+      real(wp) :: down(3), off
+      integer :: k
+
+      do k = 1, size(suspension%wheels)
+         associate (w => suspension%wheels(k))
+            down = [0.0_wp, 0.0_wp, -1.0_wp] + w%spin(3)*w%spin                        ! in the plane of the wheel
+            down = down/max(norm2(down), 0.1_wp)
+            off = min(norm2(w%contact - w%centre - w%radius*down), &
+               norm2(w%contact - w%centre + w%radius*[0.0_wp, 0.0_wp, 1.0_wp]))
+            if (off <= much*w%radius) cycle
+            call words%add('wheel '//quoted(w%name)//': its contact point is '//str(off/millimetre, 3)// &
+               ' mm away from the point where a wheel of radius '//str(w%radius/millimetre, 4)//' mm touches the ground; all '// &
+               'forces at the contact patch act at the contact point')
+         end associate
+      end do
+   end subroutine patch_remarks
+
+   !> Whether the deck has a spring that carries the car: a spring, or a torsion spring against the chassis.
+   pure logical function has_spring(suspension)
+      type(suspension_t), intent(in) :: suspension
+
+      associate (e => suspension%elements)
+         has_spring = any(element_kinds(e%kind)%carries .or. &
+            (e%kind == torsion_spring .and. min(e%measure%body_i, e%measure%body_j) == 0))
+      end associate
+   end function has_spring
+
+   !> Warns of a deck without a spring: its equilibrium rests on bushings and stops. Cases that only prescribe a wheel
+   !> travel or a driver (kinematics) need no spring.
+   subroutine spring_remarks(suspension, cases, words)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(message_list_t), intent(inout) :: words
+      integer :: k
+
+      if (size(suspension%wheels) == 0 .or. has_spring(suspension)) return
+      if (all([(.not. cases(k)%has_all .and. len(cases(k)%drive) > 0, k=1, size(cases))])) return
+      call words%add('the deck has no spring: the wheels are carried by bushings, anti-roll bars and stops alone, '// &
+         'and the reported rates are those of these elements')
+   end subroutine spring_remarks
+
+   !> The preloads found by balance.
+   subroutine preload_remarks(suspension, words)
+      type(suspension_t), intent(in) :: suspension
+      type(message_list_t), intent(inout) :: words
+      integer :: k
+
+      if (suspension%balance == 'none') return
+      do k = 1, size(suspension%elements)
+         if (suspension%elements(k)%kind /= axial_spring) cycle
+         call words%add('balance: preload of '//element_label(suspension%elements(k))//' = '// &
+            str(suspension%elements(k)%preload, 9)//' N (compression)')
+      end do
+   end subroutine preload_remarks
 
 end module ek_remark

@@ -77,7 +77,6 @@ contains
       suspension%terms = [base%terms, rig%terms]
       suspension%loads = [base%loads, rig%loads]
       suspension%rig_rows = base%rig_rows + size(rig%rows)
-      suspension%rig_loads = base%rig_loads + size(rig%loads)
    end subroutine put_on
 
    !> A rig without rows and loads.

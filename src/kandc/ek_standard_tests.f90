@@ -1,7 +1,6 @@
 !> The standard K&C tests of an axle.
 module ek_standard_tests
-   use ek_kinds, only: wp
-   use ek_units, only: millimetre
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, spaced
    use ek_rig_test, only: rig_test_t, rig_tests, rig_test, needs_both, swept_unit, steers
    use ek_case, only: case_t

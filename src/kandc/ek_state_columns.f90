@@ -4,8 +4,7 @@
 !> Units are mm, N, deg, N m regardless of the deck's units; vectors are in the deck's frame. input/QUANTITIES.md defines each of
 !> them.
 module ek_state_columns
-   use ek_kinds, only: wp
-   use ek_units, only: degree, millimetre
+   use ek_kinds, only: wp, degree, millimetre
    use ek_quantity, only: wheel_position, axis
    use ek_measure, only: measure_value, axis_axis, rotation
    use ek_block, only: rotated
@@ -13,7 +12,7 @@ module ek_state_columns
    use ek_law, only: deflection
    use ek_element, only: element_kinds, is_of_angle
    use ek_element_force, only: spring_tension
-   use ek_elastic, only: bushing_view_t, look_bushing, bushing_load
+   use ek_elastic, only: bushing_evaluation_t, evaluate_bushing, bushing_load
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
@@ -93,7 +92,7 @@ contains
       type(column_list_t), intent(in) :: list    !! of state_columns
       real(wp), intent(inout) :: row(:)          !! one per column
       type(attitude_t) :: now
-      type(bushing_view_t) :: view
+      type(bushing_evaluation_t) :: evaluation
       real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
       integer :: k, at, r, t
 
@@ -123,10 +122,10 @@ contains
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
          associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
-            call look_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-            row(at + 1:at + 3) = matmul(view%gap, bushing%axes)/millimetre
-            row(at + 4:at + 6) = matmul(view%turn%theta, bushing%axes)/degree
-            call bushing_load(bushing, view, force, moment)
+            call evaluate_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+            row(at + 1:at + 3) = matmul(evaluation%gap, bushing%axes)/millimetre
+            row(at + 4:at + 6) = matmul(evaluation%rotation%theta, bushing%axes)/degree
+            call bushing_load(bushing, evaluation, force, moment)
             row(at + 7:at + 9) = force
             row(at + 10:at + 12) = moment
             at = at + 12

@@ -3,8 +3,7 @@
 !> Steer is positive to the left on both wheels, axle roll positive with the left wheel up. SI, rad.
 module ek_steer_angle
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp
-   use ek_units, only: degree
+   use ek_kinds, only: wp, degree
    implicit none(type, external)
    private
    public :: steer_of, steer_rate, axle_roll, inclination_of
@@ -12,7 +11,7 @@ module ek_steer_angle
 
    ! Below one degree the static toe, not the linkage, determines the difference of the two wheels: (δA − δo) is then
    ! 0.01 deg, a toe of 0.1 deg ten times that
-   real(wp), parameter :: least_steer = degree
+   real(wp), parameter :: min_steer = degree
    real(wp), parameter :: widest_circle = 1000.0_wp   !! m: beyond this the car drives straight ahead
 
 contains
@@ -81,7 +80,7 @@ contains
 
       call outer_wheel(left, right, inner, outer, side)
       percent = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (outer < least_steer) return
+      if (outer < min_steer) return
       wanted = ackermann_angle(outer, wheelbase, track) - outer
       if (abs(wanted) > 0.0_wp) percent = 100.0_wp*(inner - outer)/wanted
    end function ackermann_percent

@@ -1,23 +1,26 @@
-!> From the states of a sweep to a table: one row per state.
+!> From the states of a sweep to tables, one row per state: the quantities of a case, and the compliance matrix.
 !>
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
 module ek_sweep_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp, i8
+   use ek_kinds, only: wp, i8, degree
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_state, only: state_t, demand_t, design_state, unpack_state, coordinates
-   use ek_schedule, only: schedule_t, new_schedule, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state, coordinates
+   use ek_schedule, only: schedule_t, new_schedule, inputs_at
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_path, only: path_t
    use ek_state_columns, only: state_columns, state_values
    use ek_column_list, only: column_list_t, choose
-   use ek_kandc_columns, only: kandc_t, start_kandc, same_columns, tell_kandc
+   use ek_kandc_columns, only: kandc_t, start_kandc, same_columns, observe_kandc
    use ek_table, only: table_t, new_table, name_length
+   use ek_block, only: rotated
+   use ek_wheel_side, only: prefix_of, deck_frame
+   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes
+   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, compliance_table
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
@@ -25,7 +28,7 @@ module ek_sweep_table
    !> What a table of states holds: its columns, and the work space to fill them.
    type :: observer_t
       character(name_length), allocatable :: columns(:)     !! heads of the table
-      integer, private :: shown = 0, told = 0, ended = 0    !! last column of the state, of the quantities, of all that there are
+      integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of all
       integer, allocatable, private :: kept(:)              !! the columns of the table among all
       logical, allocatable, private :: is_kept(:)
       type(column_list_t), private :: list                  !! columns of the state
@@ -33,6 +36,10 @@ module ek_sweep_table
       character(name_length), allocatable, private :: wanted(:)
       logical, private :: has_wanted = .false., has_all = .false., has_stability = .false.
    end type observer_t
+
+   character(*), parameter :: places(2) = [character(7) :: 'centre_', 'patch_']
+   character(*), parameter :: moves(6) = [character(2) :: 'x', 'y', 'z', 'rx', 'ry', 'rz'], &
+      loads(6) = ['fx', 'fy', 'fz', 'mx', 'my', 'mz']
 
 contains
 
@@ -54,16 +61,16 @@ contains
       self%has_all = case%has_all
       self%has_stability = knows_stability(case)
       self%ended = size(columns)
-      self%told = self%ended - ends_of(case)
-      self%shown = self%told - self%kandc%used
+      self%reported = self%ended - ends_of(case)
+      self%shown = self%reported - self%kandc%used
       if (allocated(self%is_kept)) deallocate (self%is_kept)
       allocate (self%is_kept(self%ended), source=.true.)
       self%wanted = asked
       self%has_wanted = present(wanted)
-      if (self%has_wanted) self%is_kept(3:self%told) = [(any(self%wanted == columns(k)), k=3, self%told)]
+      if (self%has_wanted) self%is_kept(3:self%reported) = [(any(self%wanted == columns(k)), k=3, self%reported)]
       self%kept = pack([(k, k=1, self%ended)], self%is_kept)
       self%columns = columns(self%kept)
-      if (self%kandc%used > 0) call choose(self%kandc, self%is_kept(self%shown + 1:self%told))
+      if (self%kandc%used > 0) call choose(self%kandc, self%is_kept(self%shown + 1:self%reported))
    end subroutine make_observer
 
    !> Whether an observer was prepared for these columns of such a model.
@@ -99,9 +106,8 @@ contains
       type(table_t), intent(out) :: table
       type(state_t) :: state
       type(schedule_t) :: schedule
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       real(wp), allocatable :: values(:)         ! all columns of a row
-      real(wp) :: unit
       integer :: first, last, k, row
 
       call reached_rows(path, first, last)
@@ -109,27 +115,26 @@ contains
       allocate (values(observer%ended))
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
-      unit = case%unit
-      associate (shown => observer%shown, told => observer%told, ended => observer%ended)
+      associate (shown => observer%shown, reported => observer%reported, ended => observer%ended)
          do k = first, last
             row = k - first + 1
-            call demand_at(schedule, path%value(k), demand)
+            call inputs_at(schedule, path%value(k), inputs)
             values = ieee_value(1.0_wp, ieee_quiet_nan)
             values(1) = k - 1
-            values(2) = path%value(k)/unit
-            values(told + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
+            values(2) = path%value(k)/case%unit
+            values(reported + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
             values(ended - 1) = path%iterations(k)
             if (path%is_reached(k)) then
-               if (observer%has_stability) values(told + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
+               if (observer%has_stability) values(reported + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
                values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
                call unpack_state(path%packed(:, k), state)
-               call assemble(suspension, state, demand, residual_only, kkt)
+               call assemble(suspension, state, inputs, residual_only, kkt)
                if (any(observer%is_kept(3:shown))) call state_values(suspension, state, kkt, observer%list, values(3:shown))
                values(ended) = norm2(kkt%values)
-               if (norm2(kkt%values) > open_joints) values(told + 1) = 0.0_wp
-               if (any(observer%is_kept(shown + 1:told))) then
-                  call tell_kandc(suspension, state, demand, kkt, observer%kandc)
-                  values(shown + 1:told) = observer%kandc%values
+               if (norm2(kkt%values) > open_joints) values(reported + 1) = 0.0_wp
+               if (any(observer%is_kept(shown + 1:reported))) then
+                  call observe_kandc(suspension, state, inputs, kkt, observer%kandc)
+                  values(shown + 1:reported) = observer%kandc%values
                end if
             end if
             table%values(:, row) = values(observer%kept)
@@ -173,19 +178,19 @@ contains
       character(name_length), allocatable, intent(out) :: columns(:)
       type(column_list_t), intent(out) :: list          !! of the state itself
       type(kandc_t), intent(out) :: kandc
-      integer :: shown, told
+      integer :: shown, reported
 
       if (case%has_all) call start_kandc(suspension, kandc)
       call state_columns(suspension, list)
       shown = 2 + list%used
-      told = shown + kandc%used
-      allocate (columns(told + ends_of(case)))
+      reported = shown + kandc%used
+      allocate (columns(reported + ends_of(case)))
       columns(1) = 'state'
       columns(2) = 'factor'
       columns(3:shown) = list%names(:list%used)
-      if (case%has_all) columns(shown + 1:told) = kandc%names(:kandc%used)
-      columns(told + 1) = 'converged'
-      if (knows_stability(case)) columns(told + 2) = 'stable'
+      if (case%has_all) columns(shown + 1:reported) = kandc%names(:kandc%used)
+      columns(reported + 1) = 'converged'
+      if (knows_stability(case)) columns(reported + 2) = 'stable'
       columns(size(columns) - 2:) = [character(name_length) :: 'near_singular', 'iterations', 'constraint_error']
    end subroutine list_columns
 
@@ -231,5 +236,93 @@ contains
          last = min(last + 1, path%states)
       end if
    end subroutine reached_rows
+
+   !> The compliance matrix at every converged state of a sweep as a table: one row per state, one column per entry.
+   !>
+   !> A column is called <place>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
+   !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
+   !> `centre`: loads and displacements at the wheel centres; `patch`: at the contact points of the deck. Loads keep their
+   !> direction; the vertical force on all wheels is held, heights held by the rig are released (ek_compliance). No wheel: no column.
+   subroutine compliance_table(suspension, case, path, kkt, table)
+      type(suspension_t), intent(in) :: suspension      !! on the rig
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt                 !! work space
+      type(table_t), intent(out) :: table
+      type(compliance_t) :: compliance
+      type(state_t) :: state
+      type(inputs_t) :: inputs
+      type(schedule_t) :: schedule
+      real(wp), allocatable :: c(:, :), scale(:), arm(:, :)
+      integer :: n, k, w, row
+
+      compliance = new_compliance(suspension, .false.)
+      n = 6*compliance%wheels
+      allocate (c(n, n), scale(n), arm(3, compliance%wheels))
+      scale = [(deck_frame(suspension), k=1, n/3)]
+      table = new_table(columns_of(suspension, compliance), count(path%is_reached))
+      schedule = new_schedule(suspension, case)
+      state = design_state(suspension)
+      row = 0
+      do k = 1, path%states
+         if (.not. path%is_reached(k)) cycle
+         row = row + 1
+         table%values(1, row) = k - 1
+         table%values(2, row) = path%value(k)/case%unit
+         call unpack_state(path%packed(:, k), state)
+         call inputs_at(schedule, path%value(k), inputs)
+         call wheel_compliance(suspension, state, inputs, 0, kkt, compliance)
+         do w = 1, compliance%wheels
+            associate (wheel => suspension%wheels(compliance%order(w)))
+               arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
+            end associate
+         end do
+         c = compliance%response(:n, :n)
+         call put(c, scale, table%values(3:2 + n*n, row))
+         call put(read_at_patch(load_at_patch(c, arm), arm), scale, table%values(3 + n*n:2 + 2*n*n, row))
+      end do
+   end subroutine compliance_table
+
+   !> The entries of a matrix, row by row, in the units of the columns and the frame of the deck.
+   pure subroutine put(c, frame, values)
+      real(wp), intent(in) :: c(:, :)            !! SI
+      real(wp), intent(in) :: frame(:)           !! sign of every direction
+      real(wp), intent(inout) :: values(:)
+      integer :: i, j, at
+
+      at = 0
+      do i = 1, size(c, 1)
+         do j = 1, size(c, 2)
+            at = at + 1
+            values(at) = frame(i)*frame(j)*c(i, j)/(merge(1.0e-3_wp, degree, mod(i - 1, 6) < 3)/ &      ! mm or deg
+               merge(1.0e3_wp, 1.0e2_wp, mod(j - 1, 6) < 3))                                             ! per kN or 100 N m
+         end do
+      end do
+   end subroutine put
+
+   !> 'state', 'factor', then every entry of both matrices, row by row.
+   function columns_of(suspension, compliance) result(names)
+      type(suspension_t), intent(in) :: suspension
+      type(compliance_t), intent(in) :: compliance
+      character(name_length), allocatable :: names(:)
+      character(:), allocatable :: unit
+      integer :: n, p, i, j, at
+
+      n = 6*compliance%wheels
+      allocate (names(2 + 2*n*n))
+      names(1) = 'state'
+      names(2) = 'factor'
+      at = 2
+      do p = 1, 2
+         do i = 1, n
+            do j = 1, n
+               unit = trim(merge('mm ', 'deg', mod(i - 1, 6) < 3))//'_per_'//trim(merge('kn   ', '100nm', mod(j - 1, 6) < 3))
+               at = at + 1
+               names(at) = trim(places(p))//prefix_of(suspension, compliance%order((i + 5)/6))//trim(moves(mod(i - 1, 6) + 1))// &
+                  '_by_'//prefix_of(suspension, compliance%order((j + 5)/6))//loads(mod(j - 1, 6) + 1)//'_'//unit
+            end do
+         end do
+      end do
+   end function columns_of
 
 end module ek_sweep_table

@@ -9,13 +9,12 @@ module ek_target
    use ek_state, only: state_t, design_state, pack_state
    use ek_schedule, only: schedule_t, new_schedule
    use ek_kkt, only: kkt_t
-   use ek_predictor, only: predictor_t, new_predictor, remember, forget
    use ek_reach, only: failure_t, reach
    use ek_path, only: path_t
    use ek_branch, only: branch_t, new_branch, leave
    use ek_quantity, only: unit_of
    use ek_table, only: table_t, column, column_range, row_count
-   use ek_remark, only: swept_words
+   use ek_remark, only: swept_text
    use ek_sweep_table, only: sweep_table
    implicit none(type, external)
    private
@@ -120,13 +119,12 @@ contains
       type(target_t), intent(inout) :: found
       logical, intent(out) :: is_jump          !! the column jumps across the value, as at a pole
       type(error_t), allocatable, intent(out) :: error
-      integer, parameter :: most_steps = 80
-      real(wp), parameter :: least_step = 1.0e-6_wp   ! of the distance between the two states
+      integer, parameter :: max_steps = 80
+      real(wp), parameter :: min_step = 1.0e-6_wp   ! of the distance between the two states
       real(wp), parameter :: enough = 1.0e-9_wp   ! of the difference between the two states
       real(wp), parameter :: jump = 1.0e-3_wp     ! likewise: a smooth result is nearer once the interval has closed
       type(path_t) :: here
       type(schedule_t) :: schedule
-      type(predictor_t) :: predictor
       type(branch_t) :: branch
       real(wp) :: low, high, f_low, f_high, middle, f, span
       integer :: first, second, step, last_side
@@ -136,9 +134,8 @@ contains
       second = min(first + 1, path%states)
       call one_state(path, first, here)
       schedule = new_schedule(suspension, case)
-      predictor = new_predictor(size(here%packed))
       branch = new_branch(suspension)
-      branch%least = least_step*abs(path%value(second) - path%value(first))
+      branch%least = min_step*abs(path%value(second) - path%value(first))
       low = path%value(first)
       f_low = table%values(c, row) - found%wanted
       if (abs(f_low) <= 0.0_wp) then
@@ -151,7 +148,7 @@ contains
       f_high = table%values(c, row + 1) - found%wanted
       span = max(abs(f_low), abs(f_high))
       last_side = 0
-      do step = 1, most_steps
+      do step = 1, max_steps
          middle = high - f_high*(high - low)/(f_high - f_low)
          call look_at(middle)
          if (allocated(error)) return
@@ -186,10 +183,8 @@ contains
          from = first
          if (abs(path%value(second) - place) < abs(path%value(first) - place)) from = second
          state = design_state(suspension)
-         call forget(predictor)
-         call remember(predictor, path%value(from), path%packed(:, from))
-         call leave(branch, -1)
-         call reach(suspension, schedule, place, case%tolerance, predictor, branch, state, kkt, &
+         call leave(branch, path%value(from), path%packed(:, from), -1)
+         call reach(suspension, schedule, place, case%tolerance, branch, state, kkt, &
             here%iterations(1), failure)
          here%value(1) = place
          here%is_reached(1) = failure%state == 0
@@ -203,7 +198,7 @@ contains
             f = value(1) - found%wanted
          else
             call fail(error, exit_convergence, 'case '//quoted(case%name)//': target: '//found%column// &
-               ' has no value at '//swept_words(case, place, 9))
+               ' has no value at '//swept_text(case, place, 9))
          end if
       end subroutine look_at
 

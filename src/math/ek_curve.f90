@@ -15,11 +15,11 @@ module ek_curve
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, look_up_curve, curve_kinds, slopes_between, has_points, least_step
+   public :: curve_t, new_curve, look_up_curve, curve_kinds, slopes_between, has_points, min_step
 
    character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
 
-   real(wp), parameter :: least_step = 1.0e-30_wp   !! smallest distance of two points; with numbers below 1e30 no slope overflows
+   real(wp), parameter :: min_step = 1.0e-30_wp   !! smallest distance of two points; with numbers below 1e30 no slope overflows
 
    !> A curve, in the units of its points.
    type :: curve_t
@@ -43,19 +43,14 @@ contains
 
       n = size(x)
       chord = (y(2:) - y(:n - 1))/(x(2:) - x(:n - 1))
-      select case (kind)
-      case ('akima')
-         slope = akima_slopes(chord)
+      left = chord
+      right = chord
+      if (kind /= 'linear') then
+         if (kind == 'akima') slope = akima_slopes(chord)
+         if (kind == 'cubic') slope = natural_slopes(x, chord)
          left = slope(:n - 1)
          right = slope(2:)
-      case ('cubic')
-         slope = natural_slopes(x, chord)
-         left = slope(:n - 1)
-         right = slope(2:)
-      case default
-         left = chord
-         right = chord
-      end select
+      end if
       allocate (curve%breaks(n), curve%coefficients(4, n - 1))
       curve%breaks = x
       do k = 1, n - 1
@@ -81,18 +76,14 @@ contains
       type(curve_t), intent(in) :: curve
       real(wp), intent(in) :: x(:), y(:)
       real(wp), intent(in) :: x_unit, y_unit
-      integer :: k, n
+      integer :: n
 
       n = size(x)
-      has_points = allocated(curve%breaks)
-      if (.not. has_points) return
-      has_points = size(curve%breaks) == n
-      do k = 1, n
-         if (.not. has_points) return
-         has_points = abs(curve%breaks(k) - x(k)*x_unit) <= 0.0_wp
-         if (k < n) has_points = has_points .and. abs(curve%coefficients(1, k) - y(k)*y_unit) <= 0.0_wp
-      end do
-      has_points = has_points .and. abs(curve%end_value - y(n)*y_unit) <= 0.0_wp
+      has_points = .false.
+      if (.not. allocated(curve%breaks)) return
+      if (size(curve%breaks) /= n) return
+      has_points = all(abs(curve%breaks - x*x_unit) <= 0.0_wp) .and. abs(curve%end_value - y(n)*y_unit) <= 0.0_wp .and. &
+         all(abs(curve%coefficients(1, :) - y(:n - 1)*y_unit) <= 0.0_wp)
    end function has_points
 
    !> Value and slope at x; at a corner of a linear curve, the slope to the right.

@@ -23,7 +23,8 @@ module ek_lapack
 #ifdef EK_TRAPS
 contains
 
-   !> Cholesky factorisation of a symmetric positive definite matrix.
+   ! what each does, and its arguments: see ek_lapack_routines
+
    pure subroutine dpotrf(uplo, n, a, lda, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, lda
@@ -35,7 +36,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dpotrf
 
-   !> Bunch–Kaufman factorisation of a symmetric indefinite matrix.
    pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, lda, lwork
@@ -49,7 +49,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrf
 
-   !> Solution with the factors of dsytrf.
    pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, nrhs, lda, ldb
@@ -63,7 +62,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrs
 
-   !> Reciprocal condition number (1-norm) from the factors of dsytrf.
    pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, lda
@@ -80,7 +78,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsycon
 
-   !> Factor and solve in one call: the unit of the benchmark.
    pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
       character, intent(in) :: uplo
       integer, intent(in) :: n, nrhs, lda, ldb, lwork
@@ -95,7 +92,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsysv
 
-   !> Factor (LU, partial pivoting) and solve a general system.
    pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
       integer, intent(in) :: n, nrhs, lda, ldb
       real(wp), intent(inout) :: a(lda, *)
@@ -108,7 +104,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgesv
 
-   !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
    pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
       character, intent(in) :: jobz, uplo
       integer, intent(in) :: n, lda, lwork
@@ -122,7 +117,6 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsyev
 
-   !> Singular value decomposition.
    pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
       character, intent(in) :: jobu, jobvt
       integer, intent(in) :: m, n, lda, ldu, ldvt, lwork

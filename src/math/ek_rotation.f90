@@ -3,8 +3,7 @@
 !> A unit quaternion q = (cos φ/2, n sin φ/2) represents the rotation matrix A(q), which maps
 !> body axes to global axes. Products satisfy A(p⊗q) = A(p) A(q).
 module ek_rotation
-   use ek_kinds, only: wp
-   use ek_units, only: degree
+   use ek_kinds, only: wp, degree
    implicit none(type, external)
    private
    public :: cross, skew, unit_vector, perpendicular, angle_between

@@ -11,7 +11,7 @@ module ek_singular_values
    use ek_lapack, only: dgesvd
    implicit none(type, external)
    private
-   public :: singular_values_t, decompose, least_norm
+   public :: singular_values_t, decompose, min_norm
 
    type :: singular_values_t
       logical :: is_found = .false.          !! false: A has elements that are not finite, or LAPACK did not converge
@@ -62,7 +62,7 @@ contains
    end subroutine decompose
 
    !> The shortest x of those with the smallest |A x − b|.
-   pure subroutine least_norm(parts, b, x)
+   pure subroutine min_norm(parts, b, x)
       type(singular_values_t), intent(in) :: parts       !! of A
       real(wp), intent(in) :: b(:)
       real(wp), intent(out) :: x(:)
@@ -72,7 +72,7 @@ contains
       do k = 1, parts%rank
          x = x + parts%right(:, k)*(dot_product(parts%left(:, k), b)/parts%values(k))
       end do
-   end subroutine least_norm
+   end subroutine min_norm
 
    !> A matrix with ones on its diagonal.
    pure subroutine set_unit(rows, columns, matrix)

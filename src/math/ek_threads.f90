@@ -4,7 +4,7 @@ module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use ek_kinds, only: i8
    use ek_error, only: error_t
-   use ek_memory, only: ask_memory
+   use ek_system, only: ask_memory
    implicit none(type, external)
    private
    public :: use_one_thread, processor_count

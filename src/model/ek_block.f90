@@ -8,7 +8,7 @@ module ek_block
    implicit none(type, external)
    private
    public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian, add_gradient
-   public :: add_s_block, rotated, dyad, dyad_rest
+   public :: add_s_block, rotated, in_world, dyad, dyad_rest
 
 contains
 
@@ -30,6 +30,26 @@ contains
       w(2) = a(2, 1)*v(1) + a(2, 2)*v(2) + a(2, 3)*v(3)
       w(3) = a(3, 1)*v(1) + a(3, 2)*v(2) + a(3, 3)*v(3)
    end function rotated
+
+   !> A K Aᵀ; the chassis (at_i < 0) never rotates.
+   pure function in_world(a, k, at_i) result(world)
+      real(wp), intent(in) :: a(3, 3), k(3, 3)
+      integer, intent(in) :: at_i
+      real(wp) :: world(3, 3), ak(3, 3), row(3)
+      integer :: j
+
+      if (at_i < 0) then
+         world = k
+         return
+      end if
+      do j = 1, 3
+         ak(:, j) = rotated(a, k(:, j))
+      end do
+      do j = 1, 3
+         row = ak(j, :)
+         world(j, :) = rotated(a, row)
+      end do
+   end function in_world
 
    !> Adds S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I to a diagonal block; no action if the body has no unknowns.
    !> Equation (M.2) of docs/theory/measures.md.
@@ -64,44 +84,34 @@ contains
       real(wp), intent(in) :: a(3), b(3)    !! arms, global axes [m]
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: ma(3, 3), mb(3, 3), x(3, 3)   ! M ã, M b̃
-      integer :: k
+      real(wp) :: m_arm(3, 3, 2), x(3, 3), arm(3)   ! M ã, M b̃
+      integer :: at(2), k, end
 
-      if (at_j >= 0) then
+      at = [at_i, at_j]
+      do end = 1, 2
+         if (at(end) < 0) cycle
+         arm = merge(a, b, end == 1)
          do k = 1, 3
-            mb(k, :) = cross(m(:, k), b)
+            m_arm(k, :, end) = cross(m(:, k), arm)
          end do
          do k = 1, 3
-            x(:, k) = cross(mb(:, k), b)
+            x(:, k) = cross(m_arm(:, k, end), arm)
          end do
-         call add_diagonal_block(m, at_j, at_j, ld, matrix)
-         call add_diagonal_block(x, at_j + 3, at_j, ld, matrix)
-         x = -mb
-         call add_block(x, at_j, at_j + 3, ld, matrix)
-      end if
-      if (at_i >= 0) then
-         do k = 1, 3
-            ma(k, :) = cross(m(:, k), a)
-         end do
-         do k = 1, 3
-            x(:, k) = cross(ma(:, k), a)
-         end do
-         call add_diagonal_block(m, at_i, at_i, ld, matrix)
-         call add_diagonal_block(x, at_i + 3, at_i, ld, matrix)
-         x = -ma
-         call add_block(x, at_i, at_i + 3, ld, matrix)
-      end if
-      if (at_i >= 0 .and. at_j >= 0) then
-         do k = 1, 3
-            x(:, k) = cross(a, mb(:, k))
-         end do
-         call add_block(x, at_i + 3, at_j + 3, ld, matrix)
-         x = -m
-         call add_block(x, at_i, at_j, ld, matrix)
-         call add_block(mb, at_i, at_j + 3, ld, matrix)
-         x = transpose(ma)
-         call add_block(x, at_i + 3, at_j, ld, matrix)
-      end if
+         call add_diagonal_block(m, at(end), at(end), ld, matrix)
+         call add_diagonal_block(x, at(end) + 3, at(end), ld, matrix)
+         x = -m_arm(:, :, end)
+         call add_block(x, at(end), at(end) + 3, ld, matrix)
+      end do
+      if (at_i < 0 .or. at_j < 0) return
+      do k = 1, 3
+         x(:, k) = cross(a, m_arm(:, k, 2))
+      end do
+      call add_block(x, at_i + 3, at_j + 3, ld, matrix)
+      x = -m
+      call add_block(x, at_i, at_j, ld, matrix)
+      call add_block(m_arm(:, :, 2), at_i, at_j + 3, ld, matrix)
+      x = transpose(m_arm(:, :, 1))
+      call add_block(x, at_i + 3, at_j, ld, matrix)
    end subroutine add_link_stiffness
 
    !> Adds the Hessian of f·d, f fixed in body i (any length: the measure is linear in f).

@@ -5,13 +5,13 @@ module ek_case
    implicit none(type, external)
    private
    public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, method_names
-   public :: default_tolerance, most_increments, most_driven
+   public :: default_tolerance, max_increments, max_driven
    public :: follow_names, follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
-   integer, parameter :: most_increments = 1000000   !! a state needs about 3 kB of memory
-   integer, parameter :: most_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
+   integer, parameter :: max_increments = 1000000   !! a state needs about 3 kB of memory
+   integer, parameter :: max_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
 
    integer, parameter :: follows_place = 1     !! share × swept value
@@ -84,11 +84,7 @@ contains
    pure logical function scales_loads(case)
       type(case_t), intent(in) :: case
       integer :: k
-
-      scales_loads = .false.
-      do k = 1, size(case%actuations)
-         scales_loads = scales_loads .or. len(case%actuations(k)%load) > 0
-      end do
+      scales_loads = any([(len(case%actuations(k)%load) > 0, k=1, size(case%actuations))])
    end function scales_loads
 
    !> Add an actuation to a case: a load or a driver joint; the other name is empty.

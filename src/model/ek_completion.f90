@@ -2,7 +2,7 @@
 module ek_completion
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_measure, only: measure_t, measure_value, is_of_angle, distance
    use ek_element, only: bushing_element, set_design_value
    use ek_elastic, only: set_bushing_axes
@@ -48,8 +48,7 @@ contains
          associate (w => self%wheels(k))
             w%centre = w%centre - origin_of(self, w%body)
             w%contact = w%contact - origin_of(self, w%body)
-            w%steer_axis(:, 1) = w%steer_axis(:, 1) - origin_of(self, w%body)
-            w%steer_axis(:, 2) = w%steer_axis(:, 2) - origin_of(self, w%body)
+            w%steer_axis = w%steer_axis - spread(origin_of(self, w%body), 2, 2)
          end associate
       end do
 
@@ -112,25 +111,20 @@ contains
       end do
    end subroutine settle_origins
 
-   !> Counts both points of a measure as attachment points.
+   !> Adds both design points of a measure to the sums, still held in `origin`, of the attachment points of its bodies.
    pure subroutine include_points(self, m)
       type(suspension_t), intent(inout) :: self
       type(measure_t), intent(in) :: m
-      call include_point(self, m%body_i, m%arm_i)
-      call include_point(self, m%body_j, m%arm_j)
+      integer :: end, body
+
+      do end = 1, 2
+         body = merge(m%body_i, m%body_j, end == 1)
+         if (body == 0) cycle
+         if (self%bodies(body)%has_origin) cycle
+         self%bodies(body)%origin = self%bodies(body)%origin + merge(m%arm_i, m%arm_j, end == 1)
+         self%bodies(body)%attached = self%bodies(body)%attached + 1
+      end do
    end subroutine include_points
-
-   !> Adds a design point to the sum, still held in `origin`, of the attachment points of a body.
-   pure subroutine include_point(self, body, point)
-      type(suspension_t), intent(inout) :: self
-      integer, intent(in) :: body
-      real(wp), intent(in) :: point(3)
-
-      if (body == 0) return
-      if (self%bodies(body)%has_origin) return
-      self%bodies(body)%origin = self%bodies(body)%origin + point
-      self%bodies(body)%attached = self%bodies(body)%attached + 1
-   end subroutine include_point
 
    !> Converts the design points of a measure to arms.
    pure subroutine subtract_origins(self, measure)

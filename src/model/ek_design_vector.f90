@@ -10,7 +10,7 @@ module ek_design_vector
    public :: find_vectors, marker_axes, spin_of, plane
 
    real(wp), parameter :: plane = 1.0e-9_wp           !! m: a point closer to y = 0 exists once on a mirrored axle
-   real(wp), parameter :: least_angle = 0.01_wp       !! deg between x and z of a marker, below which x is undefined
+   real(wp), parameter :: min_angle = 0.01_wp       !! deg between x and z of a marker, below which x is undefined
 
 contains
 
@@ -75,11 +75,8 @@ contains
          direction = [-a(2), a(1), 0.0_wp]
          if (norm2(direction) < upright) direction = [1.0_wp, 0.0_wp, 0.0_wp] - a(1)*a
       end select
-      if (norm2(direction) > 0.0_wp) then
-         direction = unit_vector(direction)
-      else
-         is_good = .false.
-      end if
+      is_good = is_good .and. norm2(direction) > 0.0_wp
+      if (norm2(direction) > 0.0_wp) direction = unit_vector(direction)
    end subroutine find_direction
 
    !> The marker axes: z is kept, x is made perpendicular to it, y = z × x. Without directions they are the deck's global axes.
@@ -95,7 +92,7 @@ contains
       axes(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp]
       if (.not. (norm2(z) > 0.0_wp .and. norm2(x) > 0.0_wp)) return
       angle = angle_between(x, z)
-      if (min(angle, 180.0_wp - angle) < least_angle) then
+      if (min(angle, 180.0_wp - angle) < min_angle) then
          is_good = .false.
          return
       end if

@@ -10,13 +10,14 @@ module ek_elastic
    use ek_kinds, only: wp
    use ek_law, only: law_t, look_up_law
    use ek_measure, only: measure_t
-   use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
-   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated
+   use ek_relative_rotation, only: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, rotation_jacobian, &
+      add_rotation_hessian
+   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated, in_world
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
-   public :: bushing_t, bushing_view_t, set_bushing_axes
-   public :: look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
+   public :: bushing_t, bushing_evaluation_t, set_bushing_axes
+   public :: evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, bushing_load, design_rates
 
    !> The law of a six-axis bushing from marker I on body i to marker J on body j. The markers are parallel at design. They may be
    !> at two points; the design gap causes no force. What every evaluation reads comes first.
@@ -36,16 +37,16 @@ module ek_elastic
    end type bushing_t
 
    !> A bushing at one pair of poses.
-   type :: bushing_view_t
+   type :: bushing_evaluation_t
       real(wp) :: a(3) = 0.0_wp, b(3) = 0.0_wp, d(3) = 0.0_wp   !! arms and gap, global [m]
       real(wp) :: frame(3, 3) = identity3                      !! A_i
       real(wp) :: gap(3) = 0.0_wp        !! gap minus design gap, axes of body i [m]
       real(wp) :: force(3) = 0.0_wp      !! dV/dd, global [N]
       real(wp) :: moment(3) = 0.0_wp     !! dV/dθ, axes of body i [N m]
-      type(turn_t) :: turn
+      type(relative_rotation_t) :: rotation
       ! the rates, or the slopes of curves at this deflection, in the axes of body i
       real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
-   end type bushing_view_t
+   end type bushing_evaluation_t
 
 contains
 
@@ -76,41 +77,41 @@ contains
 
    !> Gap, rotation, force and moment of the law, and its slopes.
    !> Equation (M.15) of docs/theory/measures.md.
-   pure subroutine look_bushing(bushing, measure, pose_i, pose_j, view)
+   pure subroutine evaluate_bushing(bushing, measure, pose_i, pose_j, evaluation)
       type(bushing_t), intent(in) :: bushing
       type(measure_t), intent(in) :: measure            !! of the element: arms of the markers
       type(pose_t), intent(in) :: pose_i, pose_j
-      type(bushing_view_t), intent(inout) :: view
+      type(bushing_evaluation_t), intent(inout) :: evaluation
       real(wp) :: a(3), b(3), d(3), force(3), load(6), slope(6)
 
       a = rotated(pose_i%a, measure%arm_i)
       b = rotated(pose_j%a, measure%arm_j)
       d = (pose_j%r - pose_i%r) + (b - a)
-      view%frame = pose_i%a
-      view%a = a
-      view%b = b
-      view%d = d
-      view%gap(1) = dot_product(pose_i%a(:, 1), d) - bushing%gap0(1)
-      view%gap(2) = dot_product(pose_i%a(:, 2), d) - bushing%gap0(2)
-      view%gap(3) = dot_product(pose_i%a(:, 3), d) - bushing%gap0(3)
-      call relative_turn(pose_i, pose_j, view%turn)
+      evaluation%frame = pose_i%a
+      evaluation%a = a
+      evaluation%b = b
+      evaluation%d = d
+      evaluation%gap(1) = dot_product(pose_i%a(:, 1), d) - bushing%gap0(1)
+      evaluation%gap(2) = dot_product(pose_i%a(:, 2), d) - bushing%gap0(2)
+      evaluation%gap(3) = dot_product(pose_i%a(:, 3), d) - bushing%gap0(3)
+      call relative_rotation(pose_i, pose_j, evaluation%rotation)
       if (bushing%has_curves) then
-         call look_components(bushing, view%gap, view%turn%theta, load, slope)
+         call evaluate_components(bushing, evaluation%gap, evaluation%rotation%theta, load, slope)
          force = rotated(bushing%axes, load(1:3))
-         view%moment = rotated(bushing%axes, load(4:6))
-         view%stiffness_t = in_body(bushing%axes, slope(1:3))
-         view%stiffness_r = in_body(bushing%axes, slope(4:6))
+         evaluation%moment = rotated(bushing%axes, load(4:6))
+         evaluation%stiffness_t = in_body(bushing%axes, slope(1:3))
+         evaluation%stiffness_r = in_body(bushing%axes, slope(4:6))
       else
-         force = rotated(bushing%stiffness_t, view%gap) - bushing%force0
-         view%moment = rotated(bushing%stiffness_r, view%turn%theta) - bushing%moment0
-         view%stiffness_t = bushing%stiffness_t
-         view%stiffness_r = bushing%stiffness_r
+         force = rotated(bushing%stiffness_t, evaluation%gap) - bushing%force0
+         evaluation%moment = rotated(bushing%stiffness_r, evaluation%rotation%theta) - bushing%moment0
+         evaluation%stiffness_t = bushing%stiffness_t
+         evaluation%stiffness_r = bushing%stiffness_r
       end if
-      view%force = rotated(pose_i%a, force)
-   end subroutine look_bushing
+      evaluation%force = rotated(pose_i%a, force)
+   end subroutine evaluate_bushing
 
    !> dV/d(component) minus the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
-   pure subroutine look_components(bushing, gap, theta, load, slope)
+   pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
       real(wp), intent(in) :: gap(3), theta(3)          !! axes of body i
       real(wp), intent(out) :: load(6), slope(6)
@@ -131,18 +132,18 @@ contains
       end if
       load(1:3) = load(1:3) - bushing%preload_force
       load(4:6) = load(4:6) - bushing%preload_moment
-   end subroutine look_components
+   end subroutine evaluate_components
 
    !> Force and moment of the bushing law on body j, marker axes: preload minus restoring force of rates or curves [N, N m].
    !> The force is the force on body j. The moment is conjugate to θ (−dV/dθ); the moment on body j is ∂θ/∂δᵀ times it, as in
-   !> bushing_pull.
-   pure subroutine bushing_load(bushing, view, force, moment)
+   !> bushing_force.
+   pure subroutine bushing_load(bushing, evaluation, force, moment)
       type(bushing_t), intent(in) :: bushing
-      type(bushing_view_t), intent(in) :: view      !! of look_bushing
+      type(bushing_evaluation_t), intent(in) :: evaluation      !! of evaluate_bushing
       real(wp), intent(out) :: force(3), moment(3)
       real(wp) :: load(6), slope(6)
 
-      call look_components(bushing, view%gap, view%turn%theta, load, slope)
+      call evaluate_components(bushing, evaluation%gap, evaluation%rotation%theta, load, slope)
       force = -load(1:3)
       moment = -load(4:6)
    end subroutine bushing_load
@@ -153,38 +154,38 @@ contains
       real(wp) :: rates(6), load(6)
       real(wp), parameter :: none(3) = 0.0_wp
 
-      call look_components(bushing, none, none, load, rates)
+      call evaluate_components(bushing, none, none, load, rates)
    end function design_rates
 
    !> dV/dz = [−f, −(a+d)×f − w, f, b×f + w], w = A_i ∂θ/∂δᵀ m.
    !> Equation (M.16) of docs/theory/measures.md.
-   pure function bushing_pull(view) result(pull)
-      type(bushing_view_t), intent(in) :: view
-      real(wp) :: pull(12), w(3), arm(3)
+   pure function bushing_force(evaluation) result(generalised_force)
+      type(bushing_evaluation_t), intent(in) :: evaluation
+      real(wp) :: generalised_force(12), w(3), arm(3)
 
-      w = rotated(view%frame, turn_gradient(view%turn, view%moment))
-      pull(1:3) = -view%force
-      arm = view%a + view%d
-      pull(4:6) = -cross(arm, view%force) - w
-      pull(7:9) = view%force
-      pull(10:12) = cross(view%b, view%force) + w
-   end function bushing_pull
+      w = rotated(evaluation%frame, rotation_gradient(evaluation%rotation, evaluation%moment))
+      generalised_force(1:3) = -evaluation%force
+      arm = evaluation%a + evaluation%d
+      generalised_force(4:6) = -cross(arm, evaluation%force) - w
+      generalised_force(7:9) = evaluation%force
+      generalised_force(10:12) = cross(evaluation%b, evaluation%force) + w
+   end function bushing_force
 
    !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
    !> Equation (M.17) of docs/theory/measures.md.
-   pure subroutine add_bushing_tangent(view, at_i, at_j, ld, matrix)
-      type(bushing_view_t), intent(in) :: view
+   pure subroutine add_bushing_tangent(evaluation, at_i, at_j, ld, matrix)
+      type(bushing_evaluation_t), intent(in) :: evaluation
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: g(3, 3), kg(3, 3), inner(3, 3), arm(3)
       integer :: k, l
 
-      arm = view%a + view%d
-      call add_link_stiffness(in_world(view%frame, view%stiffness_t, at_i), arm, view%b, at_i, at_j, ld, matrix)
-      call add_gap_hessian(view%force, view%a, view%b, view%d, at_i, at_j, ld, matrix)
-      g = turn_jacobian(view%turn)
+      arm = evaluation%a + evaluation%d
+      call add_link_stiffness(in_world(evaluation%frame, evaluation%stiffness_t, at_i), arm, evaluation%b, at_i, at_j, ld, matrix)
+      call add_gap_hessian(evaluation%force, evaluation%a, evaluation%b, evaluation%d, at_i, at_j, ld, matrix)
+      g = rotation_jacobian(evaluation%rotation)
       do k = 1, 3
-         kg(:, k) = rotated(view%stiffness_r, g(:, k))
+         kg(:, k) = rotated(evaluation%stiffness_r, g(:, k))
       end do
       do k = 1, 3
          do l = k, 3
@@ -192,45 +193,26 @@ contains
             inner(k, l) = inner(l, k)
          end do
       end do
-      call add_turn_hessian(view%turn, view%moment, inner, view%frame, at_i, at_j, ld, matrix)
+      call add_rotation_hessian(evaluation%rotation, evaluation%moment, inner, evaluation%frame, at_i, at_j, ld, matrix)
    end subroutine add_bushing_tangent
 
    !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], for u = each of the three
    !> marker axes. Forces do not enter, and the rotation of the marker frame itself (u×d) is neglected.
    !> Equation (M.18) of docs/theory/measures.md.
-   pure subroutine add_bushing_material(view, at_i, at_j, ld, matrix)
-      type(bushing_view_t), intent(in) :: view
+   pure subroutine add_bushing_material(evaluation, at_i, at_j, ld, matrix)
+      type(bushing_evaluation_t), intent(in) :: evaluation
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: k(3, 3)
 
-      call add_link_stiffness(in_world(view%frame, view%stiffness_t, at_i), view%a, view%b, at_i, at_j, ld, matrix)
-      k = in_world(view%frame, view%stiffness_r, at_i)
+      call add_link_stiffness(in_world(evaluation%frame, evaluation%stiffness_t, at_i), evaluation%a, evaluation%b, at_i, at_j, &
+         ld, matrix)
+      k = in_world(evaluation%frame, evaluation%stiffness_r, at_i)
       call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
       call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
       if (at_i < 0 .or. at_j < 0) return
       k = -k
       call add_block(k, at_i + 3, at_j + 3, ld, matrix)
    end subroutine add_bushing_material
-
-   !> A K Aᵀ; the chassis (at_i < 0) never rotates.
-   pure function in_world(a, k, at_i) result(world)
-      real(wp), intent(in) :: a(3, 3), k(3, 3)
-      integer, intent(in) :: at_i
-      real(wp) :: world(3, 3), ak(3, 3), row(3)
-      integer :: j
-
-      if (at_i < 0) then
-         world = k
-         return
-      end if
-      do j = 1, 3
-         ak(:, j) = rotated(a, k(:, j))
-      end do
-      do j = 1, 3
-         row = ak(j, :)
-         world(j, :) = rotated(a, row)
-      end do
-   end function in_world
 
 end module ek_elastic

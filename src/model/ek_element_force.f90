@@ -3,43 +3,44 @@
 !> "Pull" is the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_element_force
    use ek_kinds, only: wp
-   use ek_turn, only: pose_t
-   use ek_measure, only: view_t, look, add_measure_hessian, is_of_angle, distance, global_gap
+   use ek_relative_rotation, only: pose_t
+   use ek_measure, only: evaluation_t, evaluate, add_measure_hessian, is_of_angle, distance, global_gap
    use ek_block, only: add_link_stiffness, add_diagonal_block, add_block, dyad
    use ek_law, only: look_up_law
-   use ek_elastic, only: bushing_view_t, look_bushing, bushing_pull, add_bushing_tangent, add_bushing_material, design_rates
+   use ek_elastic, only: bushing_evaluation_t, evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, &
+      design_rates
    use ek_element, only: element_t, bushing_element
    implicit none(type, external)
    private
-   public :: element_view_t, look_element, add_element_tangent, add_element_material, design_stiffness
+   public :: element_evaluation_t, evaluate_element, add_element_tangent, design_stiffness
    public :: spring_tension, add_spring_tangent, add_spring_material
 
    !> An element at one pair of poses.
-   type :: element_view_t
-      real(wp) :: pull(12) = 0.0_wp      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
+   type :: element_evaluation_t
+      real(wp) :: generalised_force(12) = 0.0_wp      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
       real(wp) :: tension = 0.0_wp       !! dV/dvalue and its slope, of an element of one measure
       real(wp) :: slope = 0.0_wp
-      type(view_t) :: measure
-      type(bushing_view_t) :: bushing
-   end type element_view_t
+      type(evaluation_t) :: measure
+      type(bushing_evaluation_t) :: bushing
+   end type element_evaluation_t
 
 contains
 
    !> Deflection, force and slope.
-   pure subroutine look_element(element, pose_i, pose_j, view)
+   pure subroutine evaluate_element(element, pose_i, pose_j, evaluation)
       type(element_t), intent(in) :: element
       type(pose_t), intent(in) :: pose_i, pose_j
-      type(element_view_t), intent(inout) :: view       !! only the components that this kind needs are set
+      type(element_evaluation_t), intent(inout) :: evaluation       !! only the components that this kind needs are set
 
       if (element%kind == bushing_element) then
-         call look_bushing(element%bushing, element%measure, pose_i, pose_j, view%bushing)
-         view%pull = bushing_pull(view%bushing)
+         call evaluate_bushing(element%bushing, element%measure, pose_i, pose_j, evaluation%bushing)
+         evaluation%generalised_force = bushing_force(evaluation%bushing)
       else
-         call look(element%measure, pose_i, pose_j, view%measure)
-         call spring_tension(element, view%measure%value, view%tension, view%slope)
-         view%pull = view%tension*view%measure%gradient
+         call evaluate(element%measure, pose_i, pose_j, evaluation%measure)
+         call spring_tension(element, evaluation%measure%value, evaluation%tension, evaluation%slope)
+         evaluation%generalised_force = evaluation%tension*evaluation%measure%gradient
       end if
-   end subroutine look_element
+   end subroutine evaluate_element
 
    !> Tension at a value of the measure, and its slope; for a torsion spring, the moment at an angle.
    !> Equation (M.14) of docs/theory/measures.md.
@@ -54,39 +55,30 @@ contains
    end subroutine spring_tension
 
    !> Adds d²V/dz²: the material part, and force × Hessian.
-   pure subroutine add_element_tangent(element, view, at_i, at_j, ld, matrix)
+   pure subroutine add_element_tangent(element, evaluation, is_material, at_i, at_j, ld, matrix)
       type(element_t), intent(in) :: element
-      type(element_view_t), intent(in) :: view          !! of look_element
+      type(element_evaluation_t), intent(in) :: evaluation          !! of evaluate_element
+      logical, intent(in) :: is_material                !! the material part alone, −(19) of the paper
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
 
       if (element%kind == bushing_element) then
-         call add_bushing_tangent(view%bushing, at_i, at_j, ld, matrix)
+         if (is_material) call add_bushing_material(evaluation%bushing, at_i, at_j, ld, matrix)
+         if (.not. is_material) call add_bushing_tangent(evaluation%bushing, at_i, at_j, ld, matrix)
+      else if (is_material) then
+         call add_spring_material(element%measure%kind, evaluation%measure, evaluation%slope, at_i, at_j, ld, matrix)
       else
-         call add_spring_tangent(element%measure%kind, view%measure, view%tension, view%slope, at_i, at_j, ld, matrix)
+         call add_spring_tangent(element%measure%kind, evaluation%measure, evaluation%tension, evaluation%slope, at_i, at_j, &
+            ld, matrix)
       end if
    end subroutine add_element_tangent
-
-   !> Adds the material part alone, −(19) of the paper.
-   pure subroutine add_element_material(element, view, at_i, at_j, ld, matrix)
-      type(element_t), intent(in) :: element
-      type(element_view_t), intent(in) :: view          !! of look_element
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-
-      if (element%kind == bushing_element) then
-         call add_bushing_material(view%bushing, at_i, at_j, ld, matrix)
-      else
-         call add_spring_material(element%measure%kind, view%measure, view%slope, at_i, at_j, ld, matrix)
-      end if
-   end subroutine add_element_material
 
    !> Adds slope g gᵀ + tension × Hessian of the measure, g its gradient. Of a distance: Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and
    !> the arm terms, which are those of a gap along e.
    !> Equation (M.13) of docs/theory/measures.md.
-   pure subroutine add_spring_tangent(kind, view, tension, slope, at_i, at_j, ld, matrix)
+   pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at_i, at_j, ld, matrix)
       integer, intent(in) :: kind                       !! of the measure
-      type(view_t), intent(in) :: view
+      type(evaluation_t), intent(in) :: evaluation
       real(wp), intent(in) :: tension, slope
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
@@ -94,24 +86,24 @@ contains
       integer :: k
 
       if (kind /= distance) then
-         call add_spring_material(kind, view, slope, at_i, at_j, ld, matrix)
-         call add_measure_hessian(kind, view, tension, at_i, at_j, ld, matrix)
+         call add_spring_material(kind, evaluation, slope, at_i, at_j, ld, matrix)
+         call add_measure_hessian(kind, evaluation, tension, at_i, at_j, ld, matrix)
          return
       end if
-      across = tension/view%value
+      across = tension/evaluation%value
       do k = 1, 3
-         m(:, k) = ((slope - across)*view%u(k))*view%u
+         m(:, k) = ((slope - across)*evaluation%u(k))*evaluation%u
          m(k, k) = m(k, k) + across
       end do
-      call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
-      call add_measure_hessian(global_gap, view, tension, at_i, at_j, ld, matrix)
+      call add_link_stiffness(m, evaluation%a, evaluation%b, at_i, at_j, ld, matrix)
+      call add_measure_hessian(global_gap, evaluation, tension, at_i, at_j, ld, matrix)
    end subroutine add_spring_tangent
 
    !> Adds slope g gᵀ alone: the material part.
    !> Equation (M.13) of docs/theory/measures.md.
-   pure subroutine add_spring_material(kind, view, slope, at_i, at_j, ld, matrix)
+   pure subroutine add_spring_material(kind, evaluation, slope, at_i, at_j, ld, matrix)
       integer, intent(in) :: kind                       !! of the measure
-      type(view_t), intent(in) :: view
+      type(evaluation_t), intent(in) :: evaluation
       real(wp), intent(in) :: slope                     !! N/m, N m/rad, N m
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
@@ -122,10 +114,10 @@ contains
       step = merge(2, 1, is_of_angle(kind))             ! the gradient of an angle has no translations
       do l = step, 4, step
          if (at(l - mod(l + 1, 2)) < 0) cycle
-         scaled = slope*view%gradient(3*l - 2:3*l)
+         scaled = slope*evaluation%gradient(3*l - 2:3*l)
          do k = step, l, step
             if (at(k - mod(k + 1, 2)) < 0) cycle
-            block = dyad(scaled, view%gradient(3*k - 2:3*k))
+            block = dyad(scaled, evaluation%gradient(3*k - 2:3*k))
             if (k == l) then
                call add_diagonal_block(block, at(l), at(l), ld, matrix)
             else

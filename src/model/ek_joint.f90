@@ -42,7 +42,7 @@ module ek_joint
    !> The properties of a kind.
    type :: joint_kind_t
       character(17) :: name
-      integer :: least_points, most_points   !! of `at`; 2 and 2: two that do not coincide
+      integer :: min_points, max_points   !! of `at`; 2 and 2: two that do not coincide
       integer :: axes, angle                 !! of those above
       integer :: part
       logical :: is_of_measures = .false.    !! made of named measures, not of points and axes
@@ -166,18 +166,12 @@ contains
          terms(used)%measure%v = shaft_frame(z, z_j, x)
          terms(used)%coefficient = -1.0_wp
          terms_of_row(rows) = 2
-      case ('revolute')
+      case ('revolute', 'cylindrical', 'translational')
          call add(axis_axis, x, z)
          call add(axis_axis, y, z)
       case ('parallel')
          call add(axis_axis, x, z_j)
          call add(axis_axis, y, z_j)
-      case ('cylindrical', 'translational')
-         call add(axis_axis, x, z)
-         call add(axis_axis, y, z)
-         call add(body_gap, x)
-         call add(body_gap, y)
-         if (kind == 'translational') call add(axis_axis, x, y)
       case ('fixed')
          call add(axis_axis, identity3(:, 1), identity3(:, 2))
          call add(axis_axis, identity3(:, 2), identity3(:, 3))
@@ -186,9 +180,13 @@ contains
          call add(distance, z)
       case ('in_plane')
          call add(body_gap, z)
-      case ('in_line')
+      end select
+
+      select case (kind)
+      case ('cylindrical', 'translational', 'in_line')
          call add(body_gap, x)
          call add(body_gap, y)
+         if (kind == 'translational') call add(axis_axis, x, y)
       end select
 
    contains
@@ -200,13 +198,9 @@ contains
 
          rows = rows + 1
          used = used + 1
-         terms(used)%measure%kind = measure_kind
-         terms(used)%measure%body_i = geometry%body_i
-         terms(used)%measure%body_j = geometry%body_j
-         terms(used)%measure%u = u
+         terms(used)%measure = measure_t(measure_kind, geometry%body_i, geometry%body_j, u, arm_i=geometry%point_i, &
+            arm_j=geometry%point_j)
          if (present(v)) terms(used)%measure%v = v
-         terms(used)%measure%arm_i = geometry%point_i
-         terms(used)%measure%arm_j = geometry%point_j
       end subroutine add
 
    end subroutine joint_terms

@@ -23,12 +23,12 @@ module ek_measure
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
    use ek_block, only: add_block, add_s_block, add_link_stiffness, add_gap_hessian, rotated, dyad, dyad_rest
-   use ek_turn, only: pose_t, turn_t, relative_turn, turn_gradient, add_turn_hessian
+   use ek_relative_rotation, only: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, add_rotation_hessian
    implicit none(type, external)
    private
-   public :: measure_t, view_t
+   public :: measure_t, evaluation_t
    public :: axis_axis, body_gap, global_gap, distance, rotation
-   public :: look, measure_value, is_of_angle, add_measure_hessian
+   public :: evaluate, measure_value, is_of_angle, add_measure_hessian
 
    integer, parameter :: axis_axis = 1    !! cosine between an axis of i and an axis of j [-]
    integer, parameter :: body_gap = 2     !! gap of two points along a direction fixed in i [m]
@@ -49,14 +49,14 @@ module ek_measure
 
    !> An evaluation: the vectors of a measure in global axes at one pair of poses, computed once and used for
    !> value, gradient and Hessian.
-   type :: view_t
+   type :: evaluation_t
       real(wp) :: value = 0.0_wp
       real(wp) :: gradient(12) = 0.0_wp
       real(wp) :: u(3) = 0.0_wp, v(3) = 0.0_wp   !! directions, or e and (m·θ): A_i g
       real(wp) :: a(3) = 0.0_wp, b(3) = 0.0_wp, d(3) = 0.0_wp
       real(wp) :: frame(3, 3) = 0.0_wp           !! A_i, kept for `rotation`
-      type(turn_t) :: turn
-   end type view_t
+      type(relative_rotation_t) :: rotation
+   end type evaluation_t
 
 contains
 
@@ -65,10 +65,10 @@ contains
    !> Degenerate cases: a distance of 0 has no direction (checked when the model is built); a rotation
    !> of exactly π has no unique axis.
    !> Equations (M.1), (M.4), (M.5), (M.6), (M.7), (M.12) of docs/theory/measures.md.
-   pure subroutine look(measure, pose_i, pose_j, view)
+   pure subroutine evaluate(measure, pose_i, pose_j, evaluation)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
-      type(view_t), intent(inout) :: view     !! only the components that this kind needs are set
+      type(evaluation_t), intent(inout) :: evaluation     !! only the components that this kind needs are set
       real(wp) :: a(3), b(3), d(3), g(3), u(3), v(3), w(3)
 
       select case (measure%kind)
@@ -76,25 +76,25 @@ contains
          u = rotated(pose_i%a, measure%u)
          v = rotated(pose_j%a, measure%v)
          w = cross(u, v)
-         view%u = u
-         view%v = v
-         view%value = dot_product(u, v)
-         view%gradient(1:3) = 0.0_wp
-         view%gradient(4:6) = w
-         view%gradient(7:9) = 0.0_wp
-         view%gradient(10:12) = -w
+         evaluation%u = u
+         evaluation%v = v
+         evaluation%value = dot_product(u, v)
+         evaluation%gradient(1:3) = 0.0_wp
+         evaluation%gradient(4:6) = w
+         evaluation%gradient(7:9) = 0.0_wp
+         evaluation%gradient(10:12) = -w
       case (rotation)
-         call relative_turn(pose_i, pose_j, view%turn)
-         view%value = dot_product(measure%u, view%turn%theta)
-         g = turn_gradient(view%turn, measure%u)
+         call relative_rotation(pose_i, pose_j, evaluation%rotation)
+         evaluation%value = dot_product(measure%u, evaluation%rotation%theta)
+         g = rotation_gradient(evaluation%rotation, measure%u)
          v = rotated(pose_i%a, g)
-         view%u = measure%u
-         view%v = v
-         view%frame = pose_i%a
-         view%gradient(1:3) = 0.0_wp
-         view%gradient(4:6) = -v
-         view%gradient(7:9) = 0.0_wp
-         view%gradient(10:12) = v
+         evaluation%u = measure%u
+         evaluation%v = v
+         evaluation%frame = pose_i%a
+         evaluation%gradient(1:3) = 0.0_wp
+         evaluation%gradient(4:6) = -v
+         evaluation%gradient(7:9) = 0.0_wp
+         evaluation%gradient(10:12) = v
       case default
          a = rotated(pose_i%a, measure%arm_i)
          b = rotated(pose_j%a, measure%arm_j)
@@ -103,33 +103,33 @@ contains
          select case (measure%kind)
          case (body_gap)
             u = rotated(pose_i%a, measure%u)
-            view%value = dot_product(u, d)
+            evaluation%value = dot_product(u, d)
             w = a + d
          case (global_gap)
             u = measure%u
-            view%value = dot_product(u, d)
+            evaluation%value = dot_product(u, d)
          case default
-            view%value = sqrt(d(1)**2 + d(2)**2 + d(3)**2)
-            u = d/view%value
+            evaluation%value = sqrt(d(1)**2 + d(2)**2 + d(3)**2)
+            u = d/evaluation%value
          end select
-         view%a = a
-         view%b = b
-         view%d = d
-         view%u = u
-         view%gradient(1:3) = -u
-         view%gradient(4:6) = -cross(w, u)
-         view%gradient(7:9) = u
-         view%gradient(10:12) = cross(b, u)
+         evaluation%a = a
+         evaluation%b = b
+         evaluation%d = d
+         evaluation%u = u
+         evaluation%gradient(1:3) = -u
+         evaluation%gradient(4:6) = -cross(w, u)
+         evaluation%gradient(7:9) = u
+         evaluation%gradient(10:12) = cross(b, u)
       end select
-   end subroutine look
+   end subroutine evaluate
 
    !> The value alone.
    pure real(wp) function measure_value(measure, pose_i, pose_j) result(value)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
-      type(view_t) :: view
-      call look(measure, pose_i, pose_j, view)
-      value = view%value
+      type(evaluation_t) :: evaluation
+      call evaluate(measure, pose_i, pose_j, evaluation)
+      value = evaluation%value
    end function measure_value
 
    !> Whether the generalised force of a measure is a moment (rotation, cosine); it has no points.
@@ -143,33 +143,33 @@ contains
    !> at_i, at_j: number of unknowns before those of body i, j; negative: the body has none.
    !> Diagonal 3×3 blocks are added in full.
    !> Equations (M.1), (M.4), (M.6), (M.7) of docs/theory/measures.md.
-   pure subroutine add_measure_hessian(kind, view, weight, at_i, at_j, ld, matrix)
+   pure subroutine add_measure_hessian(kind, evaluation, weight, at_i, at_j, ld, matrix)
       integer, intent(in) :: kind
-      type(view_t), intent(in) :: view          !! from `look`, at the same poses
+      type(evaluation_t), intent(in) :: evaluation          !! from `evaluate`, at the same poses
       real(wp), intent(in) :: weight
       integer, intent(in) :: at_i, at_j, ld
       real(wp), intent(inout) :: matrix(ld, *)
       real(wp) :: u(3), m(3, 3)
       real(wp), parameter :: none(3, 3) = 0.0_wp
 
-      u = weight*view%u
+      u = weight*evaluation%u
       select case (kind)
       case (rotation)
-         call add_turn_hessian(view%turn, u, none, view%frame, at_i, at_j, ld, matrix)
+         call add_rotation_hessian(evaluation%rotation, u, none, evaluation%frame, at_i, at_j, ld, matrix)
       case (axis_axis)
-         call add_s_block(u, view%v, at_i + 3, at_i, ld, matrix)
-         call add_s_block(u, view%v, at_j + 3, at_j, ld, matrix)
-         if (at_i >= 0 .and. at_j >= 0) call add_block(dyad_rest(view%v, u), at_i + 3, at_j + 3, ld, matrix)
+         call add_s_block(u, evaluation%v, at_i + 3, at_i, ld, matrix)
+         call add_s_block(u, evaluation%v, at_j + 3, at_j, ld, matrix)
+         if (at_i >= 0 .and. at_j >= 0) call add_block(dyad_rest(evaluation%v, u), at_i + 3, at_j + 3, ld, matrix)
       case (body_gap)
-         call add_gap_hessian(u, view%a, view%b, view%d, at_i, at_j, ld, matrix)
+         call add_gap_hessian(u, evaluation%a, evaluation%b, evaluation%d, at_i, at_j, ld, matrix)
       case (global_gap, distance)
          if (kind == distance) then
-            m = (weight/view%value)*(identity3 - dyad(view%u, view%u))
-            call add_link_stiffness(m, view%a, view%b, at_i, at_j, ld, matrix)
+            m = (weight/evaluation%value)*(identity3 - dyad(evaluation%u, evaluation%u))
+            call add_link_stiffness(m, evaluation%a, evaluation%b, at_i, at_j, ld, matrix)
          end if
-         call add_s_block(view%b, u, at_j + 3, at_j, ld, matrix)
+         call add_s_block(evaluation%b, u, at_j + 3, at_j, ld, matrix)
          u = -u
-         call add_s_block(view%a, u, at_i + 3, at_i, ld, matrix)
+         call add_s_block(evaluation%a, u, at_i + 3, at_i, ld, matrix)
       end select
    end subroutine add_measure_hessian
 

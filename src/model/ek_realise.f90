@@ -9,7 +9,7 @@
 module ek_realise
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, least_step
+   use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, min_step
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
    use ek_element, only: stop_spring
@@ -55,14 +55,31 @@ contains
          suspension%points(k)%at = suspension%vectors(:, plan%points(k))
       end do
       call place_bodies(plan, x, suspension)
-      call place_readouts(plan, suspension)
+      do k = 1, size(plan%readouts)
+         associate (measure => suspension%readouts(k)%measure, this => plan%readouts(k))
+            measure%arm_i = suspension%vectors(:, this%ends(1))
+            measure%arm_j = suspension%vectors(:, this%ends(2))
+            measure%u = suspension%vectors(:, this%u)
+            measure%v = suspension%vectors(:, this%v)
+         end associate
+      end do
       call place_joints(plan, x, suspension, is_good)
       call place_elements(plan, x, suspension, is_good)
       call place_bushings(plan, x, suspension, is_good)
       call place_loads(plan, x, suspension, is_good)
       call place_wheels(plan, x, suspension, is_good)
-      call place_axle(plan, x, suspension)
-      call settle_design(suspension)
+      associate (axle => suspension%axle, steering => suspension%steering)
+         axle%wheelbase = number_at(x, plan%axle(1))
+         axle%cg_height = number_at(x, plan%axle(2))
+         axle%mass = number_at(x, plan%axle(3))
+         axle%brake_share = number_at(x, plan%axle(4))
+         axle%drive_share = number_at(x, plan%axle(5), 1.0_wp)
+         axle%front_overhang = number_at(x, plan%axle(6))
+         axle%front_width = number_at(x, plan%axle(7))
+         steering%ratio = number_at(x, plan%steering(1))
+         steering%travel = number_at(x, plan%steering(2))
+      end associate
+      if (is_good) call settle_design(suspension)
    end subroutine realise
 
    !> Reference points and masses; the centres of gravity still as points.
@@ -87,21 +104,6 @@ contains
          end associate
       end do
    end subroutine place_bodies
-
-   subroutine place_readouts(plan, suspension)
-      type(blueprint_t), intent(in) :: plan
-      type(suspension_t), intent(inout) :: suspension
-      integer :: k
-
-      do k = 1, size(plan%readouts)
-         associate (measure => suspension%readouts(k)%measure, this => plan%readouts(k))
-            measure%arm_i = suspension%vectors(:, this%ends(1))
-            measure%arm_j = suspension%vectors(:, this%ends(2))
-            measure%u = suspension%vectors(:, this%u)
-            measure%v = suspension%vectors(:, this%v)
-         end associate
-      end do
-   end subroutine place_readouts
 
    !> The terms of all joints, with design points instead of arms.
    subroutine place_joints(plan, x, suspension, is_good)
@@ -134,13 +136,12 @@ contains
             geometry%axis_i = suspension%vectors(:, this%axes(1))
             geometry%axis_j = suspension%vectors(:, this%axes(2))
             is_good = is_good .and. axes_fit(joint_table(joint%number)%angle, geometry%axis_i, geometry%axis_j)
-            if (joint_table(joint%number)%least_points == 2) &
+            if (joint_table(joint%number)%min_points == 2) &
                is_good = is_good .and. norm2(geometry%point_j - geometry%point_i) > 0.0_wp
             if (.not. is_good) return
             call joint_terms(joint%kind, geometry, terms, terms_of_row, rows)
-            do t = 1, sum(terms_of_row(:rows))
-               suspension%terms(first + t - 1) = terms(t)
-            end do
+            t = sum(terms_of_row(:rows))
+            suspension%terms(first:first + t - 1) = terms(:t)
             joint%arm_j = geometry%point_j
             joint%axis(:, 1) = geometry%axis_i
             joint%axis(:, 2) = geometry%axis_j
@@ -201,8 +202,7 @@ contains
             bushing%kr = triple_at(x, this%kr)
             bushing%preload_force = triple_at(x, this%preload_force)
             bushing%preload_moment = triple_at(x, this%preload_moment)
-            rates(1:3) = bushing%kt
-            rates(4:6) = bushing%kr
+            rates = [bushing%kt, bushing%kr]
             do c = 1, 6
                if (this%curves(c) == 0) cycle
                call renew(plan, this%curves(c), x, merge(plan%length_unit, plan%angle_unit, c <= 3), &
@@ -225,10 +225,8 @@ contains
       associate (this => plan%curves(number))
          associate (at => x(this%x:this%x + this%points - 1), values => x(this%y:this%y + this%points - 1))
             if (has_points(curve, at, values, x_unit, y_unit)) return
-            if (.not. all(at(2:) - at(:this%points - 1) >= least_step)) then
-               is_good = .false.
-               return
-            end if
+            is_good = is_good .and. all(at(2:) - at(:this%points - 1) >= min_step)
+            if (.not. is_good) return
             curve = new_curve(at, values, this%kind, x_unit, y_unit)
             curve%name = this%name
          end associate
@@ -268,7 +266,7 @@ contains
       real(wp), intent(in) :: x(:)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
-      integer :: k, j
+      integer :: k
 
       do k = 1, size(plan%wheels)
          associate (wheel => suspension%wheels(k), this => plan%wheels(k))
@@ -280,9 +278,7 @@ contains
             wheel%sprung_mass = number_at(x, this%sprung_mass)
             call spin_of(wheel%side, number_at(x, this%toe), number_at(x, this%camber), &
                suspension%vectors(:, this%spin), wheel)
-            do j = 1, 2
-               wheel%steer_axis(:, j) = suspension%vectors(:, this%steer_axis(j))
-            end do
+            wheel%steer_axis = suspension%vectors(:, this%steer_axis)
             is_good = is_good .and. wheel%side*wheel%centre(2) >= 0.0_wp .and. wheel%centre(3) > wheel%contact(3) &
                .and. wheel%side*wheel%spin(2) > 0.0_wp
             if (wheel%has_steer_axis) &
@@ -290,24 +286,6 @@ contains
          end associate
       end do
    end subroutine place_wheels
-
-   subroutine place_axle(plan, x, suspension)
-      type(blueprint_t), intent(in) :: plan
-      real(wp), intent(in) :: x(:)
-      type(suspension_t), intent(inout) :: suspension
-
-      associate (axle => suspension%axle, steering => suspension%steering)
-         axle%wheelbase = number_at(x, plan%axle(1))
-         axle%cg_height = number_at(x, plan%axle(2))
-         axle%mass = number_at(x, plan%axle(3))
-         axle%brake_share = number_at(x, plan%axle(4))
-         axle%drive_share = number_at(x, plan%axle(5), 1.0_wp)
-         axle%front_overhang = number_at(x, plan%axle(6))
-         axle%front_width = number_at(x, plan%axle(7))
-         steering%ratio = number_at(x, plan%steering(1))
-         steering%travel = number_at(x, plan%steering(2))
-      end associate
-   end subroutine place_axle
 
    !> The numbers of the cases for the parameters x.
    subroutine realise_cases(plan, x, cases, is_good)

@@ -4,16 +4,15 @@
 !> All values are in SI, in the vehicle frame x rearward, y right, z up; at design the axes of every
 !> body are parallel to the frame. Body 0 is the chassis.
 module ek_suspension
-   use ek_kinds, only: wp
-   use ek_units, only: units_t
-   use ek_turn, only: pose_t
+   use ek_kinds, only: wp, units_t
+   use ek_relative_rotation, only: pose_t
    use ek_measure, only: measure_t
    use ek_joint, only: joint_t, row_t, term_t
    use ek_element, only: element_t
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
-   public :: allocate_lists, body_name, design_poses, driver_row, load_number
+   public :: allocate_lists, body_name, design_poses, driver_row, load_number, has_symmetric_loads
 
    !> A rigid body.
    type :: body_t
@@ -109,7 +108,7 @@ module ek_suspension
       integer :: scalars = 0   !! elements(:scalars) act along one measure: springs, dampers, stops, torsion springs, in this order
                                !! if built from a deck; the others have six components: bushings
       type(load_t), allocatable :: loads(:)
-      integer :: rig_rows = 0, rig_loads = 0   !! the last rows and loads that belong to the rig on which it stands, see ek_rig
+      integer :: rig_rows = 0                  !! the last rows, which belong to the rig on which it stands, see ek_rig
       type(wheel_t), allocatable :: wheels(:)
       type(readout_t), allocatable :: readouts(:)
       type(axle_t) :: axle = axle_t()
@@ -199,5 +198,12 @@ contains
          if (len(name) > 0 .and. self%loads(k)%name == name) load_number = k
       end do
    end function load_number
+
+   !> Whether no load makes the true tangent unsymmetric: none rotates with its body, none has a moment.
+   pure logical function has_symmetric_loads(self)
+      type(suspension_t), intent(in) :: self
+      integer :: k
+      has_symmetric_loads = .not. any([(self%loads(k)%follows .or. norm2(self%loads(k)%moment) > 0.0_wp, k=1, size(self%loads))])
+   end function has_symmetric_loads
 
 end module ek_suspension

@@ -14,14 +14,14 @@ module ek_chart
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
-   public :: pictures_of, remove_drawn, range_of, palette, axes_look
+   public :: pictures_of, remove_drawn, range_of, palette, axes_style
 
    !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
       '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
 
    character(*), parameter :: nl = new_line('a')
-   character(*), parameter :: axes_look = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
+   character(*), parameter :: axes_style = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
       "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
       "set yzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"
 
@@ -100,7 +100,7 @@ contains
       call script%line("set terminal svg size "//str(chart_width)//", "//str(chart_height)// &
          " dynamic font 'sans-serif,13' linewidth 1 noenhanced")
       call script%line("set border 3 linecolor rgb '#808080'")
-      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_look)
+      call script%line("set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_style)
       call script%line('set lmargin at screen 0.135; set rmargin at screen 0.965; set bmargin at screen 0.165')
       call script%line("set xtics font ',12' offset 0, 0.25; set ytics font ',12'")
       do k = 1, size(charts)

@@ -7,6 +7,7 @@ module ek_compare_page
    use ek_version, only: version
    use ek_test_result, only: design_row
    use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
+   use ek_gradient, only: gradient_t
    use ek_test_charts, only: quantity_chart, quantities_of
    use ek_chart, only: chart_t, add_trace, append_chart
    use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, &
@@ -18,8 +19,7 @@ module ek_compare_page
    public :: comparison_t, difference_t, compare_gradients, difference, percent, overlay, page_of, test_number, letter_of
 
    !> The gradients of one test, quantity and side.
-   type :: difference_t
-      character(:), allocatable :: test, quantity, side, unit, window
+   type, extends(gradient_t) :: difference_t
       real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
       logical, allocatable :: is_there(:)
    end type difference_t
@@ -53,11 +53,7 @@ contains
                end do
                if (row > used) then
                   used = row
-                  rows(row)%test = g%test
-                  rows(row)%quantity = g%quantity
-                  rows(row)%side = g%side
-                  rows(row)%unit = g%unit
-                  rows(row)%window = g%window
+                  rows(row)%gradient_t = g
                   allocate (rows(row)%values(size(results)), rows(row)%is_there(size(results)))
                   rows(row)%values = ieee_value(1.0_wp, ieee_quiet_nan)
                   rows(row)%is_there = .false.

@@ -1,16 +1,20 @@
 !> A figure as a gnuplot script that the user can read, edit and run again: `gnuplot name.gp` in
-!> its folder draws name.png and name.svg from the data files beside it.
+!> its folder draws name.png and name.svg from the data files beside it. The standard figures of one run.
 module ek_gnuplot
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str
-   use ek_file, only: write_whole, join_path
-   use ek_chart, only: chart_t, palette, axes_look, range_of
+   use ek_file, only: write_whole, join_path, base_name
+   use ek_chart, only: chart_t, palette, axes_style, range_of
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_name, gnuplot_comment
    use ek_drawing, only: run_gnuplot
+   use ek_quantity, only: quantity_named
+   use ek_table, only: table_t
+   use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, travel_column
+   use ek_test_charts, only: quantity_chart, ending_chart, bushing_chart
    implicit none(type, external)
    private
-   public :: figure_t, figure_script, draw_figures
+   public :: figure_t, figure_script, draw_figures, run_figures
 
    integer, parameter :: width = 1200        !! pixels
    integer, parameter :: legend_on_top = 3   !! most entries of a legend above the panel; a longer one is placed at the right
@@ -19,7 +23,7 @@ module ek_gnuplot
    character(*), parameter :: look = 'reset'//nl//'set encoding utf8'//nl//'set datafile separator comma'//nl// &
       'set datafile columnheaders'//nl//"set datafile missing 'nan'"//nl//"set border 3 linecolor rgb '#808080'"//nl// &
       "set tics out nomirror textcolor rgb '#404040'"
-   character(*), parameter :: label_look = " textcolor rgb '#202020'"
+   character(*), parameter :: label_style = " textcolor rgb '#202020'"
 
    !> One script: a panel, or several in two columns.
    type :: figure_t
@@ -78,7 +82,7 @@ contains
       call script%add(gnuplot_comment('in this folder draws '//figure%name//'.png and .svg;'))
       call script%add(gnuplot_comment("gnuplot -e ""formats='pdf'"" "//figure%name//'.gp makes a PDF.'))
       call script%add("if (!exists('formats')) formats = 'png svg'"//nl)
-      call script%add(look//nl//axes_look)
+      call script%add(look//nl//axes_style)
       do k = 1, size(palette)
          call script%add('set style line '//str(k)//" linecolor rgb '"//palette(k)//"' linewidth 2.6 pointtype 7 pointsize 0.7")
       end do
@@ -131,8 +135,8 @@ contains
       y = merge('x', 'y', is_upward)
       if (len(panel%title) > 0) call script%add(indent//'set title '//gnuplot_text(panel%title)// &
          " font 'sans-serif:Bold,14' textcolor rgb '#202020'")
-      call script%add(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//label_look)
-      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//label_look)
+      call script%add(indent//'set '//x//'label '//label(panel%x_label, is_upward .and. len(indent) > 0)//label_style)
+      call script%add(indent//'set '//y//'label '//label(panel%y_label, .not. is_upward .and. len(indent) > 0)//label_style)
       call script%add(indent//'set '//y//'range '//range_of(panel))
    end subroutine add_axes
 
@@ -201,5 +205,88 @@ contains
       text = gnuplot_name(trim(name))
       if (index(name, '(') == 1) text = name
    end function field
+
+   !> The standard figures of a run: wheel attitude, steer axis and forces, over the wheel travel or the load. Quantities without
+   !> a column or without a value are omitted.
+   !>
+   !> The wheel travel is drawn upward if the wheel moves by 1 mm or more; otherwise (for instance under a lateral force), and
+   !> with `factor_label`, the abscissa is the load factor.
+   subroutine run_figures(table, model, case_name, csv_name, figures, factor_label, elements, has_points)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: model, case_name          !! for the titles
+      character(*), intent(in) :: csv_name                  !! file name of the table, in the folder of the scripts
+      type(figure_t), allocatable, intent(out) :: figures(:)   !! named <csv without extension>_<quantity>
+      character(*), intent(in), optional :: factor_label    !! label of the load factor, with its unit; '' as if absent
+      character(*), intent(in), optional :: elements(:)     !! bushings whose force is drawn; absent: all
+      logical, intent(in), optional :: has_points           !! the states are independent: points without a line
+      type(test_result_t) :: test
+      type(chart_t) :: chart
+      logical :: is_cut
+      integer :: k
+
+      allocate (figures(0))
+      test%name = base_name(csv_name)
+      test%table = table
+      test%kind = 'other'
+      test%label = ''
+      if (present(factor_label)) test%label = factor_label
+      if (len(test%label) > 0) test%abscissa = 'factor'
+      if (present(has_points)) test%kind = trim(merge('table', 'other', has_points))
+      call find_wheels(test)
+      call choose_abscissa(test)
+      call add_quantities('overview', 'Overview', [character(23) :: 'toe_deg', 'camber_deg', 'track_change_mm', &
+         'wheelbase_change_mm'])
+      call add_quantities('toe', 'Toe', ['toe_deg'])
+      call add_quantities('camber', 'Camber', ['camber_deg'])
+      call add_quantities('lateral', 'Lateral movement of the contact patch', ['track_change_mm'])
+      call add_quantities('longitudinal', 'Longitudinal movement of the contact patch', ['wheelbase_change_mm'])
+      call add_quantities('steer_axis', 'Steer axis', [character(23) :: 'caster_deg', 'kingpin_inclination_deg', &
+         'scrub_radius_mm', 'caster_trail_mm'])
+      chart = ending_chart(test, 'force', '_force_n', '', 'force, N    (+ compression)', 1.0_wp)
+      chart%traces = pack(chart%traces, [(chart%traces(k)%title /= 'steering_rack', k=1, size(chart%traces))])
+      call add_figure('spring_force', 'Spring force', [chart])
+      chart = bushing_chart(test, elements)
+      chart%title = ''
+      is_cut = .false.
+      if (present(elements)) is_cut = size(elements) > size(chart%traces)
+      call add_figure('bushing_force', trim(merge('Bushing force, largest', 'Bushing force         ', is_cut)), [chart])
+
+   contains
+
+      !> One figure with a panel for every quantity that has a column; a single one of several has its own figure already.
+      subroutine add_quantities(name, title, columns)
+         character(*), intent(in) :: name, title, columns(:)
+         type(chart_t), allocatable :: panels(:)
+         integer :: k, used
+
+         allocate (panels(size(columns)))
+         used = 0
+         do k = 1, size(columns)
+            panels(used + 1) = quantity_chart(test, quantity_named(columns(k)))
+            if (size(panels(used + 1)%traces) == 0) cycle
+            used = used + 1
+            panels(used)%y_label = panels(used)%title//', '//panels(used)%y_label
+            if (size(columns) == 1) panels(used)%title = ''
+         end do
+         if (used > 1 .or. used == size(columns)) call add_figure(name, title, panels(:used))
+      end subroutine add_quantities
+
+      !> Appends a figure unless its first panel is empty.
+      subroutine add_figure(name, title, panels)
+         character(*), intent(in) :: name, title
+         type(chart_t), intent(in) :: panels(:)
+         type(figure_t) :: figure
+
+         if (size(panels(1)%traces) == 0) return
+         figure%name = test%name//'_'//name
+         figure%title = title
+         figure%subtitle = trim(model)//', '//trim(case_name)
+         figure%file = csv_name
+         figure%panels = panels
+         figure%is_upward = test%abscissa == travel_column
+         figures = [figures, figure]
+      end subroutine add_figure
+
+   end subroutine run_figures
 
 end module ek_gnuplot

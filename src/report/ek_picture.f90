@@ -3,8 +3,7 @@
 !> A body has no shape in the model: its skeleton represents it. `plain` selects fewer faces, for animations. All positions are
 !> global [m].
 module ek_picture
-   use ek_kinds, only: wp
-   use ek_units, only: pi
+   use ek_kinds, only: wp, pi
    use ek_text, only: spaced
    use ek_block, only: rotated
    use ek_rotation, only: cross
@@ -14,7 +13,7 @@ module ek_picture
    use ek_suspension, only: suspension_t, wheel_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
    use ek_state, only: state_t
-   use ek_scene, only: scene_t, add_face, add_line, add_label, add_tube, add_surface, add_coil, add_ball, part_ground, part_tyre, &
+   use ek_scene, only: scene_t, add_run, add_label, add_tube, add_surface, add_coil, add_ball, part_ground, part_tyre, &
       part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, part_ball, part_mount, line_ground
    implicit none(type, external)
    private
@@ -58,13 +57,13 @@ contains
       do body = 1, size(suspension%bodies)
          skeleton = skeleton_of(suspension, body)
          do k = 1, skeleton%count
-            call add_line(scene, kind, bar_of(state, body, skeleton, k))
+            call add_run(scene%lines, kind, bar_of(state, body, skeleton, k))
          end do
       end do
       do k = 1, size(suspension%joints)
          if (joint_table(suspension%joints(k)%number)%part /= rod_part) cycle
          call ends_of(first_measure(suspension, k), state, line(:, 1), line(:, 2))
-         call add_line(scene, kind, line)
+         call add_run(scene%lines, kind, line)
       end do
       do k = 1, size(suspension%wheels)
          call add_tread(scene, suspension%wheels(k), state, kind)
@@ -97,13 +96,13 @@ contains
          if (suspension%wheels(1)%side > 0) low(2) = min(low(2), high(2) - 0.55_wp)
       end if
       face = reshape([low(1), low(2), z, high(1), low(2), z, high(1), high(2), z, low(1), high(2), z], [3, 4])
-      if (.not. is_plain) call add_face(scene, part_ground, face)
-      call add_line(scene, line_ground, reshape([face, face(:, 1)], [3, 5]))
+      if (.not. is_plain) call add_run(scene%faces, part_ground, face)
+      call add_run(scene%lines, line_ground, reshape([face, face(:, 1)], [3, 5]))
       middle = (low(2) + high(2))/2
       if (size(suspension%wheels) == 1) middle = middle - suspension%wheels(1)%side*0.16_wp
       at = [low(1) + 0.16_wp, middle, z]
       arrow = reshape([-0.12_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.045_wp, 0.0_wp, 0.0_wp, -0.045_wp, 0.0_wp], [3, 3])
-      call add_face(scene, part_carrier, arrow + spread(at, 2, 3))
+      call add_run(scene%faces, part_carrier, arrow + spread(at, 2, 3))
       call add_label(scene, at + [0.02_wp, 0.0_wp, 0.0_wp], 'front')
    end subroutine add_ground
 
@@ -215,7 +214,7 @@ contains
             face(:, k) = place_of(state, body, nodes(corners(k))%arm)
          end do
       end associate
-      call add_face(scene, part_plate, face)
+      call add_run(scene%faces, part_plate, face)
    end subroutine add_plate
 
    !> Rods, ball joints, sliding joints, and attachments to the chassis.
@@ -358,9 +357,9 @@ contains
       do n = 0, corners
          circle(:, n + 1) = centre + wheel%radius*(u*cos(2*pi*n/corners) + v*sin(2*pi*n/corners))
       end do
-      call add_line(scene, kind, circle)
+      call add_run(scene%lines, kind, circle)
       circle = spread(centre, 2, corners + 1) + 0.66_wp*(circle - spread(centre, 2, corners + 1))
-      if (kind == line_ground) call add_line(scene, kind, circle)
+      if (kind == line_ground) call add_run(scene%lines, kind, circle)
    end subroutine add_tread
 
 end module ek_picture

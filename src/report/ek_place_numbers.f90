@@ -65,17 +65,13 @@ contains
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       integer :: t
 
-      do t = 1, size(tests)
-         if (tests(t)%kind /= 'parallel_travel') cycle
-         call add_stops(tests(t), numbers)
-         exit
-      end do
-      do t = 1, size(tests)
-         if (tests(t)%kind /= 'steering') cycle
+      t = findloc([(tests(t)%kind == 'parallel_travel', t=1, size(tests))], .true., dim=1)
+      if (t > 0) call add_stops(tests(t), numbers)
+      t = findloc([(tests(t)%kind == 'steering', t=1, size(tests))], .true., dim=1)
+      if (t > 0) then
          call add_at_steer(tests(t), 'steering_ratio', 'steering ratio at 20 deg', '–', numbers)
          call add_at_steer(tests(t), 'ackermann_percent', 'Ackermann at 20 deg', '%', numbers)
-         exit
-      end do
+      end if
       call add_rack_force(tests, numbers)
    end subroutine place_numbers
 
@@ -114,8 +110,8 @@ contains
          if (index(stop, 'right_') == 1 .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle
          call new_number('Ride', '', 'mm', 'from design to contact, parallel travel', number)
          if (index(stop, 'right_') == 1) then
+            number%right = travel_to(test, stop, 'right_')
             stop = stop(7:)
-            number%right = travel_to(test, 'right_'//stop, 'right_')
          else if (index(stop, 'left_') == 1) then
             stop = stop(6:)
             number%left = travel_to(test, 'left_'//stop, 'left_')
@@ -206,18 +202,11 @@ contains
    subroutine append(number, numbers)
       type(key_number_t), intent(in) :: number
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
-      type(key_number_t), allocatable :: more(:)
       integer :: k, at
 
-      at = size(numbers)
-      do k = 1, size(numbers)
-         if (numbers(k)%group == number%group) at = k
-      end do
-      allocate (more(size(numbers) + 1))
-      more(:at) = numbers(:at)
-      more(at + 1) = number
-      more(at + 2:) = numbers(at + 1:)
-      call move_alloc(more, numbers)
+      at = findloc([(numbers(k)%group == number%group, k=1, size(numbers))], .true., dim=1, back=.true.)
+      if (at == 0) at = size(numbers)
+      numbers = [numbers(:at), number, numbers(at + 1:)]
    end subroutine append
 
 end module ek_place_numbers

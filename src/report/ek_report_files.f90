@@ -5,14 +5,13 @@ module ek_report_files
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str, quoted, lower
    use ek_file, only: write_whole, join_path, base_name, file_exists, folder_exists
-   use ek_csv, only: read_csv
+   use ek_table, only: read_csv
    use ek_decimal, only: get_decimal
    use ek_gnuplot_text, only: one_line
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
-   use ek_gradient, only: gradient_t, test_gradients
+   use ek_gradient, only: gradient_t, test_gradients, read_gradients
    use ek_gradient_definition, only: windows_t
-   use ek_gradient_file, only: read_gradients
    implicit none(type, external)
    private
    public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file, &

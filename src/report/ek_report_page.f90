@@ -183,7 +183,8 @@ contains
       type(gradient_t), allocatable :: gradients(:)
       type(message_list_t) :: unknown                     ! why some have no value
       logical :: has_sides, has_twin
-      integer :: k
+      logical, allocatable :: is_noted(:)                 ! with the note of a gradient, on its side
+      integer :: k, n
 
       gradients = pack(list, [(list(k)%test == test, k=1, size(list))])
       if (size(gradients) == 0) return
@@ -192,7 +193,9 @@ contains
       call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', 'Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))
-            if (len(g%note) > 0 .and. is_first_note(gradients(:k))) call unknown%add(noted(gradients(k:))//': '//g%note)
+            is_noted = [(gradients(n)%side == g%side .and. gradients(n)%note == g%note, n=1, size(gradients))]
+            if (len(g%note) > 0 .and. .not. any(is_noted(:k - 1))) &
+               call unknown%add(noted(pack(gradients, is_noted))//': '//g%note)
             if (g%side == 'right') cycle                   ! in the row of its left side
             has_twin = .false.
             if (k < size(gradients)) has_twin = gradients(k + 1)%side == 'right' .and. gradients(k + 1)%quantity == g%quantity
@@ -206,16 +209,7 @@ contains
       call add_warnings(page, 'Gradients without a value', unknown)
    end subroutine add_gradients
 
-   !> Whether the last gradient of a list is the first of its side with its note.
-   pure logical function is_first_note(list)
-      type(gradient_t), intent(in) :: list(:)
-      integer :: k, n
-
-      n = size(list)
-      is_first_note = .not. any([(list(k)%side == list(n)%side .and. list(k)%note == list(n)%note, k=1, n - 1)])
-   end function is_first_note
-
-   !> 'right bump toe, bump camber': all gradients of a list with the note and side of the first.
+   !> 'right bump toe, bump camber': the gradients of a list, of one side.
    pure function noted(list) result(text)
       type(gradient_t), intent(in) :: list(:)
       character(:), allocatable :: text
@@ -224,7 +218,7 @@ contains
       text = list(1)%quantity
       if (len(list(1)%side) > 0) text = list(1)%side//' '//text
       do k = 2, size(list)
-         if (list(k)%side == list(1)%side .and. list(k)%note == list(1)%note) text = text//', '//list(k)%quantity
+         text = text//', '//list(k)%quantity
       end do
    end function noted
 

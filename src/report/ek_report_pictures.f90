@@ -1,8 +1,7 @@
 !> The pictures of a report: the charts of its tests, the suspension in space, and its animation; one run of gnuplot.
 module ek_report_pictures
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t
-   use ek_units, only: millimetre
    use ek_text, only: str
    use ek_file, only: write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
@@ -18,7 +17,7 @@ module ek_report_pictures
    private
    public :: draw_pictures
 
-   integer, parameter :: most_frames = 40        !! of an animation
+   integer, parameter :: max_frames = 40        !! of an animation
 
    character(16), parameter :: vertical_kinds(3) = [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']
 
@@ -111,7 +110,7 @@ contains
       integer :: chosen(2), frames, each, k, f, n, at, first, last
 
       chosen = [moving_test(report, vertical_kinds), moving_test(report, [character(16) :: 'steering'])]
-      frames = most_frames/max(1, count(chosen > 0))
+      frames = max_frames/max(1, count(chosen > 0))
       allocate (scenes(frames*count(chosen > 0)), captions(frames*count(chosen > 0)))
       report%has_animation = size(scenes) > 0
       if (.not. report%has_animation) return

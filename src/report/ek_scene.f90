@@ -2,12 +2,11 @@
 !>
 !> All solids are made of faces, which can be sorted by depth and shaded (see ek_scene_script).
 module ek_scene
-   use ek_kinds, only: wp
-   use ek_units, only: pi
+   use ek_kinds, only: wp, pi
    use ek_rotation, only: cross
    implicit none(type, external)
    private
-   public :: scene_t, run_t, add_face, add_line, add_label, add_tube, add_surface, add_coil, add_ball
+   public :: scene_t, run_t, add_run, add_label, add_tube, add_surface, add_coil, add_ball
    public :: part_ground, part_tyre, part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, &
       part_ball, part_mount, parts, line_bump, line_rebound, line_ground, line_kinds
 
@@ -36,27 +35,11 @@ module ek_scene
 
 contains
 
-   !> A plane polygon.
-   pure subroutine add_face(scene, kind, at)
-      type(scene_t), intent(inout) :: scene
-      integer, intent(in) :: kind             !! part_*
-      real(wp), intent(in) :: at(:, :)        !! corners (3, n) [m]
-      call add_run(scene%faces, kind, at)
-   end subroutine add_face
-
-   !> A line through points.
-   pure subroutine add_line(scene, kind, at)
-      type(scene_t), intent(inout) :: scene
-      integer, intent(in) :: kind             !! line_*
-      real(wp), intent(in) :: at(:, :)
-      call add_run(scene%lines, kind, at)
-   end subroutine add_line
-
-   !> Appends the points of one face or line; the storage doubles when it is full.
+   !> Appends a face, a plane polygon, or a line through points; the storage doubles when it is full.
    pure subroutine add_run(list, kind, at)
-      type(run_t), intent(inout) :: list
-      integer, intent(in) :: kind
-      real(wp), intent(in) :: at(:, :)
+      type(run_t), intent(inout) :: list      !! the faces or the lines of a scene
+      integer, intent(in) :: kind             !! part_* of a face, line_* of a line
+      real(wp), intent(in) :: at(:, :)        !! corners or points (3, n) [m]
       real(wp), allocatable :: more(:, :)
       integer :: n
 
@@ -135,11 +118,11 @@ contains
             face(:, 3) = base + axis*along(l + 1) + next*radius(l + 1)
             face(:, 4) = base + axis*along(l + 1) + now*radius(l + 1)
             if (radius(l) <= 0.0_wp) then
-               call add_face(scene, kind, face(:, 2:4))
+               call add_run(scene%faces, kind, face(:, 2:4))
             else if (radius(l + 1) <= 0.0_wp) then
-               call add_face(scene, kind, face(:, 1:3))
+               call add_run(scene%faces, kind, face(:, 1:3))
             else
-               call add_face(scene, kind, face)
+               call add_run(scene%faces, kind, face)
             end if
          end do
       end do
@@ -172,7 +155,7 @@ contains
             do l = 1, sides
                next = modulo(l, sides) + 1
                face = reshape([before(:, l), before(:, next), ring(:, next), ring(:, l)], [3, 4])
-               call add_face(scene, kind, face)
+               call add_run(scene%faces, kind, face)
             end do
          end if
          before = ring

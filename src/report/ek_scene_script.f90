@@ -4,8 +4,7 @@
 !> `set terminal qt`. The camera has the two angles [deg] of gnuplot's `set view`: at turn = 0 it looks to the right, from
 !> the left of the car, at 270 rearward from its front.
 module ek_scene_script
-   use ek_kinds, only: wp
-   use ek_units, only: degree, millimetre
+   use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
@@ -93,7 +92,7 @@ contains
       call script%line(gnuplot_comment('Run gnuplot in this folder to redraw the picture; to rotate it: gnuplot -e "look=1" -p '// &
          name//'.gp'))
       call script%line(default_place)
-      call add_look(script, camera)
+      call add_style(script, camera)
       call add_blocks(script, scene)
       call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
          "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
@@ -118,7 +117,7 @@ contains
       call script%line(default_place)
       call script%line('set terminal gif animate delay 7 loop 0 size 720, 540 font ''sans,12'' noenhanced')
       call script%line('set output to.'//gnuplot_text(name//'.gif'))
-      call add_look(script, camera)
+      call add_style(script, camera)
       do k = 1, size(scenes)
          call add_blocks(script, scenes(k))
          call script%line('set label 99 '//gnuplot_text(trim(captions(k)))//' at screen 0.03, screen 0.05')
@@ -129,7 +128,7 @@ contains
    end function animation_script
 
    !> Equal axes without box, direction of view, shading.
-   pure subroutine add_look(script, camera)
+   pure subroutine add_style(script, camera)
       type(buffer_t), intent(inout) :: script
       type(camera_t), intent(in) :: camera
       integer :: k
@@ -144,7 +143,7 @@ contains
       call script%line('set xyplane at '//str((camera%centre(3) - camera%span/2)/millimetre, 6))
       call script%line('unset border; unset tics; unset key'//nl//'set pm3d depthorder noborder'//nl// &
          'set pm3d lighting primary 0.42 specular 0.12')
-   end subroutine add_look
+   end subroutine add_style
 
    !> The vertices [mm], one block per kind.
    pure subroutine add_blocks(script, scene)

@@ -14,7 +14,7 @@ module ek_skeleton
    public :: skeleton_t, node_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
 
    real(wp), parameter :: same_point = 1.0e-3_wp    !! m; points as close as this are drawn as one
-   integer, parameter :: most_points = 64           !! of a body; further ones are omitted
+   integer, parameter :: max_points = 64           !! of a body; further ones are omitted
 
    !> A point of a body.
    type :: node_t
@@ -25,8 +25,8 @@ module ek_skeleton
 
    !> The points of a body and the bars between them.
    type :: skeleton_t
-      type(node_t) :: nodes(most_points)
-      integer :: bars(2, most_points) = 0
+      type(node_t) :: nodes(max_points)
+      integer :: bars(2, max_points) = 0
       integer :: used = 0, count = 0        !! nodes, bars
    end type skeleton_t
 
@@ -38,7 +38,7 @@ contains
       integer, intent(in) :: body
       type(skeleton_t) :: skeleton
       type(measure_t) :: measure
-      logical :: is_in(most_points), is_rigid, is_spring
+      logical :: is_in(max_points), is_rigid, is_spring
       real(wp) :: best, cost
       integer :: k, n, part, from, to, bar(2)
 
@@ -97,7 +97,7 @@ contains
             skeleton%nodes(n)%is_spring = skeleton%nodes(n)%is_spring .and. is_spring
             return
          end do
-         if (skeleton%used == most_points) return
+         if (skeleton%used == max_points) return
          skeleton%used = skeleton%used + 1
          skeleton%nodes(skeleton%used) = node_t(arm, is_held, is_spring)
       end subroutine add_node
@@ -146,15 +146,11 @@ contains
    pure logical function slides(suspension, body)
       type(suspension_t), intent(in) :: suspension
       integer, intent(in) :: body
-      integer :: k
 
-      slides = .false.
-      do k = 1, size(suspension%joints)
-         associate (joint => suspension%joints(k))
-            if (joint_table(joint%number)%part == slider_part) slides = slides .or. &
-               (joint%body_i*joint%body_j > 0 .and. (joint%body_i == body .or. joint%body_j == body))
-         end associate
-      end do
+      associate (j => suspension%joints)
+         slides = any(joint_table(j%number)%part == slider_part .and. j%body_i*j%body_j > 0 .and. &
+            (j%body_i == body .or. j%body_j == body))
+      end associate
    end function slides
 
 end module ek_skeleton

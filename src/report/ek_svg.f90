@@ -28,7 +28,7 @@ contains
       at = index(text, '<svg')
       finish = index(text, '</svg>', back=.true.)
       if (at == 0 .or. finish < at) return
-      last = past(text, at, '>')
+      last = next_of(text, at, '>') + 1
       ! no xmlns: HTML defines svg and xlink
       call out%add('<svg viewBox="'//attribute(text(at:last - 1), 'viewBox')//'" role="img" aria-label="'//escape_html(title)//'">')
       used = used_symbols(text)
@@ -40,7 +40,7 @@ contains
          at = last
          k = findloc(omitted, text(at:at + 3), dim=1)
          if (k > 0) then
-            at = past(text, at, trim(ends(k)))
+            at = next_of(text, at, trim(ends(k))) + len_trim(ends(k))
          else
             last = next_of(text, at, '>') + 1
             if (text(at:at + 2) == '<g ' .and. text(last:min(last + 4, len(text))) == achar(10)//'</g>') then
@@ -139,28 +139,13 @@ contains
       call out%add(tag(from:))
    end subroutine add_tag
 
-   !> The position behind the next `word`, or behind the text.
-   pure integer function past(text, at, word)
+   !> The next position of a word, at `at` or behind it; behind the text if there is none.
+   pure integer function next_of(text, at, word) result(place)
       character(*), intent(in) :: text, word
       integer, intent(in) :: at
 
-      past = index(text(at:), word)
-      if (past == 0) then
-         past = len(text) + 1
-      else
-         past = at + past - 1 + len(word)
-      end if
-   end function past
-
-   !> The next position of a letter, at `at` or behind it; behind the text if there is none.
-   pure integer function next_of(text, at, letter) result(place)
-      character(*), intent(in) :: text
-      integer, intent(in) :: at
-      character(1), intent(in) :: letter
-
-      do place = at, len(text)
-         if (text(place:place) == letter) return
-      end do
+      place = at - 1 + index(text(at:), word)
+      if (place < at) place = len(text) + 1
    end function next_of
 
    !> Value of an attribute, '' if it is missing.

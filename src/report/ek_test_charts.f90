@@ -16,7 +16,7 @@ module ek_test_charts
    public :: test_charts, quantity_chart, ending_chart, bushing_chart, quantities_of
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
-   integer, parameter :: most_curves = 8       !! in one chart, for legibility
+   integer, parameter :: max_curves = 8       !! in one chart, for legibility
 
 contains
 
@@ -158,7 +158,7 @@ contains
       chart%noise = noise
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(ending)
-         if (place < 1 .or. size(chart%traces) >= most_curves) cycle
+         if (place < 1 .or. size(chart%traces) >= max_curves) cycle
          if (test%table%columns(k) (place + 1:) /= ending) cycle
          stem = test%table%columns(k) (:place)
          if (any(stem == [character(14) :: 'vertical', 'roll', 'left_vertical', 'right_vertical'])) cycle   ! of the wheel, the axle
@@ -233,7 +233,7 @@ contains
          end do
       end do
       least = 0.0_wp
-      do while (count(peak(:n) > least) > most_curves)
+      do while (count(peak(:n) > least) > max_curves)
          least = minval(peak(:n), mask=peak(:n) > least)
       end do
       names = pack(names(:n), peak(:n) > least)

@@ -1,20 +1,19 @@
 !> A small JSON writer (RFC 8259): objects and lists in order, indented, one item per line.
 !>
 !>     call json%open('{')
-!>     call json%text_item('unit', 'deg/m')
-!>     call json%number_item('value', 1.5_wp)
+!>     call json%item('unit', json_string('deg/m'))
+!>     call json%item('value', json_number(1.5_wp))
 !>     call json%close('}')
 !>
 !> Numbers have 15 significant digits; values that are not finite are `null`, because JSON cannot represent them.
 module ek_json
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
    implicit none(type, external)
    private
-   public :: json_t, json_string, json_number
+   public :: json_t, json_string, json_number, json_numbers
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -24,9 +23,7 @@ module ek_json
       integer :: depth = 0
       logical :: is_empty = .true.     !! the innermost list or object has no item yet
    contains
-      procedure :: open => json_open, close => json_close, text_item => json_text_item, &
-         number_item => json_number_item, integer_item => json_integer_item, numbers_item => json_numbers_item, &
-         text => json_text
+      procedure :: open => json_open, close => json_close, item => json_item, text => json_text
    end type json_t
 
 contains
@@ -54,47 +51,14 @@ contains
       self%is_empty = .false.
    end subroutine json_close
 
-   pure subroutine json_text_item(self, key, value)
+   !> Add an item: `literal` is made by json_string, json_number, json_numbers, or str for an integer.
+   pure subroutine json_item(self, key, literal)
       class(json_t), intent(inout) :: self
-      character(*), intent(in) :: key, value
+      character(*), intent(in) :: key, literal
 
       call begin_item(self, key)
-      call self%buffer%add(json_string(value))
-   end subroutine json_text_item
-
-   pure subroutine json_number_item(self, key, value)
-      class(json_t), intent(inout) :: self
-      character(*), intent(in) :: key
-      real(wp), intent(in) :: value
-
-      call begin_item(self, key)
-      call self%buffer%add(json_number(value))
-   end subroutine json_number_item
-
-   pure subroutine json_integer_item(self, key, value)
-      class(json_t), intent(inout) :: self
-      character(*), intent(in) :: key
-      integer, intent(in) :: value
-
-      call begin_item(self, key)
-      call self%buffer%add(str(value))
-   end subroutine json_integer_item
-
-   !> A list of numbers on one line.
-   pure subroutine json_numbers_item(self, key, values)
-      class(json_t), intent(inout) :: self
-      character(*), intent(in) :: key
-      real(wp), intent(in) :: values(:)
-      integer :: k
-
-      call begin_item(self, key)
-      call self%buffer%add('[')
-      do k = 1, size(values)
-         if (k > 1) call self%buffer%add(', ')
-         call self%buffer%add(json_number(values(k)))
-      end do
-      call self%buffer%add(']')
-   end subroutine json_numbers_item
+      call self%buffer%add(literal)
+   end subroutine json_item
 
    !> The complete text, with a line end.
    pure function json_text(self) result(text)
@@ -149,5 +113,19 @@ contains
       literal = 'null'
       if (ieee_is_finite(value)) literal = decimal(value)
    end function json_number
+
+   !> A list of numbers on one line.
+   pure function json_numbers(values) result(literal)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: literal
+      integer :: k
+
+      literal = '['
+      do k = 1, size(values)
+         if (k > 1) literal = literal//', '
+         literal = literal//json_number(values(k))
+      end do
+      literal = literal//']'
+   end function json_numbers
 
 end module ek_json

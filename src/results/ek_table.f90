@@ -1,12 +1,22 @@
-!> A table of results: named columns, one row per state, and header lines on its origin.
+!> A table of results: named columns, one row per state, and header lines on its origin; and its form as comma-separated text:
+!> `# ` lines, a line of column names, one line per row. Numbers have 15 significant digits; `nan` for a missing value.
 module ek_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: message_list_t
+   use ek_error, only: error_t, message_list_t, fail, exit_file
+   use ek_text, only: str, quoted, plural
+   use ek_buffer, only: buffer_t
+   use ek_letters, only: line_count, with_line_ends
+   use ek_file, only: read_whole, write_standard_output
+   use ek_writer, only: writer_t, begin_file
+   use ek_decimal, only: put_decimal, get_decimal, longest_decimal
    use ek_quantity, only: name_length
    implicit none(type, external)
    private
    public :: table_t, new_table, column_index, column, column_range, row_count, name_length
+   public :: csv_text, csv_head, csv_row, write_csv, print_csv, read_csv
+
+   character(*), parameter :: line_end = new_line('a')
 
    type :: table_t
       character(name_length), allocatable :: columns(:)   !! names with unit suffix, e.g. toe_deg
@@ -25,13 +35,10 @@ contains
       integer, intent(in) :: rows
       integer :: k
 
-      allocate (table%columns(size(columns)), table%is_whole(size(columns)))
-      allocate (table%values(size(columns), rows))
-      table%values = ieee_value(1.0_wp, ieee_quiet_nan)
-      do k = 1, size(columns)
-         table%columns(k) = columns(k)
-         table%is_whole(k) = any(whole_names == columns(k))
-      end do
+      allocate (table%columns(size(columns)))
+      table%columns = columns
+      allocate (table%is_whole, source=[(any(whole_names == columns(k)), k=1, size(columns))])
+      allocate (table%values(size(columns), rows), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end function new_table
 
    !> Index of a column, 0 if there is none of this name. Names are case-sensitive.
@@ -39,9 +46,7 @@ contains
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
 
-      do place = size(table%columns), 1, -1
-         if (table%columns(place) == name) return
-      end do
+      place = findloc(table%columns, name, dim=1, back=.true.)
    end function column_index
 
    !> The values of a column from the first row to the last; empty if there is no such column.
@@ -52,11 +57,8 @@ contains
       integer :: place
 
       place = column_index(table, name)
-      if (place > 0) then
-         values = table%values(place, :)
-      else
-         allocate (values(0))
-      end if
+      allocate (values(0))
+      if (place > 0) values = table%values(place, :)
    end function column
 
    !> Minimum and maximum finite value of a column; both nan if it has none or does not exist.
@@ -80,5 +82,224 @@ contains
       type(table_t), intent(in) :: table
       row_count = size(table%values, 2)
    end function row_count
+
+   !> The table as text, for tests and benchmarks; files are written row by row.
+   pure function csv_text(table) result(text)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: text
+      type(buffer_t) :: buffer
+      integer :: row
+
+      call buffer%add(csv_head(table))
+      do row = 1, size(table%values, 2)
+         call buffer%add(csv_row(table%values(:, row), table%is_whole))
+      end do
+      text = buffer%text()
+   end function csv_text
+
+   !> One row with its line end.
+   pure function csv_row(values, is_whole) result(text)
+      real(wp), intent(in) :: values(:)
+      logical, intent(in) :: is_whole(:)        !! the columns of whole numbers
+      character(:), allocatable :: text
+      character(max(size(values)*(longest_decimal + 1), 1)) :: line
+      integer :: k, filled
+      real(wp) :: value
+
+      filled = 0
+      do k = 1, size(values)
+         value = values(k)
+         if (is_whole(k)) value = whole(value)
+         call put_decimal(value, line, filled)
+         filled = filled + 1
+         line(filled:filled) = ','
+      end do
+      filled = max(filled, 1)     ! replaces the last comma, if any
+      line(filled:filled) = line_end
+      text = line(:filled)
+   end function csv_row
+
+   !> The nearest whole number, for values small enough to have a fraction; nan stays nan.
+   elemental real(wp) function whole(value)
+      real(wp), intent(in) :: value
+
+      whole = value
+      if (abs(value) < 1e15_wp) whole = anint(value)
+   end function whole
+
+   !> The header lines and the line of column names.
+   pure function csv_head(table) result(text)
+      type(table_t), intent(in) :: table
+      character(:), allocatable :: text
+      character(:), allocatable :: lines
+      type(buffer_t) :: buffer
+      integer :: k
+
+      if (table%header%count() > 0) then
+         lines = table%header%text()
+         call buffer%add('# ')
+         do k = 1, len(lines)
+            call buffer%add(lines(k:k))
+            if (lines(k:k) == line_end) call buffer%add('# ')
+         end do
+         call buffer%add(line_end)
+      end if
+      do k = 1, size(table%columns)
+         if (k > 1) call buffer%add(',')
+         call buffer%add(trim(table%columns(k)))
+      end do
+      text = buffer%text()//line_end
+   end function csv_head
+
+   !> Writes the table; the file is complete or does not exist.
+   subroutine write_csv(table, path, error)
+      type(table_t), intent(in) :: table
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(out) :: error   !! exit_file
+      type(writer_t) :: writer
+      integer :: k
+
+      do k = 1, size(table%columns)
+         if (scan(table%columns(k), ',"'//line_end) == 0) cycle
+         call fail(error, exit_file, "cannot write '"//path//"': the column name "// &
+            quoted(table%columns(k))//' contains a comma, a quote or a line end')
+         return
+      end do
+      call begin_file(writer, path, error)
+      if (allocated(error)) return
+      call writer%add(csv_head(table))
+      do k = 1, size(table%values, 2)
+         call writer%add(csv_row(table%values(:, k), table%is_whole))
+      end do
+      call writer%finish(error)
+   end subroutine write_csv
+
+   !> Writes the table to standard output, row by row.
+   subroutine print_csv(table, error)
+      type(table_t), intent(in) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file; with an empty message if the reader closed the pipe
+      integer, parameter :: enough = 60000               ! characters written at a time
+      type(buffer_t) :: buffer
+      integer :: k
+
+      call buffer%add(csv_head(table))
+      do k = 1, size(table%values, 2)
+         call buffer%add(csv_row(table%values(:, k), table%is_whole))
+         if (buffer%length() < enough) cycle
+         call write_standard_output(buffer%text(), error)
+         if (allocated(error)) return
+         call buffer%clear()
+      end do
+      call write_standard_output(buffer%text(), error)
+   end subroutine print_csv
+
+   !> Reads a table. All lines with # go to the header; empty lines are skipped.
+   subroutine read_csv(path, table, error, may_stream, has_text)
+      character(*), intent(in) :: path
+      type(table_t), intent(out) :: table
+      type(error_t), allocatable, intent(out) :: error   !! exit_file, with path and line
+      logical, intent(in), optional :: may_stream        !! see read_whole
+      logical, intent(in), optional :: has_text          !! .true.: fields that are empty or in quotes are read as nan
+      character(:), allocatable :: text, content
+      logical :: skips
+      integer :: first, last, line, rows
+
+      skips = .false.
+      if (present(has_text)) skips = has_text
+      table = new_table([character(1) ::], 0)
+      call read_whole(path, text, error, may_stream)
+      if (allocated(error)) return
+      text = with_line_ends(text)
+      line = 0
+      rows = -1                                          ! the names come first
+      first = 1
+      do while (first <= len(text))
+         last = index(text(first:), line_end) + first - 2
+         if (last < first - 1) last = len(text)
+         line = line + 1
+         content = text(first:last)
+         if (index(content, '#') == 1) then
+            call table%header%add(trim(content(min(3, verify(content(2:)//'x', ' ') + 1):)))
+         else if (len_trim(content) > 0 .and. rows < 0) then
+            call take_names(content, line_count(text(last + 1:)), table)
+            rows = 0
+         else if (len_trim(content) > 0) then
+            rows = rows + 1
+            call take_row(content, path//':'//str(line)//': ', rows, skips, table, error)
+            if (allocated(error)) return
+         end if
+         first = last + 2
+      end do
+      if (rows < 0) then
+         call fail(error, exit_file, path//': the line of column names is missing')
+         return
+      end if
+      table%values = table%values(:, :rows)
+   end subroutine read_csv
+
+   !> The places of the commas of a line outside quotes, and those before and after it.
+   pure subroutine find_commas(content, at)
+      character(*), intent(in) :: content
+      integer, allocatable, intent(out) :: at(:)
+      logical :: is_comma(len(content)), is_inside
+      integer :: k
+
+      is_inside = .false.
+      do k = 1, len(content)
+         if (content(k:k) == '"') is_inside = .not. is_inside
+         is_comma(k) = content(k:k) == ',' .and. .not. is_inside
+      end do
+      allocate (at, source=[0, pack([(k, k=1, len(content))], is_comma), len(content) + 1])
+   end subroutine find_commas
+
+   !> Creates the table from the line of column names.
+   pure subroutine take_names(content, rows, table)
+      character(*), intent(in) :: content
+      integer, intent(in) :: rows
+      type(table_t), intent(inout) :: table
+      character(name_length), allocatable :: names(:)
+      type(message_list_t) :: header
+      integer, allocatable :: at(:)
+      integer :: k
+
+      call find_commas(content, at)
+      allocate (names(size(at) - 1))
+      do k = 1, size(names)
+         names(k) = adjustl(content(at(k) + 1:at(k + 1) - 1))
+      end do
+      header = table%header
+      table = new_table(names, rows)
+      table%header = header
+   end subroutine take_names
+
+   !> Reads one line of numbers.
+   pure subroutine take_row(content, where, row, skips, table, error)
+      character(*), intent(in) :: content
+      character(*), intent(in) :: where                  !! 'file:line: ' for messages
+      integer, intent(in) :: row
+      logical, intent(in) :: skips                       !! texts are nan
+      type(table_t), intent(inout) :: table
+      type(error_t), allocatable, intent(out) :: error
+      integer, allocatable :: at(:)
+      logical :: is_number
+      integer :: k
+
+      call find_commas(content, at)
+      if (size(at) - 1 /= size(table%columns)) then
+         call fail(error, exit_file, where//plural(size(at) - 1, 'value', 'values')//' for '// &
+            plural(size(table%columns), 'column', 'columns'))
+         return
+      end if
+      do k = 1, size(table%columns)
+         if (skips) then
+            if (content(at(k) + 1:at(k + 1) - 1) == '' .or. index(content(at(k) + 1:at(k + 1) - 1), '"') == 1) cycle
+         end if
+         call get_decimal(content(at(k) + 1:at(k + 1) - 1), table%values(k, row), is_number)
+         if (is_number) cycle
+         call fail(error, exit_file, where//'column '//quoted(table%columns(k))//': '// &
+            quoted(content(at(k) + 1:at(k + 1) - 1))//' is not a number')
+         return
+      end do
+   end subroutine take_row
 
 end module ek_table

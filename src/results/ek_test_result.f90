@@ -10,11 +10,11 @@ module ek_test_result
    implicit none(type, external)
    private
    public :: test_result_t, frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, unfolded_rows, design_row
-   public :: wheel_column, has_column, travel_column, least_stroke, wheel_word
+   public :: wheel_column, has_column, travel_column, min_stroke, wheel_word
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
    character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
-   real(wp), parameter :: least_stroke = 1.0_wp   !! mm; with less travel the abscissa is the load factor
+   real(wp), parameter :: min_stroke = 1.0_wp   !! mm; with less travel the abscissa is the load factor
 
    type :: test_result_t
       character(:), allocatable :: name      !! name of the case, unique in a report
@@ -66,9 +66,8 @@ contains
       integer, intent(in), optional :: side      !! of a single wheel; absent: left
       integer :: k, place
 
-      if (allocated(test%prefixes)) deallocate (test%prefixes)
-      if (allocated(test%sides)) deallocate (test%sides)
-      allocate (test%prefixes(0), test%sides(0))
+      test%prefixes = [character(name_length) ::]
+      test%sides = [integer ::]
       do k = 1, size(test%table%columns)
          place = len_trim(test%table%columns(k)) - len(travel_column)
          if (place < 0) cycle
@@ -110,7 +109,7 @@ contains
          call set_factor(test%label)
       end if
       if (test%abscissa /= 'factor' .and. .not. has_column(test, test%abscissa)) call set_factor('load factor')
-      if (test%kind == 'other' .and. stroke(travel_column) < least_stroke) call set_factor('load factor')
+      if (test%kind == 'other' .and. stroke(travel_column) < min_stroke) call set_factor('load factor')
 
    contains
 
@@ -184,14 +183,14 @@ contains
       is_good = is_good .and. ieee_is_finite(table%values(place, :))
       if (.not. any(is_good)) return
       middle = minloc(abs(table%values(place, :)), dim=1, mask=is_good)
-      turned = [turn_behind(middle, -1), turn_behind(middle, 1)]
+      turned = [rotation_behind(middle, -1), rotation_behind(middle, 1)]
       is_good(:turned(1)) = .false.
       is_good(turned(2):) = .false.
 
    contains
 
       !> The first row on one side at which the factor changes direction; one beyond the table if there is none.
-      pure integer function turn_behind(middle, step) result(row)
+      pure integer function rotation_behind(middle, step) result(row)
          integer, intent(in) :: middle, step
          real(wp) :: before, way, first_way
 
@@ -207,7 +206,7 @@ contains
             end if
             row = row + step
          end do
-      end function turn_behind
+      end function rotation_behind
 
    end function unfolded_rows
 
@@ -221,11 +220,8 @@ contains
       place = column_index(table, 'factor')
       if (place == 0) return
       is_good = converged_rows(table) .and. ieee_is_finite(table%values(place, :))
-      do row = size(is_good), 1, -1
-         if (.not. is_good(row)) cycle
-         if (abs(table%values(place, row)) <= 0.0_wp) return
-      end do
-      row = 0
+      where (is_good) is_good = abs(table%values(place, :)) <= 0.0_wp
+      row = findloc(is_good, .true., dim=1, back=.true.)
    end function design_row
 
    !> 'left' for 'left_'; '' for a single wheel.

@@ -31,13 +31,10 @@ contains
    !> A table without rows.
    pure type(text_table_t) function new_text_table(columns) result(table)
       character(*), intent(in) :: columns(:)
-      integer :: k
 
       table%file = ''
       allocate (table%columns(size(columns)), table%cells(size(columns), 8), table%lines(8))
-      do k = 1, size(columns)
-         table%columns(k) = columns(k)
-      end do
+      table%columns = columns
    end function new_text_table
 
    !> Begin a row of empty cells; the caller sets table%cells(k, table%rows)%text.

@@ -2,7 +2,8 @@
 !>
 !> The file begins with lines of text (what it is, the study to which it belongs, its sizes), then the numbers as bytes, then the
 !> reasons of failed designs, and ends with a checksum of everything before. It is written under a temporary name and renamed when
-!> it is whole, so that a file under its own name is a finished chunk; one that is damaged afterwards is recognised and computed again.
+!> it is whole, so that a file under its own name is a finished chunk; one that is damaged afterwards is recognised and computed
+!> again.
 module ek_chunk
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t

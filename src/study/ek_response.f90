@@ -9,8 +9,7 @@ module ek_response
    use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, plural
    use ek_quantity, only: slope_unit
-   use ek_csv, only: read_csv
-   use ek_table, only: table_t, column_index, name_length
+   use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_study, only: response_t
    implicit none(type, external)
    private
@@ -57,13 +56,7 @@ contains
 
       subroutine add(name)
          character(*), intent(in) :: name
-         character(len(names)), allocatable :: more(:)
-
-         if (any(names == name)) return
-         allocate (more(size(names) + 1))
-         more(:size(names)) = names
-         more(size(more)) = name
-         call move_alloc(more, names)
+         if (.not. any(names == name)) names = [character(len(names)) :: names, name]
       end subroutine add
 
    end subroutine needed_columns

@@ -5,22 +5,20 @@
 !> (31).
 module ek_step_size
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t, fail, exit_deck, exit_convergence
-   use ek_units, only: degree, millimetre
    use ek_text, only: quoted
    use ek_clock, only: seconds
    use ek_deck, only: deck_t
    use ek_suspension, only: suspension_t
-   use ek_schedule, only: new_schedule, demand_at
+   use ek_schedule, only: new_schedule, inputs_at
    use ek_case, only: case_t
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_kkt, only: kkt_t, new_kkt, assemble, residual_only
    use ek_path, only: path_t, new_path, walk
    use ek_rig, only: mount
    use ek_attitude, only: attitude_t, wheel_attitude
-   use ek_table, only: new_table
-   use ek_csv, only: csv_head, csv_row
+   use ek_table, only: new_table, csv_head, csv_row
    use ek_writer, only: writer_t
    use ek_study, only: study_t
    use ek_worker, only: worker_t, make_worker
@@ -114,7 +112,7 @@ contains
       logical, intent(out) :: is_reached
       type(path_t) :: path
       type(state_t) :: state
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       real(wp) :: start
       integer :: k
 
@@ -131,8 +129,8 @@ contains
       state = design_state(suspension)
       call unpack_state(path%packed(:, path%states), state)
       attitude = wheel_attitude(suspension, state, 1)
-      call demand_at(new_schedule(suspension, case), case%to, demand)
-      call assemble(suspension, state, demand, residual_only, kkt)
+      call inputs_at(new_schedule(suspension, case), case%to, inputs)
+      call assemble(suspension, state, inputs, residual_only, kkt)
       closure = norm2(kkt%values)
    end subroutine walk_once
 

@@ -5,8 +5,7 @@ module ek_study_plan
    use ek_text, only: str, quoted
    use ek_checksum, only: checksum_t, include, digits_of
    use ek_version, only: version
-   use ek_csv, only: read_csv
-   use ek_table, only: table_t, column_index, name_length
+   use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_deck, only: deck_t, deck_checksum
    use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of
    use ek_sampler_kind, only: list_kind
@@ -19,9 +18,9 @@ module ek_study_plan
    private
    public :: study_plan_t, new_plan, begin_chunk
 
-   integer, parameter :: most_designs = 2000000000
+   integer, parameter :: max_designs = 2000000000
    integer, parameter :: usual_chunks = 400       !! of a large study
-   integer, parameter :: least_chunk = 50, most_chunk = 5000       !! designs
+   integer, parameter :: min_chunk = 50, max_chunk = 5000       !! designs
 
    !> What all workers of a study share.
    type :: study_plan_t
@@ -61,13 +60,13 @@ contains
          if (allocated(error)) error%message = study%where//': '//error%message
       end if
       if (allocated(error)) return
-      if (designs_of(plan%sampler) > most_designs) then
-         call fail(error, exit_deck, study%where//': the study has more than '//str(most_designs)//' designs')
+      if (designs_of(plan%sampler) > max_designs) then
+         call fail(error, exit_deck, study%where//': the study has more than '//str(max_designs)//' designs')
          return
       end if
       plan%designs = int(designs_of(plan%sampler))
       plan%chunk = study%chunk
-      if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, least_chunk), most_chunk)
+      if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, min_chunk), max_chunk)
       plan%chunks = (plan%designs + plan%chunk - 1)/plan%chunk
       plan%columns = merge(size(study%columns) + 1, 0, size(study%columns) > 0)
       plan%states = designer%states

@@ -7,8 +7,7 @@ module ek_study_tables
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path
-   use ek_table, only: table_t, new_table, name_length
-   use ek_csv, only: csv_head, csv_row
+   use ek_table, only: table_t, new_table, name_length, csv_head, csv_row
    use ek_writer, only: writer_t, begin_file
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
@@ -20,7 +19,7 @@ module ek_study_tables
    private
    public :: study_counts_t, write_tables, responses_name, curves_name, has_limits
 
-   integer, parameter :: most_reasons = 10        !! that are printed; all are in the table
+   integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
 
    !> How the designs of a study ended.
    type :: study_counts_t
@@ -137,7 +136,7 @@ contains
          call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
          counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
          if (chunk%status(k) == 0) cycle
-         if (counts%reasons%count() < most_reasons) call counts%reasons%add('design '//str(int(chunk%first) + k - 1)//' ('// &
+         if (counts%reasons%count() < max_reasons) call counts%reasons%add('design '//str(int(chunk%first) + k - 1)//' ('// &
             label_of(study, chunk%factors(:, k))//'): '//reason_of(chunk, k))
       end do
    end subroutine add_rows

@@ -13,11 +13,10 @@ module ek_worker
    use ek_realise, only: new_design, realise, realise_cases
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_case_inputs, only: check_inputs
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_sweep_table, only: observer_t
-   use ek_examination, only: examine_case, known_case_t
+   use ek_examination, only: examine_case, known_case_t, check_inputs
    use ek_study, only: by_value, by_delta, not_given
    implicit none(type, external)
    private

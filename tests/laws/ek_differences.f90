@@ -5,8 +5,8 @@
 !> the rounding are near 1e-12 of a gradient, with 5e-3 near 1e-10 of a Hessian.
 module ek_differences
    use ek_kinds, only: wp
-   use ek_turn, only: pose_t
-   use ek_measure, only: measure_t, view_t, look
+   use ek_relative_rotation, only: pose_t
+   use ek_measure, only: measure_t, evaluation_t, evaluate
    use ek_rotation, only: rotate_quaternion, rotation_matrix
    implicit none(type, external)
    private
@@ -38,9 +38,9 @@ contains
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
       real(wp) :: gradient(12)
-      type(view_t) :: view
-      call look(measure, pose_i, pose_j, view)
-      gradient = view%gradient
+      type(evaluation_t) :: evaluation
+      call evaluate(measure, pose_i, pose_j, evaluation)
+      gradient = evaluation%gradient
    end function measure_gradient
 
    !> r + Δr, exp(Δπ̃) A

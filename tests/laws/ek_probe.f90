@@ -9,7 +9,7 @@ module ek_probe
    use ek_example, only: hold_height
    use ek_kkt, only: kkt_t, new_kkt
    use ek_newton, only: outcome_t, find_equilibrium
-   use ek_state, only: state_t, demand_t
+   use ek_state, only: state_t, inputs_t
    use ek_attitude, only: attitude_t, wheel_attitude
    implicit none(type, external)
    private
@@ -19,7 +19,7 @@ module ek_probe
    type :: rest_t
       type(suspension_t) :: suspension
       type(state_t) :: state
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       integer :: order(2) = 0            !! wheels, left before right
       integer :: wheels = 0
       integer :: holder(2) = 0           !! rows that hold the heights, 0: none
@@ -62,10 +62,10 @@ contains
          rows = size(held%suspension%rows)
          now = wheel_attitude(rest%suspension, rest%state, rest%order(wheels(k)))
          held%holder(wheels(k)) = rows
-         held%demand%rows = held%demand%rows + 1
-         held%demand%row(held%demand%rows) = rows
-         held%demand%change(held%demand%rows) = now%centre(3)
-         if (is_at_patch) held%demand%change(held%demand%rows) = now%contact(3)
+         held%inputs%rows = held%inputs%rows + 1
+         held%inputs%row(held%inputs%rows) = rows
+         held%inputs%change(held%inputs%rows) = now%centre(3)
+         if (is_at_patch) held%inputs%change(held%inputs%rows) = now%contact(3)
       end do
       held%state%reaction = [rest%state%reaction, (0.0_wp, k=1, size(wheels))]
    end subroutine hold_heights
@@ -99,7 +99,7 @@ contains
             probed%loads(first + w)%force = place(p)*amount*push%force(:, w)
             probed%loads(first + w)%moment = place(p)*amount*push%moment(:, w)
          end do
-         call add_state(probed, rest, rest%demand, weight(p)/amount, slope)
+         call add_state(probed, rest, rest%inputs, weight(p)/amount, slope)
       end do
    end subroutine slopes_under
 
@@ -108,29 +108,29 @@ contains
       type(rest_t), intent(in) :: rest
       integer, intent(in) :: row                  !! of the driver
       type(slope_t), intent(out) :: slope
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       integer :: p, k
 
       do p = 1, 4
-         demand = rest%demand
-         do k = 1, demand%rows
-            if (demand%row(k) == row) exit
+         inputs = rest%inputs
+         do k = 1, inputs%rows
+            if (inputs%row(k) == row) exit
          end do
-         if (k > demand%rows) then
-            demand%rows = k
-            demand%row(k) = row
-            demand%change(k) = 0.0_wp
+         if (k > inputs%rows) then
+            inputs%rows = k
+            inputs%row(k) = row
+            inputs%change(k) = 0.0_wp
          end if
-         demand%change(k) = demand%change(k) + 10.0_wp*place(p)*step
-         call add_state(rest%suspension, rest, demand, weight(p)/(10.0_wp*step), slope)
+         inputs%change(k) = inputs%change(k) + 10.0_wp*place(p)*step
+         call add_state(rest%suspension, rest, inputs, weight(p)/(10.0_wp*step), slope)
       end do
    end subroutine slopes_over
 
    !> Adds what one equilibrium has to slopes, times its share.
-   subroutine add_state(probed, rest, demand, share, slope)
+   subroutine add_state(probed, rest, inputs, share, slope)
       type(suspension_t), intent(in) :: probed
       type(rest_t), intent(in) :: rest
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       real(wp), intent(in) :: share
       type(slope_t), intent(inout) :: slope
       type(state_t) :: near
@@ -142,7 +142,7 @@ contains
 
       kkt = new_kkt(probed)
       near = rest%state
-      call find_equilibrium(probed, demand, found, near, kkt, outcome)
+      call find_equilibrium(probed, inputs, found, near, kkt, outcome)
       slope%is_found = slope%is_found .and. outcome%is_converged
       do w = 1, rest%wheels
          now = wheel_attitude(probed, near, rest%order(w))

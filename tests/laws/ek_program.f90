@@ -5,8 +5,7 @@
 module ek_program
    use ek_error, only: error_t
    use ek_file, only: read_whole
-   use ek_table, only: table_t, column, column_index
-   use ek_csv, only: read_csv
+   use ek_table, only: table_t, column, column_index, read_csv
    use ek_kinds, only: wp
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_scratch, only: scratch, shell_quoted

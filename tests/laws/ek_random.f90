@@ -2,7 +2,7 @@
 module ek_random
    use ek_kinds, only: wp, i8
    use ek_measure, only: measure_t
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_rotation, only: unit_vector, quaternion_of_vector, rotation_matrix, quaternion_product
    implicit none(type, external)
    private

@@ -1,17 +1,16 @@
 !> What a test reads off a state: constraints, wheel attitude, forces.
 module ek_reading
-   use ek_kinds, only: wp
-   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_kinds, only: wp, degree, millimetre
+   use ek_elastic, only: bushing_evaluation_t, evaluate_bushing
    use ek_element, only: element_t
    use ek_element_force, only: spring_tension
    use ek_kkt, only: kkt_t, assemble, residual_only
    use ek_measure, only: measure_value
    use ek_differences, only: measure_gradient
-   use ek_turn, only: pose_t
+   use ek_relative_rotation, only: pose_t
    use ek_path, only: path_t
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_suspension, only: suspension_t
-   use ek_units, only: degree, millimetre
    implicit none(type, external)
    private
    public :: phi, phi_gradient, attitude_t, attitude, state_of, joint_force, bushing_force, tension, closure
@@ -120,11 +119,11 @@ contains
       type(element_t), intent(in) :: element
       type(state_t), intent(in) :: state
       real(wp) :: force(3)
-      type(bushing_view_t) :: view
+      type(bushing_evaluation_t) :: evaluation
 
       associate (b => element%bushing, m => element%measure)
-         call look_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-         force = b%preload_force - b%kt*matmul(transpose(b%axes), view%gap)
+         call evaluate_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+         force = b%preload_force - b%kt*matmul(transpose(b%axes), evaluation%gap)
       end associate
    end function bushing_force
 
@@ -142,30 +141,30 @@ contains
    end function tension
 
    !> One load, scaled.
-   pure type(demand_t) function load_demand(load, factor) result(demand)
+   pure type(inputs_t) function load_demand(load, factor) result(inputs)
       integer, intent(in) :: load
       real(wp), intent(in) :: factor
-      demand%loads = 1
-      demand%load(1) = load
-      demand%factor(1) = factor
+      inputs%loads = 1
+      inputs%load(1) = load
+      inputs%factor(1) = factor
    end function load_demand
 
    !> One row, driven.
-   pure type(demand_t) function row_demand(row, change) result(demand)
+   pure type(inputs_t) function row_demand(row, change) result(inputs)
       integer, intent(in) :: row
       real(wp), intent(in) :: change
-      demand%rows = 1
-      demand%row(1) = row
-      demand%change(1) = change
+      inputs%rows = 1
+      inputs%row(1) = row
+      inputs%change(1) = change
    end function row_demand
 
    !> |Φ(q) − c| of (31) at a state under a demand [SI].
-   real(wp) function closure(suspension, state, demand, kkt)
+   real(wp) function closure(suspension, state, inputs, kkt)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(demand_t), intent(in) :: demand
+      type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt
-      call assemble(suspension, state, demand, residual_only, kkt)
+      call assemble(suspension, state, inputs, residual_only, kkt)
       closure = norm2(kkt%values)
    end function closure
 

@@ -11,12 +11,12 @@ module ek_trial
    use ek_reader, only: build_model
    use ek_measure, only: measure_value
    use ek_differences, only: measure_gradient
-   use ek_elastic, only: bushing_view_t, look_bushing
+   use ek_elastic, only: bushing_evaluation_t, evaluate_bushing
    use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
-   use ek_state, only: state_t, demand_t
-   use ek_schedule, only: new_schedule, demand_at
+   use ek_state, only: state_t, inputs_t
+   use ek_schedule, only: new_schedule, inputs_at
    use ek_kkt, only: kkt_t, new_kkt
    use ek_balance, only: balance
    use ek_path, only: path_t, sweep
@@ -124,7 +124,7 @@ contains
       type(trial_t), intent(in) :: trial
       real(wp) :: energy(trial%path%states)
       type(state_t) :: state
-      type(bushing_view_t) :: view
+      type(bushing_evaluation_t) :: evaluation
       real(wp) :: e, d(3), turn(3)
       integer :: s, k
 
@@ -140,9 +140,9 @@ contains
          do k = 1, size(trial%suspension%elements) - trial%suspension%scalars
             associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing, &
                m => trial%suspension%elements(trial%suspension%scalars + k)%measure)
-               call look_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
-               d = matmul(transpose(b%axes), view%gap)
-               turn = matmul(transpose(b%axes), view%turn%theta)
+               call evaluate_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+               d = matmul(transpose(b%axes), evaluation%gap)
+               turn = matmul(transpose(b%axes), evaluation%rotation%theta)
                energy(s) = energy(s) + sum(0.5_wp*b%kt*d**2 - b%preload_force*d) &
                   + sum(0.5_wp*b%kr*turn**2 - b%preload_moment*turn)
             end associate
@@ -156,7 +156,7 @@ contains
       type(trial_t), intent(in) :: trial
       real(wp) :: lift(trial%path%states)
       type(state_t) :: state
-      type(bushing_view_t) :: view
+      type(bushing_evaluation_t) :: evaluation
       real(wp) :: tension, slope, gradient(12)
       integer :: s, k, t
 
@@ -174,10 +174,10 @@ contains
          do k = 1, size(trial%suspension%elements) - trial%suspension%scalars
             associate (b => trial%suspension%elements(trial%suspension%scalars + k)%bushing, &
                m => trial%suspension%elements(trial%suspension%scalars + k)%measure)
-               call look_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), view)
+               call evaluate_bushing(b, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
                gradient = 0.0_wp
-               gradient(3) = -view%force(3)
-               gradient(9) = view%force(3)
+               gradient(3) = -evaluation%force(3)
+               gradient(9) = evaluation%force(3)
                call include(m%body_i, m%body_j)
             end associate
          end do
@@ -208,12 +208,12 @@ contains
       type(trial_t), intent(in) :: trial
       integer, intent(in) :: wheel
       real(wp) :: force(trial%path%states)
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
       integer :: s
 
       do s = 1, trial%path%states
-         call demand_at(new_schedule(trial%suspension, trial%case), trial%path%value(s), demand)
-         force(s) = vertical_force(trial%suspension, state_of(trial%suspension, trial%path, s), demand, wheel)
+         call inputs_at(new_schedule(trial%suspension, trial%case), trial%path%value(s), inputs)
+         force(s) = vertical_force(trial%suspension, state_of(trial%suspension, trial%path, s), inputs, wheel)
       end do
    end function wheel_force
 

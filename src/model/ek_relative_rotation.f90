@@ -3,13 +3,13 @@
 !> θ = log(A_iᵀ A_j) in the axes of body i. With (q0, qv) the unit quaternion of A_iᵀ A_j: p = 2 qv, t = pᵀp, θ = α(t) p,
 !> α(t) = asin(√t/2)/(√t/2). δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) is the change of the relative rotation.
 !> Equation (R.11) of docs/theory/rotations.md.
-module ek_turn
+module ek_relative_rotation
    use ek_kinds, only: wp
    use ek_rotation, only: cross, identity3
-   use ek_block, only: add_block, add_diagonal_block, rotated
+   use ek_block, only: add_block, add_diagonal_block, rotated, in_world
    implicit none(type, external)
    private
-   public :: pose_t, turn_t, relative_turn, turn_gradient, turn_jacobian, add_turn_hessian
+   public :: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, rotation_jacobian, add_rotation_hessian
 
    !> The pose of a body. Stored contiguously (128 bytes), because every measure reads all of it.
    type :: pose_t
@@ -19,20 +19,20 @@ module ek_turn
    end type pose_t
 
    !> The relative rotation of two bodies: θ = α(t) p, p = 2 qv, t = pᵀp, in the axes of body i.
-   type :: turn_t
+   type :: relative_rotation_t
       real(wp) :: q0 = 1.0_wp, qv(3) = 0.0_wp   !! quaternion of A_iᵀ A_j, q0 ≥ 0
       real(wp) :: p(3) = 0.0_wp
       real(wp) :: alpha = 1.0_wp, alpha1 = 0.0_wp, alpha2 = 0.0_wp   !! α, dα/dt, d²α/dt²
       real(wp) :: theta(3) = 0.0_wp             !! rotation vector [rad]
-   end type turn_t
+   end type relative_rotation_t
 
 contains
 
    !> The rotation of body j relative to body i.
    !> Equation (R.10) of docs/theory/rotations.md.
-   pure subroutine relative_turn(pose_i, pose_j, turn)
+   pure subroutine relative_rotation(pose_i, pose_j, turn)
       type(pose_t), intent(in) :: pose_i, pose_j
-      type(turn_t), intent(out) :: turn
+      type(relative_rotation_t), intent(out) :: turn
       real(wp) :: i0, iv(3), j0, jv(3), qv(3), p(3), half, s
 
       i0 = pose_i%q(1); iv = pose_i%q(2:4)
@@ -63,23 +63,23 @@ contains
          turn%alpha2 = (0.125_wp/turn%q0**3 - 3.0_wp*turn%alpha1)/(8.0_wp*s*s)
       end if
       turn%theta = turn%alpha*p
-   end subroutine relative_turn
+   end subroutine relative_rotation
 
    !> g = Pᵀ w, the gradient of m·θ in δ, with P = q0 I − q̃v and w = (αI + 2α' p pᵀ) m.
    !> Equation (M.10) of docs/theory/measures.md.
-   pure function turn_gradient(turn, m) result(g)
-      type(turn_t), intent(in) :: turn
+   pure function rotation_gradient(turn, m) result(g)
+      type(relative_rotation_t), intent(in) :: turn
       real(wp), intent(in) :: m(3)
       real(wp) :: g(3), w(3)
       w = turn%alpha*m + (2.0_wp*turn%alpha1*dot_product(turn%p, m))*turn%p
       g = turn%q0*w + cross(turn%qv, w)
-   end function turn_gradient
+   end function rotation_gradient
 
    !> G = ∂θ/∂δ = (αI + 2α' p pᵀ)(q0 I − q̃v), δ = A_iᵀ(π_j − π_i).
    !> Equation (M.11) of docs/theory/measures.md.
    !> Equation (R.9) of docs/theory/rotations.md.
-   pure function turn_jacobian(turn) result(jacobian)
-      type(turn_t), intent(in) :: turn
+   pure function rotation_jacobian(turn) result(jacobian)
+      type(relative_rotation_t), intent(in) :: turn
       real(wp) :: jacobian(3, 3), w(3)
       integer :: k
 
@@ -88,7 +88,7 @@ contains
          w(k) = w(k) + turn%alpha
          jacobian(k, :) = turn%q0*w + cross(turn%qv, w)
       end do
-   end function turn_jacobian
+   end function rotation_jacobian
 
    !> Adds the Hessian of m·θ to the rotation blocks of i and j, and `inner`, a symmetric
    !> 3×3 stiffness in δ (body-i axes), with the same chain rule.
@@ -97,8 +97,8 @@ contains
    !> δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) brings the block π_iπ_j += ½ [A_i g]~.
    !> Equations (M.8), (M.9), (M.10), (M.12) of docs/theory/measures.md.
    !> Equation (R.11) of docs/theory/rotations.md.
-   pure subroutine add_turn_hessian(turn, m, inner, a_i, at_i, at_j, ld, matrix)
-      type(turn_t), intent(in) :: turn
+   pure subroutine add_rotation_hessian(turn, m, inner, a_i, at_i, at_j, ld, matrix)
+      type(relative_rotation_t), intent(in) :: turn
       real(wp), intent(in) :: m(3)           !! body-i axes
       real(wp), intent(in) :: inner(3, 3)
       real(wp), intent(in) :: a_i(3, 3)      !! rotation of body i
@@ -127,20 +127,10 @@ contains
       do k = 1, 3
          h(k, k) = h(k, k) - half_wq
       end do
-      if (at_i < 0) then      ! the chassis never rotates: a_i is the unit matrix
-         call add_diagonal_block(h, at_j + 3, at_j, ld, matrix)
-         return
-      end if
-      do k = 1, 3
-         left(:, k) = rotated(a_i, h(:, k))
-      end do
-      do k = 1, 3
-         row = left(k, :)
-         b(k, :) = rotated(a_i, row)
-      end do
+      b = in_world(a_i, h, at_i)
       call add_diagonal_block(b, at_i + 3, at_i, ld, matrix)
-      if (at_j < 0) return
       call add_diagonal_block(b, at_j + 3, at_j, ld, matrix)
+      if (at_i < 0 .or. at_j < 0) return
       g = turn%q0*w + cross(turn%qv, w)
       g = 0.5_wp*rotated(a_i, g)
       b = -b
@@ -148,6 +138,6 @@ contains
       b(1, 2) = b(1, 2) - g(3); b(3, 2) = b(3, 2) + g(1)
       b(1, 3) = b(1, 3) + g(2); b(2, 3) = b(2, 3) - g(1)
       call add_block(b, at_i + 3, at_j + 3, ld, matrix)
-   end subroutine add_turn_hessian
+   end subroutine add_rotation_hessian
 
-end module ek_turn
+end module ek_relative_rotation

@@ -1,35 +1,33 @@
 !> Messages: why a path ended, and which of its states are unstable.
-module ek_failure_words
-   use ek_kinds, only: wp
-   use ek_units, only: millimetre
+module ek_failure_text
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, plural
    use ek_measure, only: measure_value
    use ek_element, only: stop_spring, element_label
    use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t, scales_loads
-   use ek_state, only: state_t, demand_t, design_state, unpack_state
-   use ek_schedule, only: new_schedule, demand_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
+   use ek_schedule, only: new_schedule, inputs_at
    use ek_kkt, only: kkt_t
-   use ek_motion_words, only: motion_words
+   use ek_motion_text, only: motion_text
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_break, only: break_t, why_it_ends, lock, limit_point, mechanism
    use ek_path, only: path_t
    use ek_reach, only: failure_t
-   use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, most_steps
+   use ek_arc_survey, only: stuck, gone_far, gone_round, arrived, max_steps
    use ek_sweep_table, only: nearly_singular
-   use ek_model_remarks, only: has_spring
-   use ek_remark, only: swept_words, remark_list_t, warning, on_stability
+   use ek_remark, only: swept_text, remark_list_t, warning, on_stability, has_spring
    implicit none(type, external)
    private
-   public :: failure_words, stability_remarks
+   public :: failure_text, stability_remarks
 
    integer, parameter :: digits = 10      !! printed of the swept value at the end of a path, which is known to 1e-9 of the range
 
 contains
 
    !> Where a path ends and why: joints that lock, a load at its maximum, a mechanism; stops in contact.
-   function failure_words(suspension, case, path, failure, kkt) result(text)
+   function failure_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension     !! on the rig
       type(case_t), intent(in) :: case                 !! on the rig
       type(path_t), intent(in) :: path
@@ -40,47 +38,47 @@ contains
       if (.not. path%is_settled) then
          text = 'no equilibrium under the constant loads'
       else if (path%is_table) then
-         text = row_words(path, failure)
+         text = row_text(path, failure)
       else if (failure%ending /= arrived) then
-         text = arc_words(case, path, failure)
+         text = arc_text(case, path, failure)
          if (failure%ending /= stuck) return
       else if (failure%is_off_path) then
          text = 'method '//case%method//' has left the path from design: its states from '// &
-            swept_words(case, path%value(failure%state), digits)//' on are marked converged = 0; use more increments, or '// &
+            swept_text(case, path%value(failure%state), digits)//' on are marked converged = 0; use more increments, or '// &
             'method ''equilibrium'''
          return
       else
-         text = 'no equilibrium at '//swept_words(case, path%value(failure%state), digits)//' (state '// &
-            str(failure%state - 1)//'); the last one is at '//swept_words(case, failure%reached, digits)
+         text = 'no equilibrium at '//swept_text(case, path%value(failure%state), digits)//' (state '// &
+            str(failure%state - 1)//'); the last one is at '//swept_text(case, failure%reached, digits)
       end if
-      text = text//reason_words(suspension, case, path, failure, kkt)
-   end function failure_words
+      text = text//reason_text(suspension, case, path, failure, kkt)
+   end function failure_text
 
    !> A path followed by its arc length that does not reach its end, with the reason.
-   function arc_words(case, path, failure) result(text)
+   function arc_text(case, path, failure) result(text)
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
       character(:), allocatable :: text
 
-      text = 'the path does not reach '//swept_words(case, path%value(failure%state), digits)//' (state '// &
+      text = 'the path does not reach '//swept_text(case, path%value(failure%state), digits)//' (state '// &
          str(failure%state - 1)//'): '
       select case (failure%ending)
       case (stuck)
-         text = text//'it ends at '//swept_words(case, failure%reached, digits)
+         text = text//'it ends at '//swept_text(case, failure%reached, digits)
       case (gone_round)
          text = text//'it is closed and returns to design; the other states are distributed over one circuit of it'
       case (gone_far)
-         text = text//'it was followed to '//swept_words(case, failure%reached, digits)//', where a body or the swept '// &
+         text = text//'it was followed to '//swept_text(case, failure%reached, digits)//', where a body or the swept '// &
             'value is further from design than in any suspension'
       case default
-         text = text//'it was abandoned at '//swept_words(case, failure%reached, digits)//' after '//str(most_steps)//' steps'
+         text = text//'it was abandoned at '//swept_text(case, failure%reached, digits)//' after '//str(max_steps)//' steps'
       end select
-   end function arc_words
+   end function arc_text
 
    !> The singularity at the last equilibrium; if none is found, the body that the last attempt moved most and the joint
    !> with the largest constraint residual.
-   function reason_words(suspension, case, path, failure, kkt) result(text)
+   function reason_text(suspension, case, path, failure, kkt) result(text)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(in) :: path
@@ -90,14 +88,14 @@ contains
       type(break_t) :: found
       type(diagnosis_t) :: diagnosis
       type(state_t) :: state
-      type(demand_t) :: demand
+      type(inputs_t) :: inputs
 
       text = ''
       state = design_state(suspension)
       if (allocated(failure%last)) then
          call unpack_state(failure%last, state)
-         if (path%is_settled .and. .not. path%is_table) call demand_at(new_schedule(suspension, case), failure%reached, demand)
-         call why_it_ends(suspension, state, demand, kkt, found)
+         if (path%is_settled .and. .not. path%is_table) call inputs_at(new_schedule(suspension, case), failure%reached, inputs)
+         call why_it_ends(suspension, state, inputs, kkt, found)
          call diagnose(suspension, state, kkt, diagnosis)
       end if
       select case (found%reason)
@@ -117,15 +115,15 @@ contains
          if (failure%row > 0) text = text//'; joint '// &
             quoted(suspension%joints(suspension%rows(failure%row)%joint)%name)//' has the largest constraint residual'
       end select
-      text = text//stop_words(suspension, state)
+      text = text//stop_text(suspension, state)
       if (size(suspension%wheels) > 0 .and. .not. has_spring(suspension)) text = text//'; the deck has no spring'
       if (found%reason == lock) return
       if (found%reason == mechanism) then
-         text = text//new_line('a')//'mechanism: '//motion_words(suspension, state, kkt, found%motion)
+         text = text//new_line('a')//'mechanism: '//motion_text(suspension, state, kkt, found%motion)
       else if (.not. diagnosis%is_solvable()) then
          text = text//new_line('a')//diagnosis%words()
       end if
-   end function reason_words
+   end function reason_text
 
    !> 'a', 'b' and 'c'.
    function joint_list(suspension, is_named) result(text)
@@ -143,7 +141,7 @@ contains
    end function joint_list
 
    !> Stops in contact and their forces.
-   function stop_words(suspension, state) result(text)
+   function stop_text(suspension, state) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       character(:), allocatable :: text
@@ -161,29 +159,29 @@ contains
                str(abs(tension), 4)//' N)'
          end associate
       end do
-   end function stop_words
+   end function stop_text
 
    !> 'row 3 of the table did not converge; …', or 'rows 3, 4, 7 … of the table, 12 in all, did …'.
-   function row_words(path, failure) result(text)
+   function row_text(path, failure) result(text)
       type(path_t), intent(in) :: path
       type(failure_t), intent(in) :: failure
       character(:), allocatable :: text
-      integer, parameter :: most_named = 10
+      integer, parameter :: max_named = 10
       integer :: lost(count(.not. path%is_reached)), k, row
 
       lost = nint(pack(path%value, .not. path%is_reached))
       text = trim(merge('rows', 'row ', size(lost) > 1))
-      do k = 1, min(size(lost), most_named)
+      do k = 1, min(size(lost), max_named)
          text = text//trim(merge(', ', '  ', k > 1))//' '//str(lost(k))
       end do
-      if (size(lost) <= most_named) text = text//' of the table'
-      if (size(lost) > most_named) text = text//' … of the table, '//str(size(lost))//' in all,'
+      if (size(lost) <= max_named) text = text//' of the table'
+      if (size(lost) > max_named) text = text//' … of the table, '//str(size(lost))//' in all,'
       row = nint(path%value(failure%state))
       text = text//' did not converge; the last equilibrium on the way from '
       if (row == 1) text = text//'design'
       if (row > 1) text = text//'row '//str(row - 1)
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
-   end function row_words
+   end function row_text
 
    !> One warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
    subroutine stability_remarks(case, path, remarks)
@@ -194,32 +192,32 @@ contains
 
       first = minloc(path%pivot_ratio, dim=1, mask=path%is_reached)
       if (first > 0) then
-         if (path%pivot_ratio(first) < nearly_singular) call tell('the matrix is nearly singular (smallest over largest '// &
+         if (path%pivot_ratio(first) < nearly_singular) call report('the matrix is nearly singular (smallest over largest '// &
             'pivot '//str(path%pivot_ratio(first), 2)//') at ', path%value(first), ' (column near_singular); see elastokin check')
       end if
       if (case%method == 'recursive') return     ! its matrix has no geometric stiffness and shows no instability
       do k = 1, path%limits
-         if (path%limit_state(k) > 0) call tell('limit point at ', path%limit_place(k), ' (near state '// &
+         if (path%limit_state(k) > 0) call report('limit point at ', path%limit_place(k), ' (near state '// &
             str(path%limit_state(k) - 1)//'): the path turns back there')
       end do
       do k = 1, path%crossings
-         call tell('bifurcation at ', path%crossing_place(k), &
+         call report('bifurcation at ', path%crossing_place(k), &
             ': another branch of equilibria begins there; the results follow the one whose tangent is continuous')
       end do
       unstable = count(path%is_reached .and. .not. path%is_stable)
       if (unstable == 0) return
       first = findloc(path%is_reached .and. .not. path%is_stable, .true., dim=1)
-      call tell(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or buckled; '// &
+      call report(plural(unstable, 'state is', 'states are')//' unstable (negative stiffness: over centre or buckled; '// &
          'column stable), the first at ', path%value(first), '')
 
    contains
 
-      subroutine tell(before, place, after)
+      subroutine report(before, place, after)
          character(*), intent(in) :: before, after
          real(wp), intent(in) :: place
-         call remarks%add(warning, on_stability, case, before//swept_words(case, place, digits)//after, place)
-      end subroutine tell
+         call remarks%add(warning, on_stability, case, before//swept_text(case, place, digits)//after, place)
+      end subroutine report
 
    end subroutine stability_remarks
 
-end module ek_failure_words
+end module ek_failure_text

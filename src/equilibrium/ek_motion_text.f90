@@ -1,15 +1,15 @@
 !> Describes a motion of the bodies as text: the bodies, the line of the motion, and the hardpoints on it.
-module ek_motion_words
-   use ek_kinds, only: wp
-   use ek_units, only: millimetre
+module ek_motion_text
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, vector_text, plural
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
+   use ek_wheel_side, only: deck_frame
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
    implicit none(type, external)
    private
-   public :: motion_words, place
+   public :: motion_text, body_parts, place
 
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a motion
 
@@ -23,36 +23,41 @@ contains
       if (len(where) > 0) text = ' ('//where//')'
    end function place
 
+   !> How much of a motion each body has.
+   pure function body_parts(motion) result(part)
+      real(wp), intent(in) :: motion(:)            !! scaled unknowns
+      real(wp) :: part(size(motion)/6)
+      part = norm2(reshape(motion, [6, size(part)]), dim=1)
+   end function body_parts
+
    !> Text on the body that moves most, its motion, and the bodies that move with it.
-   function motion_words(suspension, state, kkt, motion) result(text)
+   function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(kkt_t), intent(in) :: kkt
       real(wp), intent(in) :: motion(:)            !! scaled unknowns
       character(:), allocatable :: text
       real(wp) :: part(size(suspension%bodies))
-      integer, parameter :: most_named = 6
+      integer, parameter :: max_named = 6
       integer :: k, main, named
 
-      do k = 1, size(part)
-         part(k) = norm2(motion(6*k - 5:6*k))
-      end do
+      part = body_parts(motion)
       main = maxloc(part, dim=1)
       text = 'body '//quoted(suspension%bodies(main)%name)//place(suspension%bodies(main)%where)//' '// &
-         one_body_words(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
+         one_body_text(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
       named = 0
       do k = 1, size(part)
          if (k == main .or. part(k) <= takes_part*part(main)) cycle
          named = named + 1
-         if (named > most_named) cycle
+         if (named > max_named) cycle
          text = text//'; body '//quoted(suspension%bodies(k)%name)//' '// &
-            one_body_words(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
+            one_body_text(suspension, state%poses(k + 1)%r, kkt, motion(6*k - 5:6*k), k)
       end do
-      if (named > most_named) text = text//'; and '//plural(named - most_named, 'body', 'bodies')//' more'
-   end function motion_words
+      if (named > max_named) text = text//'; and '//plural(named - max_named, 'body', 'bodies')//' more'
+   end function motion_text
 
    !> 'turns freely about the axis …' or 'slides freely along …'.
-   function one_body_words(suspension, r, kkt, motion, body) result(text)
+   function one_body_text(suspension, r, kkt, motion, body) result(text)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: r(3), motion(6)
       type(kkt_t), intent(in) :: kkt
@@ -63,17 +68,17 @@ contains
       v = motion(1:3)*kkt%scale(6*body - 5)
       w = motion(4:6)*kkt%scale(6*body - 2)
       if (norm2(w)*kkt%length < takes_part*norm2(v)) then
-         axis = in_frame(suspension, v/norm2(v))
+         axis = deck_frame(suspension)*v/norm2(v)
          text = 'slides freely along '//vector_text(axis, 4)
          return
       end if
       axis = w/norm2(w)
       through = r + cross(axis, v)/norm2(w)
       lead = dot_product(v, axis)/norm2(w)
-      text = 'turns freely about the axis '//vector_text(in_frame(suspension, tidy(axis)), 3)//' through '// &
-         vector_text(in_frame(suspension, through)/millimetre, 5)//' mm'//points_on(suspension, axis, through)
+      text = 'turns freely about the axis '//vector_text(deck_frame(suspension)*tidy(axis), 3)//' through '// &
+         vector_text(deck_frame(suspension)*through/millimetre, 5)//' mm'//points_on(suspension, axis, through)
       if (abs(lead) > takes_part*kkt%length) text = text//', sliding '//str(lead/millimetre, 3)//' mm/rad along it'
-   end function one_body_words
+   end function one_body_text
 
    !> The axis with rounding errors removed and its largest component positive.
    pure function tidy(axis) result(clean)
@@ -82,15 +87,6 @@ contains
       clean = merge(axis, 0.0_wp, abs(axis) > 1.0e-6_wp)
       if (clean(maxloc(abs(clean), dim=1)) < 0.0_wp) clean = -clean
    end function tidy
-
-   !> A vector in the deck's frame.
-   pure function in_frame(suspension, vector) result(out)
-      type(suspension_t), intent(in) :: suspension
-      real(wp), intent(in) :: vector(3)
-      real(wp) :: out(3)
-      out = vector
-      if (suspension%is_iso) out(1:2) = -out(1:2)
-   end function in_frame
 
    !> ' (points a, b)' for the hardpoints on an axis.
    pure function points_on(suspension, axis, through) result(text)
@@ -112,4 +108,4 @@ contains
       if (found > 0) text = ' (the line of '//text//')'
    end function points_on
 
-end module ek_motion_words
+end module ek_motion_text
