@@ -1,7 +1,7 @@
 !> Solves one design of a study: the factors become a model, its cases are solved, and the observations become a row of responses
 !> and the rows of the curves.
 !>
-!> What a design costs is numbers only. Where words are needed (a design that fails, one that must be read from the text) they are
+!> What a design costs is numbers only. A message (of a design that fails, or one that must be read from the text) is
 !> made by one thread at a time: gfortran keeps the length of a text that a function returns in one place for all threads.
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
