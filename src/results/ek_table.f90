@@ -41,12 +41,15 @@ contains
       allocate (table%values(size(columns), rows), source=ieee_value(1.0_wp, ieee_quiet_nan))
    end function new_table
 
-   !> Index of a column, 0 if there is none of this name. Names are case-sensitive.
+   !> Index of a column, 0 if there is none of this name. Names are case-sensitive. (libgfortran's findloc of texts reads beyond
+   !> the array with back = .true.)
    pure integer function column_index(table, name) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
 
-      place = findloc(table%columns, name, dim=1, back=.true.)
+      do place = size(table%columns), 1, -1
+         if (table%columns(place) == name) return
+      end do
    end function column_index
 
    !> The values of a column from the first row to the last; empty if there is no such column.
