@@ -10,7 +10,7 @@ module ek_posix
    public :: c_fopen, c_write, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir
    public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
       c_close
-   public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw
+   public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw, c_readlink
    public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym, c_time, c_gmtime, c_localtime, c_strftime
 
    ! Only procedures without `value` arguments: gfortran 12 passes these by reference from the second call on
@@ -124,6 +124,12 @@ module ek_posix
          character(kind=c_char), intent(inout) :: letters(*)
          integer(c_size_t), value :: size
       end function c_getcwd_raw
+      integer(c_size_t) function c_readlink(path, letters, size) bind(c, name='readlink')
+         import :: c_char, c_size_t
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(inout) :: letters(*)
+         integer(c_size_t), value :: size
+      end function c_readlink
       integer(c_int) function c_setpgid(process, group) bind(c, name='setpgid')
          import :: c_int
          integer(c_int), value :: process, group

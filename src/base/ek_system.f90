@@ -9,12 +9,13 @@ module ek_system
    use ek_kinds, only: i8
    use ek_error, only: error_t, fail, exit_file, message_list_t
    use ek_text, only: str
-   use ek_posix, only: c_opendir, c_readdir, c_closedir, c_flock, c_getcwd_raw, c_signal, c_gethostname, c_errno, &
+   use ek_posix, only: c_opendir, c_readdir, c_closedir, c_flock, c_getcwd_raw, c_readlink, c_signal, c_gethostname, c_errno, &
       c_strerror, c_strlen, c_dlsym, c_write, c_access, c_close, c_dup, c_fopen
    implicit none(type, external)
    private
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
    public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, system_reason, set_signal
+   public :: program_folder
    public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_remarks
    public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
@@ -202,6 +203,20 @@ contains
       if (.not. c_associated(c_getcwd_raw(letters, int(max_letters, c_size_t)))) return
       path = text_of(letters)
    end function working_folder
+
+   !> The folder of the program that is running; '' if the system does not tell.
+   function program_folder() result(path)
+      character(:), allocatable :: path
+      character(kind=c_char) :: letters(max_letters)
+      integer(c_size_t) :: length
+
+      letters = c_null_char
+      length = c_readlink('/proc/self/exe'//c_null_char, letters, int(max_letters - 1, c_size_t))
+      path = ''
+      if (length < 1) return
+      path = text_of(letters)
+      path = path(:max(1, index(path, '/', back=.true.) - 1))
+   end function program_folder
 
    !> The characters before the first null.
    pure function text_of(letters) result(text)

@@ -201,17 +201,46 @@ contains
       if (allocated(self%temporary)) path = self%temporary
    end function writer_temporary_name
 
-   !> Moves a complete picture to its final path on the same disk, atomically, without waiting for the disk.
-   subroutine move_file(from, to, error)
+   !> Moves a complete file to its final path on the same disk, atomically.
+   subroutine move_file(from, to, error, is_awaited)
       character(*), intent(in) :: from, to
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
+      logical, intent(in), optional :: is_awaited            !! if .true., wait until it is on the disk; default .false.
+      character(:), allocatable :: reason
+      logical :: waits
 
-      if (folder_exists(to)) then
-         call fail(error, exit_file, "cannot write '"//to//"': it is a folder")
-      else if (c_rename(from//c_null_char, to//c_null_char) /= 0) then
-         call fail(error, exit_file, "cannot write '"//to//"': "//system_reason())
+      waits = .false.
+      if (present(is_awaited)) waits = is_awaited
+      reason = ''
+      if (folder_exists(to)) reason = 'it is a folder'
+      if (waits .and. len(reason) == 0) call await(from, reason)
+      if (len(reason) == 0) then
+         if (c_rename(from//c_null_char, to//c_null_char) /= 0) reason = system_reason()
+      end if
+      if (len(reason) > 0) then
+         call fail(error, exit_file, "cannot write '"//to//"': "//reason)
+      else if (waits) then
+         call keep_name(folder_of(to))
       end if
    end subroutine move_file
+
+   !> Waits until a file is on the disk.
+   subroutine await(path, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(inout) :: reason     !! set if the disk failed
+      type(c_ptr) :: stream
+      integer :: ignored
+
+      stream = c_fopen(path//c_null_char, 'r+be'//c_null_char)
+      if (.not. c_associated(stream)) then
+         reason = system_reason()
+         return
+      end if
+      if (c_fsync(c_fileno(stream)) /= 0) then
+         if (error_number() /= not_for_this_kind) reason = system_reason()
+      end if
+      ignored = c_fclose(stream)
+   end subroutine await
 
    !> Writes the folder entry to the disk. Some file systems cannot; the file is complete nevertheless.
    subroutine keep_name(folder)

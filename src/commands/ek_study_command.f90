@@ -5,7 +5,8 @@ module ek_study_command
    use ek_error, only: error_t, fail, exit_usage, exit_convergence, message_list_t
    use ek_text, only: str, plural, quoted
    use ek_clock, only: seconds
-   use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists, is_terminal, write_standard_error
+   use ek_file, only: make_folder, join_path, folder_name, file_exists, read_whole, program_exists, is_terminal, &
+      write_standard_error
    use ek_threads, only: processor_count
    use ek_interrupt, only: watch_for_stop
    use ek_deck, only: deck_t
@@ -16,7 +17,8 @@ module ek_study_command
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
-   use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name, has_limits
+   use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
+   use ek_store, only: store_texts_t, choose_store, write_store, store_name
    use ek_chunk, only: status_names
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
@@ -35,6 +37,8 @@ module ek_study_command
       character(:), allocatable :: home, out         !! folder of the study; of its results
       type(designer_t) :: designer
       type(study_plan_t) :: plan
+      logical :: has_store = .false.                 !! the results go into a NetCDF file
+      type(store_texts_t) :: texts
    end type opened_t
 
 contains
@@ -62,6 +66,8 @@ contains
             call print_status(this, error)
             return
          end if
+         call choose_store(this%study, this%plan, this%has_store, error)
+         if (allocated(error)) return
          call make_folder(this%out, error)
          if (.not. allocated(error)) call run_designs(line, this, options, tables, error)
       end if
@@ -80,6 +86,7 @@ contains
       if (.not. allocated(error) .and. this%study%kind == step_size_kind) call fail(error, exit_usage, &
          'merge: a study of kind ''step_size'' has no shards')
       if (.not. allocated(error)) call prepare(this, error)
+      if (.not. allocated(error)) call choose_store(this%study, this%plan, this%has_store, error)
       if (allocated(error)) return
       call count_parts(this%study, this%plan, this%out, done)
       if (done < this%plan%designs) then
@@ -153,7 +160,21 @@ contains
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
+      if (.not. allocated(error)) call keep_texts(line, this)
    end subroutine open_study
+
+   !> The texts of study and deck, as they are now; '' for what is no file.
+   subroutine keep_texts(line, this)
+      type(command_line_t), intent(in) :: line
+      type(opened_t), intent(inout) :: this
+      type(error_t), allocatable :: unread
+      type(message_list_t) :: changes
+
+      call read_whole(line%files%line(1), this%texts%study, unread)
+      call read_whole(join_path(this%home, this%study%deck), this%texts%deck, unread)
+      changes = line%values('--set')
+      this%texts%changes = changes%text()
+   end subroutine keep_texts
 
    !> The design of the deck, against which the study is checked, and the plan.
    subroutine prepare(this, error)
@@ -240,13 +261,18 @@ contains
    subroutine print_status(this, error)
       type(opened_t), intent(in) :: this
       type(error_t), allocatable, intent(out) :: error
-      logical :: has_table
+      character(:), allocatable :: name
+      logical :: has_table, has_store
       integer :: done
 
       call count_parts(this%study, this%plan, this%out, done)
-      has_table = file_exists(join_path(this%out, responses_name(this%study)))
+      call choose_store(this%study, this%plan, has_store, error)
+      name = responses_name(this%study)
+      if (has_store) name = store_name(this%study)
+      if (allocated(error)) return
+      has_table = file_exists(join_path(this%out, name))
       if (done == 0 .and. has_table) then
-         call print_text('study '//this%study%name//': complete, '//join_path(this%out, responses_name(this%study))//nl, error)
+         call print_text('study '//this%study%name//': complete, '//join_path(this%out, name)//nl, error)
       else
          call print_text('study '//this%study%name//': '//str(done)//' of '//plural(this%plan%designs, 'design', 'designs')// &
             ' done'//nl, error)
@@ -260,15 +286,22 @@ contains
       type(message_list_t), intent(inout) :: tables
       type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
       type(study_counts_t) :: counts
-      character(:), allocatable :: list
+      character(:), allocatable :: list, name
       integer :: k, failed
 
       call remove_stale(this%out)
-      call write_tables(this%study, this%plan, this%out, counts, error)
+      if (this%has_store) then
+         call count_designs(this%study, this%plan, this%out, counts, error)
+         if (.not. allocated(error)) call write_store(this%study, this%plan, this%out, this%texts, counts, error)
+      else
+         call write_tables(this%study, this%plan, this%out, counts, error)
+      end if
       if (allocated(error)) return
       call remove_parts(this%study, this%plan, this%out)
-      if (this%plan%columns > 0) call tables%add(curves_name(this%study))
-      call tables%add(responses_name(this%study))
+      name = store_name(this%study)
+      if (.not. this%has_store) name = responses_name(this%study)
+      if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
+      call tables%add(name)
       if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
          'design keeps', 'designs keep')//' all limits')
       failed = sum(counts%designs(1:))
@@ -281,7 +314,7 @@ contains
          call print_warning(counts%reasons%line(k))
       end do
       call fail(error, exit_convergence, plural(failed, 'design', 'designs')//' of '//str(this%plan%designs)//' failed ('// &
-         list(3:)//'; columns status and reason of '//responses_name(this%study)//'); the others were written')
+         list(3:)//'; columns status and reason of '//name//'); the others were written')
    end subroutine finish
 
    !> Prints the paths of the tables and draws the figures.
@@ -297,7 +330,12 @@ contains
       do k = 1, tables%count()
          call print_path(join_path(this%out, tables%line(k)), unprinted)
       end do
-      call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
+      if (this%has_store) then
+         if (file_exists(join_path(this%home, this%study%plot))) call print_note(line%has('--quiet'), 'no figures: '// &
+            this%study%plot//' reads CSV (format = ''csv'' in the study)')
+      else
+         call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
+      end if
       if (allocated(undrawn)) then
          if (allocated(error)) call print_error(undrawn%message)
          if (.not. allocated(error)) call move_alloc(undrawn, error)

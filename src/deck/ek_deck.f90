@@ -189,7 +189,7 @@ contains
       digits = digits_of(sum)
    end function deck_checksum
 
-   !> Adds the groups, keys and values of records to a checksum, without titles and notes.
+   !> Adds the groups, keys and values of records to a checksum, without titles, notes and the format of a study's results.
    subroutine include_records(records, sum)
       type(record_t), intent(in) :: records(:)
       type(checksum_t), intent(inout) :: sum
@@ -200,7 +200,7 @@ contains
          call include(sum, '&'//records(k)%group)
          do e = 1, records(k)%used
             associate (entry => records(k)%entries(e))
-               if (entry%key == 'note' .or. entry%key == 'title') cycle
+               if (any([character(6) :: 'note', 'title', 'format'] == entry%key)) cycle
                call include(sum, ';'//entry%key//'('//str(entry%first)//')')
                do v = 1, entry%used
                   call include(sum, merge("'", ',', entry%values(v)%is_string)//entry%values(v)%text)

@@ -15,9 +15,10 @@ module ek_study_tables
    use ek_study_plan, only: study_plan_t
    use ek_study_run, only: parts_folder
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, status_names
+   use ek_store_description, only: keeps
    implicit none(type, external)
    private
-   public :: study_counts_t, write_tables, responses_name, curves_name, has_limits
+   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
 
    integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
 
@@ -26,6 +27,8 @@ module ek_study_tables
       integer :: designs(0:ubound(status_names, 1)) = 0      !! per status
       integer :: within = 0                                  !! designs that keep all limits of the responses
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
+      integer :: states = 0                                  !! most of any design
+      integer :: reason = 0                                  !! length of the longest reason
    end type study_counts_t
 
 contains
@@ -55,7 +58,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: rows, curves
       type(chunk_t) :: chunk
-      logical :: is_good, has_curves, is_begun
+      logical :: has_curves, is_begun
       integer :: k
 
       is_begun = .false.
@@ -66,12 +69,10 @@ contains
          call rows%add(head_of(study, plan, [character(name_length) :: plan%heads, last_columns(study)]))
          if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: 'factor', study%columns]))
          do k = 1, plan%chunks
-            call read_chunk(join_path(parts_folder(study, out), chunk_name(k)), plan%identity, chunk, is_good)
-            if (.not. is_good) then
-               call fail(error, exit_file, join_path(parts_folder(study, out), chunk_name(k))//': the chunk is missing or damaged')
-               exit
-            end if
-            call add_rows(study, chunk, rows, counts)
+            call load_chunk(study, plan, out, k, chunk, error)
+            if (allocated(error)) exit
+            call count_chunk(study, chunk, counts)
+            call add_rows(study, chunk, rows)
             if (has_curves) call add_curves(chunk, is_begun, curves)
          end do
       end if
@@ -80,6 +81,59 @@ contains
       call rows%abandon()                                    ! no effect on a finished table
       call curves%abandon()
    end subroutine write_tables
+
+   !> Counts how the designs ended, without writing anything.
+   subroutine count_designs(study, plan, out, counts, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(study_counts_t), intent(out) :: counts
+      type(error_t), allocatable, intent(out) :: error
+      type(chunk_t) :: chunk
+      integer :: k
+
+      do k = 1, plan%chunks
+         call load_chunk(study, plan, out, k, chunk, error)
+         if (allocated(error)) return
+         call count_chunk(study, chunk, counts)
+      end do
+   end subroutine count_designs
+
+   !> Reads chunk k.
+   subroutine load_chunk(study, plan, out, k, chunk, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      integer, intent(in) :: k
+      type(chunk_t), intent(inout) :: chunk
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: path
+      logical :: is_good
+
+      path = join_path(parts_folder(study, out), chunk_name(k))
+      call read_chunk(path, plan%identity, chunk, is_good)
+      if (.not. is_good) call fail(error, exit_file, path//': the chunk is missing or damaged')
+   end subroutine load_chunk
+
+   !> Counts the designs of a chunk.
+   subroutine count_chunk(study, chunk, counts)
+      type(study_t), intent(in) :: study
+      type(chunk_t), intent(in) :: chunk
+      type(study_counts_t), intent(inout) :: counts
+      character(:), allocatable :: reason
+      integer :: k
+
+      do k = 1, size(chunk%status)
+         if (keeps_limits(study, chunk%responses(:, k))) counts%within = counts%within + 1
+         counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
+         counts%states = max(counts%states, chunk%states(k))
+         if (chunk%status(k) == 0) cycle
+         reason = reason_of(chunk, k)
+         counts%reason = max(counts%reason, len(reason))
+         if (counts%reasons%count() < max_reasons) call counts%reasons%add('design '//str(int(chunk%first) + k - 1)//' ('// &
+            label_of(study, chunk%factors(:, k))//'): '//reason)
+      end do
+   end subroutine count_chunk
 
    !> Header lines and column names.
    function head_of(study, plan, last) result(text)
@@ -111,33 +165,25 @@ contains
    end function seed_of
 
    !> The rows of a chunk.
-   subroutine add_rows(study, chunk, rows, counts)
+   subroutine add_rows(study, chunk, rows)
       type(study_t), intent(in) :: study
       type(chunk_t), intent(in) :: chunk
       type(writer_t), intent(inout) :: rows
-      type(study_counts_t), intent(inout) :: counts
       character(:), allocatable :: line
       real(wp), allocatable :: values(:)
       integer :: k, n, block
-      logical :: is_within
 
       n = 1 + size(chunk%factors, 1) + size(chunk%responses, 1)
       block = block_of(study)
       do k = 1, size(chunk%status)
-         is_within = keeps_limits(study, chunk%responses(:, k))
          values = [real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%responses(:, k)]
-         if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, is_within)]
+         if (has_limits(study)) values = [values, merge(1.0_wp, 0.0_wp, keeps_limits(study, chunk%responses(:, k)))]
          values = [values, real(chunk%status(k), wp)]
-         if (is_within) counts%within = counts%within + 1
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
          end if
          line = csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)])
          call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
-         counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
-         if (chunk%status(k) == 0) cycle
-         if (counts%reasons%count() < max_reasons) call counts%reasons%add('design '//str(int(chunk%first) + k - 1)//' ('// &
-            label_of(study, chunk%factors(:, k))//'): '//reason_of(chunk, k))
       end do
    end subroutine add_rows
 
@@ -156,13 +202,12 @@ contains
       has_limits = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
    end function has_limits
 
-   !> Whether a design keeps all limits; one without a value for a response that has a limit does not.
+   !> Whether a design keeps all limits.
    pure logical function keeps_limits(study, responses)
       type(study_t), intent(in) :: study
       real(wp), intent(in) :: responses(:)
 
-      keeps_limits = all((responses >= study%responses%lower .or. .not. study%responses%lower > -huge(1.0_wp)) .and. &
-         (responses <= study%responses%upper .or. .not. study%responses%upper < huge(1.0_wp)))
+      keeps_limits = keeps(responses, study%responses%lower, study%responses%upper)
    end function keeps_limits
 
    !> Designs between two empty lines of the table of responses; 0: there is none.

@@ -1,0 +1,40 @@
+!> elastokin-netcdf PARTS OUT.nc: writes the store of a study from the folder of its chunks. elastokin runs it when all designs are
+!> done. It is a program of its own because the NetCDF libraries would make every start of elastokin longer by 6 ms.
+program elastokin_netcdf
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_file, only: join_path
+   use ek_version, only: version
+   use ek_store_description, only: store_t, read_description, description_name
+   use ek_netcdf_store, only: write_store_file
+   implicit none(type, external)
+   type(store_t) :: store
+   type(error_t), allocatable :: error
+
+   if (argument(1) == '--version') then
+      write (output_unit, '(a)') 'elastokin-netcdf '//version
+   else if (command_argument_count() /= 2) then
+      call fail(error, exit_usage, 'expected: elastokin-netcdf PARTS_FOLDER OUT.nc; elastokin study runs it')
+   else
+      call read_description(join_path(argument(1), description_name), store, error)
+      if (.not. allocated(error)) call write_store_file(store, argument(1), argument(2), error)
+   end if
+   if (allocated(error)) then
+      write (error_unit, '(a)') error%message
+      stop error%code, quiet=.true.
+   end if
+
+contains
+
+   !> An argument; '' if there is none.
+   function argument(number) result(text)
+      integer, intent(in) :: number
+      character(:), allocatable :: text
+      integer :: length
+
+      call get_command_argument(number, length=length)
+      allocate (character(length) :: text)
+      if (length > 0) call get_command_argument(number, value=text)
+   end function argument
+
+end program elastokin_netcdf

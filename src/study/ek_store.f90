@@ -1,0 +1,270 @@
+!> The results of a large study as one NetCDF-4 file: decides whether there is to be one, describes it, and has it written by the
+!> program elastokin-netcdf, which is installed beside elastokin if it was built with NetCDF-Fortran.
+module ek_store
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_file
+   use ek_text, only: str, printable, plural
+   use ek_version, only: version
+   use ek_system, only: program_folder
+   use ek_file, only: join_path, program_exists, read_whole, remove_file
+   use ek_writer, only: scratch_t, begin_scratch, end_scratch, move_file
+   use ek_process, only: run_program
+   use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
+   use ek_study, only: study_t, study_factor_t, response_t, kind_names, change_names, by_delta, by_scale
+   use ek_sampler_kind, only: sampler_kinds
+   use ek_study_plan, only: study_plan_t
+   use ek_study_run, only: parts_folder
+   use ek_study_tables, only: study_counts_t, has_limits
+   use ek_store_description, only: store_t, store_variable_t, write_description, description_name, factor_role, response_role, &
+      curve_role, whole_kind, real_kind
+   implicit none(type, external)
+   private
+   public :: store_texts_t, choose_store, write_store, store_name
+
+   integer, parameter :: many_designs = 10000     !! more than these are stored in NetCDF if the study does not say
+   integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
+   integer, parameter :: longest_log = 2000       !! characters of the helper's message
+   character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log'
+
+   !> Texts that the store keeps.
+   type :: store_texts_t
+      character(:), allocatable :: study, deck    !! the files
+      character(:), allocatable :: changes        !! --set, one a line
+   end type store_texts_t
+
+contains
+
+   !> The name of the store.
+   pure function store_name(study) result(name)
+      type(study_t), intent(in) :: study
+      character(:), allocatable :: name
+      name = study%name//'.nc'
+   end function store_name
+
+   !> Whether the results go into a store: if the study says so; if it says nothing, for many designs where the helper is there.
+   subroutine choose_store(study, plan, is_wanted, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      logical, intent(out) :: is_wanted
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: the study wants a store, and there is no helper
+      logical :: has_helper
+
+      is_wanted = study%format == 'netcdf' .or. (study%format == '' .and. plan%designs > many_designs)
+      if (.not. is_wanted) return
+      has_helper = program_folder() /= ''
+      if (has_helper) has_helper = program_exists(helper())
+      if (study%format == 'netcdf' .and. .not. has_helper) call fail(error, exit_file, study%where//': format = ''netcdf'' '// &
+         'needs the program '//helper_name//' beside elastokin ('//program_folder()//'), and it is not there; install '// &
+         'NetCDF-Fortran (Debian, Ubuntu: libnetcdff-dev) and build elastokin again, or write format = ''csv''')
+      is_wanted = has_helper
+   end subroutine choose_store
+
+   function helper() result(path)
+      character(:), allocatable :: path
+      path = join_path(program_folder(), helper_name)
+   end function helper
+
+   !> Writes the store from the chunks: the whole file, or none.
+   subroutine write_store(study, plan, out, texts, counts, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(store_texts_t), intent(in) :: texts
+      type(study_counts_t), intent(in) :: counts
+      type(error_t), allocatable, intent(out) :: error
+      type(scratch_t) :: scratch
+      type(store_t) :: store
+      character(:), allocatable :: parts, trouble
+
+      parts = parts_folder(study, out)
+      call describe(study, plan, texts, counts, store)
+      call write_description(store, join_path(parts, description_name), error)
+      if (.not. allocated(error)) call begin_scratch(out, scratch, error)
+      if (allocated(error)) return
+      call run_helper(parts, scratch%path, store_name(study), trouble)
+      if (len(trouble) > 0) then
+         call fail(error, exit_file, helper_name//' could not write '//join_path(out, store_name(study))//': '//trouble// &
+            '; the designs are kept: the same command writes it, with format = ''csv'' in the study as CSV')
+      else
+         call move_file(join_path(scratch%path, store_name(study)), join_path(out, store_name(study)), error, is_awaited=.true.)
+      end if
+      call end_scratch(scratch)
+      call remove_file(join_path(parts, description_name))
+   end subroutine write_store
+
+   !> Runs the helper. HDF5 need not lock a file that nobody else knows, and some network disks refuse the lock.
+   subroutine run_helper(parts, folder, name, trouble)
+      character(*), intent(in) :: parts, folder, name      !! name: of the store in the folder
+      character(:), allocatable, intent(out) :: trouble    !! '' if it is written
+      type(message_list_t) :: words
+      type(error_t), allocatable :: unread
+      character(:), allocatable :: log
+      integer :: status
+
+      call words%add('env')
+      call words%add('HDF5_USE_FILE_LOCKING=FALSE')
+      call words%add(helper())
+      call words%add(parts)
+      call words%add(join_path(folder, name))
+      call run_program(words, '.', join_path(folder, log_name), time_limit, status, trouble)
+      if (len(trouble) > 0 .or. status == 0) return
+      call read_whole(join_path(folder, log_name), log, unread)
+      trouble = printable(trim(log(:min(len(log), longest_log))))
+      if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
+   end subroutine run_helper
+
+   !> What the helper must know.
+   subroutine describe(study, plan, texts, counts, store)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      type(store_texts_t), intent(in) :: texts
+      type(study_counts_t), intent(in) :: counts
+      type(store_t), intent(out) :: store
+      integer :: k, n
+
+      store%identity = plan%identity
+      store%designs = plan%designs
+      store%chunks = plan%chunks
+      store%states = counts%states
+      store%reason = counts%reason
+      store%has_limits = has_limits(study)
+      associate (list => store%attributes)
+         call list%add('Conventions', 'CF-1.8')
+         if (study%title /= '') call list%add('title', study%title)
+         if (study%title == '') call list%add('title', study%name)
+         call list%add('source', 'elastokin '//version)
+         call list%add('study', study%name)
+         call list%add('kind', trim(kind_names(study%kind)))
+         if (sampler_kinds(study%kind)%has_seed) call list%add('seed', str(int(study%settings%seed)), whole_kind)
+         call list%add('identity', plan%identity)
+         call list%add('deck_checksum', plan%deck_sum)
+         call list%add('study_text', texts%study)
+         call list%add('deck_text', texts%deck)
+         if (texts%changes /= '') call list%add('deck_changes', texts%changes)
+      end associate
+      allocate (store%variables(size(study%factors) + size(plan%heads) + plan%columns))
+      do k = 1, size(study%factors)
+         call begin_variable(store, k, study%factors(k)%name, factor_role)
+         call describe_factor(study%factors(k), store%variables(k))
+      end do
+      n = size(study%factors)
+      do k = 1, size(plan%heads)
+         call begin_variable(store, n + k, trim(plan%heads(k)), response_role)
+         call describe_response(study%responses(k), store%variables(n + k))
+      end do
+      n = n + size(plan%heads)
+      if (plan%columns == 0) return
+      call begin_variable(store, n + 1, 'factor', curve_role)
+      call store%variables(n + 1)%attributes%add('units', '1')
+      call store%variables(n + 1)%attributes%add('long_name', 'swept value of the case')
+      do k = 1, size(study%columns)
+         call begin_variable(store, n + 1 + k, trim(study%columns(k)), curve_role)
+         call describe_column(trim(study%columns(k)), store%variables(n + 1 + k))
+      end do
+   end subroutine describe
+
+   !> The name of variable k. One that is taken, or that a dimension has, gets its role as an ending.
+   subroutine begin_variable(store, k, head, role)
+      type(store_t), intent(inout) :: store
+      integer, intent(in) :: k
+      character(*), intent(in) :: head, role
+      character(*), parameter :: reserved(*) = [character(15) :: 'design', 'state', 'response', 'quantity', 'status', 'reason', &
+         'within', 'response_name', 'quantity_name', 'reason_length', 'response_length', 'quantity_length']
+      character(:), allocatable :: name
+      logical :: is_taken
+      integer :: j
+
+      name = head
+      do
+         is_taken = any(reserved == name)
+         do j = 1, k - 1
+            if (store%variables(j)%name == name) is_taken = .true.
+         end do
+         if (.not. is_taken) exit
+         name = name//'_'//role
+      end do
+      store%variables(k)%name = name
+      store%variables(k)%head = head
+      store%variables(k)%role = role
+   end subroutine begin_variable
+
+   subroutine describe_factor(factor, variable)
+      type(study_factor_t), intent(in) :: factor
+      type(store_variable_t), intent(inout) :: variable
+      character(:), allocatable :: paths, long_name
+      integer :: k
+
+      paths = trim(factor%paths(1))
+      long_name = paths
+      if (size(factor%paths) > 1) long_name = paths//' and '//plural(size(factor%paths) - 1, 'more number', 'more numbers')
+      do k = 2, size(factor%paths)
+         paths = paths//', '//trim(factor%paths(k))
+      end do
+      if (factor%change == by_delta) long_name = long_name//', added to the deck'
+      if (factor%change == by_scale) long_name = long_name//', as a multiple of the deck'
+      associate (list => variable%attributes)
+         if (factor%change == by_scale) call list%add('units', '1')
+         if (factor%change /= by_scale) call list%add('units', units_of(factor%name))
+         call list%add('long_name', long_name)
+         call list%add('path', paths)
+         call list%add('change', trim(change_names(factor%change)))
+      end associate
+   end subroutine describe_factor
+
+   subroutine describe_response(response, variable)
+      type(response_t), intent(in) :: response
+      type(store_variable_t), intent(inout) :: variable
+      type(quantity_t) :: quantity
+      character(:), allocatable :: text, over, units
+
+      quantity = quantity_named(response%column)
+      text = trim(quantity%title)
+      over = response%over
+      if (over == '') over = 'the wheel travel'
+      select case (response%of)
+      case ('value')
+         text = text//' at '//str(response%at)
+      case ('slope')
+         text = text//', slope over '//over//' at '//str(response%at)
+      case ('rms')
+         text = text//', root mean square of the deviations from '//response%file
+      case default
+         text = text//', '//response%of
+      end select
+      units = units_of(variable%head)
+      if (units == '1' .and. response%of /= 'slope') units = units_of(response%column)
+      if (response%case /= '') text = text//', case '//response%case
+      variable%lower = response%lower
+      variable%upper = response%upper
+      associate (list => variable%attributes)
+         call list%add('units', units)
+         call list%add('long_name', text)
+         call list%add('column', response%column)
+         call list%add('of', response%of)
+         if (response%lower > -huge(1.0_wp)) call list%add('lower_limit', str(response%lower, 17), real_kind)
+         if (response%upper < huge(1.0_wp)) call list%add('upper_limit', str(response%upper, 17), real_kind)
+      end associate
+   end subroutine describe_response
+
+   subroutine describe_column(column, variable)
+      character(*), intent(in) :: column
+      type(store_variable_t), intent(inout) :: variable
+      type(quantity_t) :: quantity
+
+      quantity = quantity_named(column)
+      call variable%attributes%add('units', units_of(column))
+      call variable%attributes%add('long_name', trim(quantity%title))
+      if (quantity%sign /= '') call variable%attributes%add('comment', trim(quantity%sign))
+   end subroutine describe_column
+
+   !> The unit at the end of a name; '1' if it has none.
+   function units_of(name) result(text)
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+
+      text = '1'
+      if (unit_of(name) /= '') text = unit_text(unit_of(name))
+      if (text == '–') text = '1'
+   end function units_of
+
+end module ek_store
