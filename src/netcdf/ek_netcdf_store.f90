@@ -214,7 +214,7 @@ contains
       end do
    end subroutine put_attributes
 
-   !> The names of responses and quantities, as in the CSV, over dimensions of their own; the numbers of the states.
+   !> The names of the variables of responses and quantities, over dimensions of their own; the numbers of the states.
    subroutine write_names(store, file)
       type(store_t), intent(in) :: store
       type(file_t), intent(inout) :: file
@@ -235,19 +235,19 @@ contains
          if (n == 0) return
          length = 1
          do j = 1, size(store%variables)
-            if (store%variables(j)%role == role) length = max(length, len(store%variables(j)%head))
+            if (store%variables(j)%role == role) length = max(length, len(store%variables(j)%name))
          end do
          call note(file%fault, nf90_def_dim(file%id, name, n, dimension))
          call note(file%fault, nf90_def_dim(file%id, name//'_length', length, text))
          call note(file%fault, nf90_def_var(file%id, name//'_name', nf90_char, [text, dimension], list))
-         call put_text(file, list, 'long_name', 'heading of each '//name//' in CSV')
+         call put_text(file, list, 'long_name', 'name of the variable of each '//name)
          call put_text(file, list, '_Encoding', 'utf-8')
          call note(file%fault, nf90_enddef(file%id))
          n = 0
          do j = 1, size(store%variables)
             if (store%variables(j)%role /= role) cycle
             n = n + 1
-            padded = store%variables(j)%head//repeat(achar(0), length - len(store%variables(j)%head))
+            padded = store%variables(j)%name//repeat(achar(0), length - len(store%variables(j)%name))
             call note(file%fault, nf90_put_var(file%id, list, padded, start=[1, n], count=[length, 1]))
          end do
       end subroutine write_list

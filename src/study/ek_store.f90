@@ -109,7 +109,8 @@ contains
       call run_program(words, '.', join_path(folder, log_name), time_limit, status, trouble)
       if (len(trouble) > 0 .or. status == 0) return
       call read_whole(join_path(folder, log_name), log, unread)
-      trouble = printable(trim(log(:min(len(log), longest_log))))
+      log = log(:min(len(log), longest_log))
+      trouble = printable(log(:verify(log, ' '//new_line('a'), back=.true.)))
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
    end subroutine run_helper
 
@@ -184,8 +185,8 @@ contains
          name = name//'_'//role
       end do
       store%variables(k)%name = name
-      store%variables(k)%head = head
       store%variables(k)%role = role
+      if (name /= head) call store%variables(k)%attributes%add('column_in_csv', head)
    end subroutine begin_variable
 
    subroutine describe_factor(factor, variable)
@@ -231,7 +232,7 @@ contains
       case default
          text = text//', '//response%of
       end select
-      units = units_of(variable%head)
+      units = units_of(variable%name)
       if (units == '1' .and. response%of /= 'slope') units = units_of(response%column)
       if (response%case /= '') text = text//', case '//response%case
       variable%lower = response%lower

@@ -32,7 +32,6 @@ module ek_store_description
    !> A variable of the store.
    type :: store_variable_t
       character(:), allocatable :: name           !! unique in the store
-      character(:), allocatable :: head           !! of its column in the CSV
       character(:), allocatable :: role           !! factor and response over design, curve over (design, state)
       type(attributes_t) :: attributes
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
@@ -90,7 +89,6 @@ contains
       do k = 1, size(store%variables)
          associate (this => store%variables(k))
             call put('variable', this%role, this%name)
-            call put('head', 'of', this%head)
             call put('limit', 'lower', exact(this%lower))
             call put('limit', 'upper', exact(this%upper))
             call put_attributes(this%attributes)
@@ -142,7 +140,7 @@ contains
       do while (at <= len(text))
          call next_head(text, at, word, name, length)
          last = at + length - 1
-         if (length < 0 .or. last >= len(text) .or. (used == 0 .and. (word == 'limit' .or. word == 'head'))) then
+         if (length < 0 .or. last >= len(text) .or. (used == 0 .and. word == 'limit')) then
             call fail(error, exit_file, path//': it is damaged')
             return
          end if
@@ -177,8 +175,6 @@ contains
             used = used + 1
             store%variables(used)%role = name
             store%variables(used)%name = content
-         case ('head')
-            store%variables(used)%head = content
          case ('limit')
             if (name == 'lower') read (content, *, iostat=ignored) store%variables(used)%lower
             if (name == 'upper') read (content, *, iostat=ignored) store%variables(used)%upper

@@ -5,3 +5,12 @@ foreach(file IN LISTS ek_command_tests)
   set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT "EK_PROGRAM=$<TARGET_FILE:elastokin>")
   add_dependencies(${name} elastokin)
 endforeach()
+
+# Stores of studies are read with ncdump, where elastokin-netcdf was built
+find_program(EK_NCDUMP ncdump)
+if(TARGET elastokin-netcdf AND EK_NCDUMP)
+  set_property(TEST test_study_store APPEND PROPERTY ENVIRONMENT "EK_NCDUMP=${EK_NCDUMP}")
+  add_dependencies(test_study_store elastokin-netcdf)
+else()
+  message(STATUS "NetCDF: no elastokin-netcdf or no ncdump, so the tests of stores pass without doing anything")
+endif()
