@@ -13,6 +13,7 @@ module ek_study_command
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, step_size_kind
    use ek_study_reader, only: read_study
+   use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
@@ -160,7 +161,8 @@ contains
       type(opened_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
 
-      call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
+      call expand_factors(this%study, this%deck, error)
+      if (.not. allocated(error)) call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
    end subroutine prepare
 

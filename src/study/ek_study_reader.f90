@@ -213,6 +213,7 @@ contains
       do k = 1, size(this%paths)
          this%paths(k) = raw(reading, 'path', k)
       end do
+      this%is_each = switch_of(reading, 'each', .false.)
       call choice(reading, 'change', change_names, this%change, default=by_value)
       call choice(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
       this%lower = number_of(reading, 'lower', not_given())
@@ -293,6 +294,9 @@ contains
          do j = 1, size(study%factors)
             if (study%factors(j)%name == names(k)) pair(k) = j
          end do
+         if (pair(k) > 0) then
+            if (study%factors(pair(k))%is_each) call complain(reading, 'factors', 'a factor with each = .true. has no correlation')
+         end if
          if (pair(k) == 0 .and. names(k) /= '') call complain(reading, 'factors', 'there is no factor '//quoted(names(k)))
       end do
       if (pair(1) > 0 .and. pair(1) == pair(2)) call complain(reading, 'factors', 'name two different factors')
