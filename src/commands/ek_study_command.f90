@@ -14,12 +14,13 @@ module ek_study_command
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, step_size_kind
    use ek_study_reader, only: read_study
+   use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
    use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
    use ek_store, only: store_texts_t, choose_store, write_store, store_name
-   use ek_chunk, only: status_names
+   use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
@@ -181,7 +182,8 @@ contains
       type(opened_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
 
-      call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
+      call expand_factors(this%study, this%deck, error)
+      if (.not. allocated(error)) call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
    end subroutine prepare
 
@@ -307,7 +309,7 @@ contains
       failed = sum(counts%designs(1:))
       if (failed == 0) return
       list = ''
-      do k = 1, ubound(status_names, 1)
+      do k = 1, design_invalid
          if (counts%designs(k) > 0) list = list//', '//str(counts%designs(k))//' '//trim(status_names(k))
       end do
       do k = 1, counts%reasons%count()

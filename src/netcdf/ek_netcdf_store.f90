@@ -11,7 +11,7 @@ module ek_netcdf_store
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
    use ek_file, only: join_path
-   use ek_chunk, only: chunk_t, read_chunk, chunk_name, status_names
+   use ek_chunk, only: chunk_t, read_chunk, chunk_name, status_names, design_invalid
    use ek_store_description, only: store_t, attributes_t, keeps, factor_role, response_role, curve_role, whole_kind, real_kind
    implicit none(type, external)
    private
@@ -126,7 +126,7 @@ contains
          call put_flags(file, file%within, 'whether the design keeps all limits of the responses', 'no yes', 1)
       end if
       call over_designs('status', nf90_byte, file%status)
-      call put_flags(file, file%status, 'how the design ended', flag_meanings(), ubound(status_names, 1))
+      call put_flags(file, file%status, 'how the design ended', flag_meanings(), design_invalid)
       call note(file%fault, nf90_def_dim(file%id, 'reason_length', max(1, store%reason), text))
       call over_two('reason', nf90_char, text, max(1, store%reason), 1, file%reason)
       call put_text(file, file%reason, 'long_name', 'why the design failed')
@@ -163,7 +163,7 @@ contains
       integer :: k
 
       text = ''
-      do k = 0, ubound(status_names, 1)
+      do k = 0, design_invalid
          text = text//' '//trim(status_names(k))
       end do
       text = text(2:)

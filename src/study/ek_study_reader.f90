@@ -116,8 +116,9 @@ contains
             call complain(reading, 'name', 'the name is reserved for a column of the results')
          do j = 1, reading%k - 1
             if (reading%cards(j)%group /= factor_group .and. reading%cards(j)%group /= response_group) cycle
-            if (reading%cards(j)%name == card%name) call complain(reading, 'name', 'the name is given twice, first in '// &
-               line_of(reading, j))
+            if (reading%cards(j)%name /= card%name) cycle
+            call complain(reading, 'name', 'the name is given twice, first in '//line_of(reading, j))
+            exit
          end do
       end associate
    end subroutine check_name
@@ -212,6 +213,7 @@ contains
       do k = 1, size(this%paths)
          this%paths(k) = raw(reading, 'path', k)
       end do
+      this%is_each = switch_of(reading, 'each', .false.)
       call choice(reading, 'change', change_names, this%change, default=by_value)
       call choice(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
       this%lower = number_of(reading, 'lower', not_given())
@@ -292,6 +294,9 @@ contains
          do j = 1, size(study%factors)
             if (study%factors(j)%name == names(k)) pair(k) = j
          end do
+         if (pair(k) > 0) then
+            if (study%factors(pair(k))%is_each) call complain(reading, 'factors', 'a factor with each = .true. has no correlation')
+         end if
          if (pair(k) == 0 .and. names(k) /= '') call complain(reading, 'factors', 'there is no factor '//quoted(names(k)))
       end do
       if (pair(1) > 0 .and. pair(1) == pair(2)) call complain(reading, 'factors', 'name two different factors')
