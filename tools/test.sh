@@ -10,6 +10,8 @@ shift $(($# < 1 ? $# : 1))
 folder=${EK_BUILD:-build/$preset}
 jobs=${EK_JOBS:-$(nproc)}
 
+# optional: without them elastokin-netcdf is left out, and its tests do nothing
+tools/setup.sh libnetcdff-dev netcdf-bin || echo "test: without NetCDF"
 built=0
 tools/build.sh "$preset" all "$@" || built=$?
 # a test that was not built counts as failed; without a build folder there are no tests to count

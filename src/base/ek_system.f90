@@ -204,7 +204,7 @@ contains
       path = text_of(letters)
    end function working_folder
 
-   !> The folder of the program that is running; '' if the system does not tell.
+   !> The folder of the program that is running; '' if it is unknown.
    function program_folder() result(path)
       character(:), allocatable :: path
       character(kind=c_char) :: letters(max_letters)

@@ -169,7 +169,7 @@ contains
       text = text(2:)
    end function flag_meanings
 
-   !> Attributes of a byte that stands for words.
+   !> Attributes of a byte whose values have meanings.
    subroutine put_flags(file, variable, long_name, meanings, last)
       type(file_t), intent(inout) :: file
       integer, intent(in) :: variable

@@ -29,7 +29,7 @@ module ek_store
    !> Texts that the store keeps.
    type :: store_texts_t
       character(:), allocatable :: study, deck    !! the files
-      character(:), allocatable :: changes        !! --set, one a line
+      character(:), allocatable :: changes        !! --set, one per line
    end type store_texts_t
 
 contains
