@@ -185,6 +185,9 @@ contains
       call expand_factors(this%study, this%deck, error)
       if (.not. allocated(error)) call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
+      if (allocated(error)) return
+      this%texts%swept = this%designer%results(1)%case%place_name
+      this%texts%swept_unit = this%designer%results(1)%case%unit_name
    end subroutine prepare
 
    !> Runs the designs that are missing, then writes the tables unless this is a shard.

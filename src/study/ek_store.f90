@@ -30,6 +30,7 @@ module ek_store
    type :: store_texts_t
       character(:), allocatable :: study, deck    !! the files
       character(:), allocatable :: changes        !! --set, one per line
+      character(:), allocatable :: swept, swept_unit     !! what the case sweeps: 'wheel travel', 'mm'; unit '-': none
    end type store_texts_t
 
 contains
@@ -156,8 +157,9 @@ contains
       n = n + size(plan%heads)
       if (plan%columns == 0) return
       call begin_variable(store, n + 1, 'factor', curve_role)
-      call store%variables(n + 1)%attributes%add('units', '1')
-      call store%variables(n + 1)%attributes%add('long_name', 'swept value of the case')
+      if (texts%swept_unit == '-') call store%variables(n + 1)%attributes%add('units', '1')
+      if (texts%swept_unit /= '-') call store%variables(n + 1)%attributes%add('units', texts%swept_unit)
+      call store%variables(n + 1)%attributes%add('long_name', 'swept value: '//texts%swept)
       do k = 1, size(study%columns)
          call begin_variable(store, n + 1 + k, trim(study%columns(k)), curve_role)
          call describe_column(trim(study%columns(k)), store%variables(n + 1 + k))
