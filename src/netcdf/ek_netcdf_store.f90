@@ -57,7 +57,8 @@ contains
             end if
             call write_chunk(store, chunk, file)
          end do
-         call note(file%fault, nf90_close(file%id))
+         ! after a failure the file is not closed: HDF5 would try again to write what it holds, and may crash
+         if (file%fault == nf90_noerr .and. .not. allocated(error)) call note(file%fault, nf90_close(file%id))
       end if
       if (file%fault /= nf90_noerr .and. .not. allocated(error)) call fail(error, exit_file, &
          "cannot write '"//path//"': "//trim(nf90_strerror(file%fault)))

@@ -2,7 +2,9 @@
 !> done. It is a program of its own because the NetCDF libraries would make every start of elastokin longer by 6 ms.
 program elastokin_netcdf
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_c_binding, only: c_int
    use ek_error, only: error_t, fail, exit_usage
+   use ek_posix, only: c_exit_now
    use ek_file, only: join_path
    use ek_version, only: version
    use ek_store_description, only: store_t, read_description, description_name
@@ -21,7 +23,8 @@ program elastokin_netcdf
    end if
    if (allocated(error)) then
       write (error_unit, '(a)') error%message
-      stop error%code, quiet=.true.
+      flush (error_unit)
+      call c_exit_now(int(error%code, c_int))      ! not stop: at the end of a program HDF5 closes open files
    end if
 
 contains

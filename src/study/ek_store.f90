@@ -6,7 +6,7 @@ module ek_store
    use ek_text, only: str, printable, plural
    use ek_version, only: version
    use ek_system, only: program_folder
-   use ek_file, only: join_path, program_exists, read_whole, remove_file
+   use ek_file, only: join_path, program_exists, read_whole, write_whole, remove_file
    use ek_writer, only: scratch_t, begin_scratch, end_scratch, move_file
    use ek_process, only: run_program
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
@@ -23,6 +23,7 @@ module ek_store
 
    integer, parameter :: many_designs = 10000     !! more than these are stored in NetCDF if the study does not say
    integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
+   integer, parameter :: room = 2000000           !! bytes that must fit on the disk, or it is full
    integer, parameter :: longest_log = 2000       !! characters of the helper's message
    character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log'
 
@@ -98,7 +99,7 @@ contains
       character(*), intent(in) :: parts, folder, name      !! name: of the store in the folder
       character(:), allocatable, intent(out) :: trouble    !! '' if it is written
       type(message_list_t) :: words
-      type(error_t), allocatable :: unread
+      type(error_t), allocatable :: unread, full
       character(:), allocatable :: log
       integer :: status
 
@@ -113,6 +114,9 @@ contains
       log = log(:min(len(log), longest_log))
       trouble = printable(log(:verify(log, ' '//new_line('a'), back=.true.)))
       if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
+      ! HDF5 does not say that the disk is full
+      call write_whole(join_path(folder, 'room'), repeat(' ', room), full)
+      if (allocated(full)) trouble = full%message(index(full%message, ': ', back=.true.) + 2:)
    end subroutine run_helper
 
    !> What the helper must know.
