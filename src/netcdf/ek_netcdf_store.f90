@@ -5,6 +5,7 @@
 !> designs, and two stores of the same results have the same bytes.
 module ek_netcdf_store
    use, intrinsic :: iso_fortran_env, only: int8, int64
+   use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_float
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use netcdf, only: nf90_create, nf90_def_dim, nf90_def_var, nf90_put_att, nf90_put_var, nf90_enddef, nf90_close, nf90_strerror, &
       nf90_netcdf4, nf90_clobber, nf90_noerr, nf90_global, nf90_double, nf90_int, nf90_byte, nf90_char
@@ -16,6 +17,17 @@ module ek_netcdf_store
    implicit none(type, external)
    private
    public :: write_store_file
+
+   interface
+      !> The cache of a variable, of the C library: that of Fortran is set in megabytes, too much for a thousand variables.
+      integer(c_int) function nc_set_var_chunk_cache(file, variable, size, slots, preemption) bind(c)
+         import :: c_int, c_size_t, c_float
+         implicit none(type, external)
+         integer(c_int), value :: file, variable           ! variable: from 0
+         integer(c_size_t), value :: size, slots           ! bytes; entries of its hash table, a prime number
+         real(c_float), value :: preemption                ! 1: blocks that are complete leave first
+      end function nc_set_var_chunk_cache
+   end interface
 
    integer, parameter :: block = 8192             !! designs of a block of a variable over design
    integer, parameter :: block_bytes = 524288     !! most bytes of a block of any other variable
@@ -141,7 +153,8 @@ contains
          integer, intent(in) :: kind
          integer, intent(out) :: variable
          call note(file%fault, nf90_def_var(file%id, name, kind, [file%design], variable, chunksizes=[length], shuffle=.true., &
-            deflate_level=level, cache_size=2*8*length))
+            deflate_level=level))
+         call set_cache(8*length, variable)
       end subroutine over_designs
 
       !> A variable over (design, a second dimension).
@@ -153,8 +166,17 @@ contains
          integer :: designs
          designs = max(1, min(length, block_bytes/(entries*bytes)))
          call note(file%fault, nf90_def_var(file%id, name, kind, [second, file%design], variable, chunksizes=[entries, designs], &
-            shuffle=.true., deflate_level=level, cache_size=2*entries*designs*bytes))
+            shuffle=.true., deflate_level=level))
+         call set_cache(entries*designs*bytes, variable)
       end subroutine over_two
+
+      !> Room for the two blocks into which a chunk may be written.
+      subroutine set_cache(bytes, variable)
+         integer, intent(in) :: bytes             !! of a block
+         integer, intent(in) :: variable
+         if (file%fault == nf90_noerr) call note(file%fault, int(nc_set_var_chunk_cache(int(file%id, c_int), &
+            int(variable - 1, c_int), int(2*bytes, c_size_t), 11_c_size_t, 1.0_c_float)))
+      end subroutine set_cache
 
    end subroutine define
 

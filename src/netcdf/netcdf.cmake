@@ -16,7 +16,7 @@ function(ek_add_netcdf)
     else()
       find_package(PkgConfig QUIET)
       if(PkgConfig_FOUND)
-        pkg_check_modules(EK_NETCDF_FORTRAN QUIET netcdf-fortran)
+        pkg_check_modules(EK_NETCDF_FORTRAN QUIET netcdf-fortran netcdf)
       endif()
       set(flags ${EK_NETCDF_FORTRAN_CFLAGS})
       set(libraries ${EK_NETCDF_FORTRAN_LINK_LIBRARIES})
@@ -41,9 +41,7 @@ function(ek_add_netcdf)
   set_target_properties(elastokin-netcdf PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
     Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/netcdf)
-  # floating-point traps (CMAKE_Fortran_FLAGS_DEBUG) are not for the NetCDF libraries
-  target_compile_options(elastokin-netcdf PRIVATE ${flags}
-    $<$<AND:$<CONFIG:Debug>,$<Fortran_COMPILER_ID:GNU>>:-ffpe-trap=none>)
+  target_compile_options(elastokin-netcdf PRIVATE ${flags})
   target_link_libraries(elastokin-netcdf PRIVATE ek_study ${libraries})
   install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
