@@ -189,7 +189,8 @@ contains
          if (size(study%increments) == 0) call complain(reading, '', 'kind = ''step_size'' needs increments = …')
          return
       end if
-      call refuse(reading, [character(10) :: 'increments', 'methods', 'end'], why)
+      call refuse(reading, [character(7) :: 'methods', 'end'], why)
+      if (size(study%increments) > 1) call complain(reading, 'increments', 'a study of designs takes one number of increments')
       associate (kind => sampler_kinds(study%kind))
          if (.not. kind%has_size) call refuse(reading, ['samples'], why)
          if (.not. kind%has_levels) call refuse(reading, ['levels'], why)
