@@ -11,7 +11,8 @@ module ek_study_command
    use ek_deck, only: deck_t
    use ek_writer, only: writer_t, begin_file, remove_stale
    use ek_drawing, only: run_plot_script
-   use ek_study, only: study_t, step_size_kind
+   use ek_sampler_kind, only: sampler_kinds
+   use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
    use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
@@ -153,8 +154,24 @@ contains
       this%home = folder_name(line%files%line(1))
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
+      if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
    end subroutine open_study
+
+   !> --samples: a trial of a large study.
+   subroutine set_samples(samples, study, error)
+      integer, intent(in) :: samples
+      type(study_t), intent(inout) :: study
+      type(error_t), allocatable, intent(out) :: error
+
+      if (study%kind < step_size_kind) then
+         if (sampler_kinds(study%kind)%has_size) then
+            study%settings%size = samples
+            return
+         end if
+      end if
+      call fail(error, exit_usage, '--samples: a study of kind '//quoted(trim(kind_names(study%kind)))//' has no samples')
+   end subroutine set_samples
 
    !> The design of the deck, against which the study is checked, and the plan.
    subroutine prepare(this, error)
