@@ -84,7 +84,8 @@ module ek_command
       option_t('study', '--status', 'print how far the study is, and end'), &
       option_t('study', '--set path=value', 'change the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
-      option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), option_t('merge', '--quiet', ''), &
+      option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), &
+      option_t('merge', '--quiet', ''), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
       option_t('', '--help', ''), option_t('', '--version', '')]
