@@ -5,21 +5,21 @@ module ek_study_command
    use ek_error, only: error_t, fail, exit_usage, exit_convergence, message_list_t
    use ek_text, only: str, plural, quoted
    use ek_clock, only: seconds
-   use ek_file, only: make_folder, join_path, folder_name, file_exists, read_whole, program_exists, is_terminal, &
-      write_standard_error
+   use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists, is_terminal, write_standard_error
    use ek_threads, only: processor_count
    use ek_interrupt, only: watch_for_stop
    use ek_deck, only: deck_t
    use ek_writer, only: writer_t, begin_file, remove_stale
    use ek_drawing, only: run_plot_script
-   use ek_study, only: study_t, step_size_kind
+   use ek_sampler_kind, only: sampler_kinds
+   use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
    use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
    use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
-   use ek_store, only: store_texts_t, choose_store, write_store, store_name
+   use ek_store, only: store_texts_t, keep_texts, choose_store, write_store, store_name
    use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
@@ -160,22 +160,26 @@ contains
       this%home = folder_name(line%files%line(1))
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
+      if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
-      if (.not. allocated(error)) call keep_texts(line, this)
+      if (.not. allocated(error)) call keep_texts(line%files%line(1), &
+         join_path(this%home, this%study%deck), line%values('--set'), this%texts)
    end subroutine open_study
 
-   !> The texts of study and deck, as they are now; '' for what is no file.
-   subroutine keep_texts(line, this)
-      type(command_line_t), intent(in) :: line
-      type(opened_t), intent(inout) :: this
-      type(error_t), allocatable :: unread
-      type(message_list_t) :: changes
+   !> --samples: a trial of a large study.
+   subroutine set_samples(samples, study, error)
+      integer, intent(in) :: samples
+      type(study_t), intent(inout) :: study
+      type(error_t), allocatable, intent(out) :: error
 
-      call read_whole(line%files%line(1), this%texts%study, unread)
-      call read_whole(join_path(this%home, this%study%deck), this%texts%deck, unread)
-      changes = line%values('--set')
-      this%texts%changes = changes%text()
-   end subroutine keep_texts
+      if (study%kind < step_size_kind) then
+         if (sampler_kinds(study%kind)%has_size) then
+            study%settings%size = samples
+            return
+         end if
+      end if
+      call fail(error, exit_usage, '--samples: a study of kind '//quoted(trim(kind_names(study%kind)))//' has no samples')
+   end subroutine set_samples
 
    !> The design of the deck, against which the study is checked, and the plan.
    subroutine prepare(this, error)

@@ -19,7 +19,7 @@ module ek_store
       curve_role, whole_kind, real_kind
    implicit none(type, external)
    private
-   public :: store_texts_t, choose_store, write_store, store_name
+   public :: store_texts_t, keep_texts, choose_store, write_store, store_name
 
    integer, parameter :: many_designs = 10000     !! more than these are stored in NetCDF if the study does not say
    integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
@@ -35,6 +35,18 @@ module ek_store
    end type store_texts_t
 
 contains
+
+   !> The texts of study and deck, as they are now; '' for what is no file.
+   subroutine keep_texts(study, deck, changes, texts)
+      character(*), intent(in) :: study, deck              !! paths
+      type(message_list_t), intent(in) :: changes          !! --set
+      type(store_texts_t), intent(out) :: texts
+      type(error_t), allocatable :: unread
+
+      call read_whole(study, texts%study, unread)
+      call read_whole(deck, texts%deck, unread)
+      texts%changes = changes%text()
+   end subroutine keep_texts
 
    !> The name of the store.
    pure function store_name(study) result(name)
@@ -141,6 +153,7 @@ contains
          call list%add('source', 'elastokin '//version)
          call list%add('study', study%name)
          call list%add('kind', trim(kind_names(study%kind)))
+         if (sampler_kinds(study%kind)%has_size) call list%add('samples', str(int(study%settings%size)), whole_kind)
          if (sampler_kinds(study%kind)%has_seed) call list%add('seed', str(int(study%settings%seed)), whole_kind)
          call list%add('identity', plan%identity)
          call list%add('deck_checksum', plan%deck_sum)

@@ -3,6 +3,7 @@
 !> elastokin writes the description into the folder of the chunks; the file is a list of records, each a line with word, name and
 !> length, then so many characters and a line end. A description of another version is refused.
 module ek_store_description
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str
@@ -65,8 +66,17 @@ contains
    !> Whether responses keep their limits; one without a value for a response that has a limit does not.
    pure logical function keeps(responses, lower, upper)
       real(wp), intent(in) :: responses(:), lower(:), upper(:)
+      integer :: k
 
-      keeps = all((responses >= lower .or. .not. lower > -huge(1.0_wp)) .and. (responses <= upper .or. .not. upper < huge(1.0_wp)))
+      keeps = .true.
+      do k = 1, size(responses)
+         if (.not. (lower(k) > -huge(1.0_wp) .or. upper(k) < huge(1.0_wp))) cycle
+         if (.not. ieee_is_finite(responses(k))) then
+            keeps = .false.
+         else
+            keeps = keeps .and. responses(k) >= lower(k) .and. responses(k) <= upper(k)
+         end if
+      end do
    end function keeps
 
    !> Writes the description of a store.

@@ -189,7 +189,8 @@ contains
          if (size(study%increments) == 0) call complain(reading, '', 'kind = ''step_size'' needs increments = …')
          return
       end if
-      call refuse(reading, [character(10) :: 'increments', 'methods', 'end'], why)
+      call refuse(reading, [character(7) :: 'methods', 'end'], why)
+      if (size(study%increments) > 1) call complain(reading, 'increments', 'a study of designs takes one number of increments')
       associate (kind => sampler_kinds(study%kind))
          if (.not. kind%has_size) call refuse(reading, ['samples'], why)
          if (.not. kind%has_levels) call refuse(reading, ['levels'], why)
@@ -264,9 +265,12 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
       type(study_factor_t), intent(in) :: this
+      logical :: is_reversed
 
       if (study%kind == list_kind) return        ! its values are in the list
-      if (is_given(this%lower) .and. is_given(this%upper) .and. .not. this%lower < this%upper) then
+      is_reversed = .false.                      ! what is not given is not a number, and not compared
+      if (is_given(this%lower) .and. is_given(this%upper)) is_reversed = .not. this%lower < this%upper
+      if (is_reversed) then
          call complain(reading, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
       else if (is_given(this%tolerance) .and. is_given(this%deviation)) then
          call complain(reading, 'deviation', 'give tolerance or deviation, not both')
