@@ -43,6 +43,7 @@ function(ek_add_netcdf)
     Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/netcdf)
   target_compile_options(elastokin-netcdf PRIVATE ${flags})
   target_link_libraries(elastokin-netcdf PRIVATE ek_study ${libraries})
-  install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # optional: a build of the target elastokin alone can be installed too
+  install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
 endfunction()
 ek_add_netcdf()
