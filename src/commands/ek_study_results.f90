@@ -1,0 +1,610 @@
+!> The results of a finished study for its figures and its page: the tables are read line by line, and the statistics computed.
+!>
+!> Of a table of many designs all factors and responses are kept (8 bytes each), of the curves those of 5,000 designs at most.
+module ek_study_results
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, message_list_t, fail, exit_file
+   use ek_text, only: str, plural, quoted
+   use ek_file, only: join_path, file_exists
+   use ek_decimal, only: get_decimal
+   use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
+   use ek_deck, only: deck_t, deck_checksum
+   use ek_study, only: study_t, by_delta, by_scale
+   use ek_sampler, only: sampler_t, designs_of, changed_factor
+   use ek_sampler_kind, only: sampler_kinds, one_at_a_time_kind, saltelli_kind, morris_kind
+   use ek_sampler_settings, only: sampler_settings_t
+   use ek_study_design, only: designer_t, begin_designer, label_of
+   use ek_study_plan, only: plan_sampler
+   use ek_study_tables, only: responses_name, curves_name, has_limits
+   use ek_sensitivity, only: sobol_indices_t, sobol_indices, morris_effects_t, morris_effects, tornado_t, tornado
+   use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, rank_correlation
+   use ek_study_data, only: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents
+   use ek_deck_fragment, only: deck_fragment, factor_unit
+   implicit none(type, external)
+   private
+   public :: read_results_of
+
+   integer, parameter :: most_curves = 5000          !! designs whose curves are kept
+   integer, parameter :: most_ranked = 20000         !! designs of a rank correlation
+   integer, parameter :: most_reasons = 12           !! kinds of failures
+   integer, parameter :: most_steps = 120            !! of the running mean
+   integer, parameter :: longest_line = 200000       !! characters
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+
+   !> A table that is read line by line.
+   type :: lines_t
+      character(:), allocatable :: path
+      integer :: unit = -1, line = 0
+      character(:), allocatable :: content
+      integer :: used = 0
+   end type lines_t
+
+   !> Failures with the same words, apart from their numbers.
+   type :: reason_t
+      character(:), allocatable :: pattern, words
+      integer :: count = 0, design = 0
+   end type reason_t
+
+contains
+
+   !> Reads the tables of a study that is finished; nothing is solved.
+   subroutine read_results_of(study, deck, home, out, data, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: home               !! folder of the study with its slash
+      character(*), intent(in) :: out                !! folder of the tables
+      type(study_data_t), intent(out) :: data
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
+      type(designer_t) :: designer
+      type(sampler_settings_t) :: settings
+      type(sampler_t) :: sampler
+      integer :: r
+
+      if (.not. file_exists(join_path(out, responses_name(study)))) then
+         call fail(error, exit_file, 'there is no '//join_path(out, responses_name(study))// &
+            ': the study is not finished, or its results are in another folder (--out)')
+         return
+      end if
+      call begin_designer(study, deck, designer, error)
+      if (.not. allocated(error)) call plan_sampler(study, home, designer, settings, sampler, error)
+      if (allocated(error)) return
+      data%name = study%name
+      data%title = study%title
+      data%kind = trim(sampler_kinds(study%kind)%name)
+      data%deck = study%deck
+      data%case = trim(designer%worker%cases(1)%case%name)
+      data%designs = int(designs_of(sampler))
+      call name_axes(study, designer, data)
+      call read_rows(study, deck_checksum(deck), join_path(out, responses_name(study)), data, error)
+      if (allocated(error)) return
+      if (size(data%columns) > 0) call read_curves(join_path(out, curves_name(study)), data, error)
+      if (allocated(error)) return
+      allocate (data%summaries(size(data%responses)), data%effects(size(data%responses)), data%extremes(0))
+      do r = 1, size(data%responses)
+         call summarise(data%responses(r), data%y(r, :), data%summaries(r))
+         call find_effects(study, sampler, data, r, data%effects(r))
+         call find_extremes(study, designer, data, r)
+      end do
+   end subroutine read_results_of
+
+   !> Names and labels of factors, responses and columns.
+   subroutine name_axes(study, designer, data)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(study_data_t), intent(inout) :: data
+      type(quantity_t) :: quantity
+      character(:), allocatable :: unit
+      integer :: k, j
+
+      allocate (data%factors(size(study%factors)), data%responses(size(study%responses)), data%columns(size(study%columns)))
+      do k = 1, size(study%factors)
+         associate (axis => data%factors(k), factor => study%factors(k))
+            axis%name = factor%name
+            unit = factor_unit(designer, k)
+            if (factor%change == by_scale) unit = '× deck'
+            axis%label = factor%name
+            if (factor%change == by_delta) axis%label = 'Δ '//factor%name
+            if (unit /= '') axis%label = axis%label//' ['//unit//']'
+            axis%note = trim(factor%paths(1))
+            do j = 2, size(factor%paths)
+               axis%note = axis%note//', '//trim(factor%paths(j))
+            end do
+         end associate
+      end do
+      do k = 1, size(study%responses)
+         associate (axis => data%responses(k), response => study%responses(k))
+            axis%name = response%name
+            axis%label = response%name
+            axis%note = response%of//' of '//response%column
+            if (response%case /= '') axis%note = axis%note//', case '//response%case
+            axis%lower = response%lower
+            axis%upper = response%upper
+         end associate
+      end do
+      do k = 1, size(study%columns)
+         quantity = quantity_named(trim(study%columns(k)))
+         associate (axis => data%columns(k))
+            axis%name = trim(study%columns(k))
+            axis%label = trim(quantity%title)
+            axis%note = trim(quantity%sign)
+            if (axis%label == '') axis%label = axis%name
+            if (unit_of(axis%name) /= '' .and. axis%label /= axis%name) &
+               axis%label = axis%label//' ['//unit_text(unit_of(axis%name))//']'
+         end associate
+      end do
+   end subroutine name_axes
+
+   !> Opens a table, and reads its header and the names of its columns.
+   subroutine open_table(path, deck_sum, lines, names, error)
+      character(*), intent(in) :: path
+      character(*), intent(in) :: deck_sum           !! '' if it is not to be compared
+      type(lines_t), intent(inout) :: lines
+      character(64), allocatable, intent(out) :: names(:)
+      type(error_t), allocatable, intent(out) :: error
+      integer :: status, first, comma
+
+      lines%path = path
+      allocate (character(longest_line) :: lines%content)
+      allocate (names(0))
+      open (newunit=lines%unit, file=path, status='old', action='read', iostat=status)
+      if (status /= 0) then
+         lines%unit = -1
+         call fail(error, exit_file, 'cannot read '//quoted(path))
+         return
+      end if
+      do
+         call next_line(lines, status)
+         if (status /= 0) then
+            call fail(error, exit_file, path//': the line of column names is missing')
+            return
+         end if
+         if (index(lines%content(:lines%used), '#') /= 1) exit
+         if (deck_sum == '' .or. index(lines%content(:lines%used), 'deck checksum ') == 0) cycle
+         if (index(lines%content(:lines%used), 'deck checksum '//deck_sum) == 0) then
+            call fail(error, exit_file, path//' was computed from another deck, or with other --set; run the study again')
+            return
+         end if
+      end do
+      first = 1
+      do while (first <= lines%used)
+         comma = index(lines%content(first:lines%used)//',', ',') + first - 1
+         names = [character(64) :: names, lines%content(first:comma - 1)]
+         first = comma + 1
+      end do
+   end subroutine open_table
+
+   !> The next line that is not empty; status is not 0 at the end.
+   subroutine next_line(lines, status)
+      type(lines_t), intent(inout) :: lines
+      integer, intent(out) :: status
+
+      do
+         lines%used = 0
+         read (lines%unit, '(a)', advance='no', iostat=status, size=lines%used) lines%content
+         if (is_iostat_eor(status)) status = 0
+         if (status /= 0) return
+         lines%line = lines%line + 1
+         if (lines%used > 0) return
+      end do
+   end subroutine next_line
+
+   !> The first numbers of a line; what is no number becomes NaN. `rest` is where the field behind them begins.
+   pure subroutine take_numbers(content, values, rest)
+      character(*), intent(in) :: content
+      real(wp), intent(out) :: values(:)
+      integer, intent(out) :: rest
+      logical :: is_number
+      integer :: k, comma
+
+      rest = 1
+      do k = 1, size(values)
+         comma = index(content(rest:), ',')
+         if (comma == 0) comma = len(content) - rest + 2
+         call get_decimal(content(rest:rest + comma - 2), values(k), is_number)
+         rest = min(rest + comma, len(content) + 1)
+      end do
+   end subroutine take_numbers
+
+   !> The table of responses.
+   subroutine read_rows(study, deck_sum, path, data, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: deck_sum, path
+      type(study_data_t), intent(inout) :: data
+      type(error_t), allocatable, intent(out) :: error
+      type(lines_t) :: lines
+      type(reason_t), allocatable :: reasons(:)
+      character(64), allocatable :: names(:)
+      real(wp), allocatable :: values(:)
+      integer :: k, m, status, rest, d
+
+      call open_table(path, deck_sum, lines, names, error)
+      k = size(data%factors)
+      m = size(data%responses)
+      if (.not. allocated(error)) then
+         if (size(names) /= 1 + k + m + merge(3, 2, has_limits(study))) call wrong()
+      end if
+      if (.not. allocated(error)) then
+         if (any(names(2:k + 1) /= [character(64) :: (data%factors(d)%name, d=1, k)])) call wrong()
+      end if
+      if (.not. allocated(error)) then
+         do d = 1, m
+            call name_response(study, d, trim(names(1 + k + d)), data%responses(d))
+         end do
+         allocate (values(size(names) - 1), data%x(k, data%designs), data%y(m, data%designs), reasons(0))
+         d = 0
+         do
+            call next_line(lines, status)
+            if (status /= 0) exit
+            d = d + 1
+            if (d > data%designs) exit
+            call take_numbers(lines%content(:lines%used), values, rest)
+            data%x(:, d) = values(2:k + 1)
+            data%y(:, d) = values(k + 2:k + m + 1)
+            if (has_limits(study)) data%within = data%within + merge(1, 0, values(k + m + 2) > 0.5_wp)
+            if (values(size(values)) < 0.5_wp) cycle
+            data%failed = data%failed + 1
+            call count_reason(lines%content(rest:lines%used), d, reasons)
+         end do
+         if (d /= data%designs) call wrong()
+         call list_reasons(reasons, data%reasons)
+      end if
+      if (lines%unit /= -1) close (lines%unit)
+
+   contains
+
+      subroutine wrong()
+         if (.not. allocated(error)) call fail(error, exit_file, path//': this is not the table of the '// &
+            plural(data%designs, 'design', 'designs')//' of the study; run the study again')
+      end subroutine wrong
+
+   end subroutine read_rows
+
+   !> The label of a response: its column heading and its unit.
+   subroutine name_response(study, number, head, axis)
+      type(study_t), intent(in) :: study
+      integer, intent(in) :: number
+      character(*), intent(in) :: head
+      type(study_axis_t), intent(inout) :: axis
+      character(:), allocatable :: unit
+
+      axis%name = head
+      unit = unit_of(trim(study%responses(number)%column))
+      if (study%responses(number)%of == 'slope') unit = unit_of(head)
+      axis%label = study%responses(number)%name
+      if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
+   end subroutine name_response
+
+   !> Counts a failure with those whose words are the same.
+   subroutine count_reason(field, design, reasons)
+      character(*), intent(in) :: field              !! of the table, in quotes
+      integer, intent(in) :: design
+      type(reason_t), allocatable, intent(inout) :: reasons(:)
+      type(reason_t) :: new
+      integer :: k
+
+      new%words = field
+      if (len(field) > 1) new%words = field(2:len(field) - 1)
+      new%pattern = ''
+      do k = 1, len(new%words)
+         if (scan(new%words(k:k), '0123456789.-+E') == 0) new%pattern = new%pattern//new%words(k:k)
+      end do
+      do k = 1, size(reasons)
+         if (reasons(k)%pattern /= new%pattern) cycle
+         reasons(k)%count = reasons(k)%count + 1
+         return
+      end do
+      if (size(reasons) >= most_reasons) then
+         reasons(most_reasons)%count = reasons(most_reasons)%count + 1
+         reasons(most_reasons)%words = 'other reasons'
+         return
+      end if
+      new%count = 1
+      new%design = design
+      reasons = [reasons, new]
+   end subroutine count_reason
+
+   !> '12 designs, for instance design 7: case 'sweep': no equilibrium'
+   subroutine list_reasons(reasons, list)
+      type(reason_t), intent(in) :: reasons(:)
+      type(message_list_t), intent(inout) :: list
+      integer :: k
+
+      do k = 1, size(reasons)
+         if (reasons(k)%count == 1) call list%add('design '//str(reasons(k)%design)//': '//reasons(k)%words)
+         if (reasons(k)%count > 1) call list%add(str(reasons(k)%count)//' designs, the first design '//str(reasons(k)%design)// &
+            ': '//reasons(k)%words)
+      end do
+   end subroutine list_reasons
+
+   !> The curves of every n-th design, and their bands.
+   subroutine read_curves(path, data, error)
+      character(*), intent(in) :: path
+      type(study_data_t), intent(inout) :: data
+      type(error_t), allocatable, intent(out) :: error
+      type(lines_t) :: lines
+      character(64), allocatable :: names(:)
+      real(wp), allocatable :: values(:), rows(:, :), grown(:, :)
+      integer :: k, c, status, used, every, rest, last
+
+      call open_table(path, '', lines, names, error)
+      k = size(data%factors)
+      c = size(data%columns)
+      if (.not. allocated(error) .and. size(names) /= k + c + 2) call fail(error, exit_file, path// &
+         ': this is not the table of curves of the study; run the study again')
+      if (.not. allocated(error)) then
+         every = (data%designs + most_curves - 1)/most_curves
+         allocate (values(k + c + 2), rows(c + 2, 1024))
+         used = 0
+         do
+            call next_line(lines, status)
+            if (status /= 0) exit
+            if (every > 1) then
+               call take_numbers(lines%content(:lines%used), values(:1), rest)
+               if (mod(nint(values(1)) - 1, every) /= 0) cycle
+            end if
+            call take_numbers(lines%content(:lines%used), values, rest)
+            used = used + 1
+            if (used > size(rows, 2)) then
+               last = size(rows, 2)
+               allocate (grown(c + 2, 2*last))
+               grown(:, :last) = rows
+               call move_alloc(grown, rows)
+            end if
+            rows(:, used) = [values(1), values(k + 2:)]
+         end do
+         call sort_curves(rows(:, :used), data)
+         call find_bands(data)
+         call name_sweep(data)
+      end if
+      if (lines%unit /= -1) close (lines%unit)
+   end subroutine read_curves
+
+   !> Puts the states of each design at the swept values of the design that has most of them.
+   subroutine sort_curves(rows, data)
+      real(wp), intent(in) :: rows(:, :)             !! (design, swept value, columns; state)
+      type(study_data_t), intent(inout) :: data
+      integer, allocatable :: begins(:)
+      real(wp) :: near
+      integer :: k, j, d, longest
+
+      allocate (begins(0))
+      do k = 1, size(rows, 2)
+         if (k > 1) then
+            if (nint(rows(1, k)) == nint(rows(1, k - 1))) cycle
+         end if
+         begins = [begins, k]
+      end do
+      begins = [begins, size(rows, 2) + 1]
+      allocate (data%drawn(size(begins) - 1))
+      longest = 1
+      do d = 1, size(data%drawn)
+         data%drawn(d) = nint(rows(1, begins(d)))
+         if (begins(d + 1) - begins(d) > begins(longest + 1) - begins(longest)) longest = d
+      end do
+      if (size(data%drawn) == 0) then
+         allocate (data%sweep(0), data%curves(size(data%columns), 0, 0))
+         return
+      end if
+      allocate (data%sweep, source=rows(2, begins(longest):begins(longest + 1) - 1))
+      allocate (data%curves(size(data%columns), size(data%sweep), size(data%drawn)))
+      data%curves = ieee_value(1.0_wp, ieee_quiet_nan)
+      near = 1.0e-9_wp*(maxval(data%sweep) - minval(data%sweep))
+      do d = 1, size(data%drawn)
+         do k = begins(d), begins(d + 1) - 1
+            j = k - begins(d) + 1
+            if (abs(data%sweep(min(j, size(data%sweep))) - rows(2, k)) > near) &
+               j = minloc(abs(data%sweep - rows(2, k)), dim=1)
+            if (abs(data%sweep(j) - rows(2, k)) <= near) data%curves(:, j, d) = rows(3:, k)
+         end do
+      end do
+   end subroutine sort_curves
+
+   !> Percentiles at each state over the designs that have it.
+   subroutine find_bands(data)
+      type(study_data_t), intent(inout) :: data
+      real(wp), allocatable :: values(:)
+      integer, allocatable :: order(:)
+      integer :: c, j, p
+
+      allocate (data%bands(size(percents), size(data%columns), size(data%sweep)))
+      data%bands = ieee_value(1.0_wp, ieee_quiet_nan)
+      do j = 1, size(data%sweep)
+         do c = 1, size(data%columns)
+            values = pack(data%curves(c, j, :), ieee_is_finite(data%curves(c, j, :)))
+            if (size(values) == 0) cycle
+            allocate (order(size(values)))
+            call ascending_order(values, order)
+            values = values(order)
+            deallocate (order)
+            do p = 1, size(percents)
+               data%bands(p, c, j) = percentile(values, 0.01_wp*percents(p))
+            end do
+         end do
+      end do
+   end subroutine find_bands
+
+   !> The label of the swept value. If it is a column of the curves, it is called so, and the column is not drawn over itself.
+   subroutine name_sweep(data)
+      type(study_data_t), intent(inout) :: data
+      logical :: is_drawn(size(data%columns))
+      real(wp) :: near
+      integer :: c, j, d
+
+      data%swept = 'swept value of '//data%case
+      if (size(data%sweep) == 0) return
+      near = 1.0e-6_wp*(maxval(data%sweep) - minval(data%sweep))
+      is_drawn = .true.
+      do c = 1, size(data%columns)
+         do d = 1, size(data%drawn)
+            do j = 1, size(data%sweep)
+               if (.not. ieee_is_finite(data%curves(c, j, d))) cycle
+               if (abs(data%curves(c, j, d) - data%sweep(j)) > near) exit
+            end do
+            if (j <= size(data%sweep)) exit
+         end do
+         is_drawn(c) = d <= size(data%drawn)
+         if (.not. is_drawn(c)) data%swept = data%columns(c)%label
+         if (.not. is_drawn(c) .and. data%columns(c)%note /= '') data%swept = data%swept//'    ('//data%columns(c)%note//')'
+      end do
+      if (all(is_drawn) .or. .not. any(is_drawn)) return
+      data%curves = data%curves(pack([(c, c=1, size(is_drawn))], is_drawn), :, :)
+      data%bands = data%bands(:, pack([(c, c=1, size(is_drawn))], is_drawn), :)
+      data%columns = pack(data%columns, is_drawn)
+   end subroutine name_sweep
+
+   !> Mean, deviation, percentiles, histogram and running mean of a response.
+   subroutine summarise(axis, all_values, summary)
+      type(study_axis_t), intent(in) :: axis
+      real(wp), intent(in) :: all_values(:)          !! in the order of the designs, NaN without a value
+      type(summary_t), intent(out) :: summary
+      real(wp), allocatable :: values(:), sorted(:)
+      integer, allocatable :: order(:)
+      real(wp) :: width, sum_of, square
+      integer :: k, n, bins, step
+
+      allocate (values, source=pack(all_values, ieee_is_finite(all_values)))
+      n = size(values)
+      summary%used = n
+      allocate (summary%counts(0), summary%steps(0), summary%running(0), summary%half(0))
+      if (n == 0) return
+      call mean_and_deviation(values, summary%mean, summary%deviation)
+      allocate (order(n))
+      call ascending_order(values, order)
+      allocate (sorted, source=values(order))
+      summary%lowest = sorted(1)
+      summary%highest = sorted(n)
+      do k = 1, size(percents)
+         summary%percentiles(k) = percentile(sorted, 0.01_wp*percents(k))
+      end do
+      summary%within = count(values >= axis%lower .and. values <= axis%upper)
+      ! intervals after D. Freedman, P. Diaconis, Z. Wahrscheinlichkeitstheorie 57 (1981): 2 × interquartile range / ∛n
+      width = 2.0_wp*(summary%percentiles(4) - summary%percentiles(2))/real(n, wp)**(1.0_wp/3.0_wp)
+      bins = 8
+      if (width*60.0_wp > summary%highest - summary%lowest) bins = ceiling((summary%highest - summary%lowest)/width)
+      if (width > 0.0_wp .and. .not. width*60.0_wp > summary%highest - summary%lowest) bins = 60
+      bins = max(1, min(60, bins))
+      if (.not. summary%highest > summary%lowest) bins = 1
+      summary%counts = spread(0, 1, bins)
+      do k = 1, n
+         step = 1
+         if (bins > 1) step = min(bins, 1 + int(bins*((values(k) - summary%lowest)/(summary%highest - summary%lowest))))
+         summary%counts(step) = summary%counts(step) + 1
+      end do
+      sum_of = 0.0_wp
+      square = 0.0_wp
+      step = 2
+      do k = 1, n                                    ! relative to the mean of all: no cancellation
+         sum_of = sum_of + (values(k) - summary%mean)
+         square = square + (values(k) - summary%mean)**2
+         if (k < step .and. k < n) cycle
+         if (k < 2) cycle
+         summary%steps = [summary%steps, k]
+         summary%running = [summary%running, summary%mean + sum_of/k]
+         summary%half = [summary%half, normal_95*sqrt(max(0.0_wp, (square - sum_of**2/k)/(k - 1.0_wp))/k)]
+         step = max(k + 1, nint(k*real(n, wp)**(1.0_wp/most_steps)))
+      end do
+   end subroutine summarise
+
+   !> What the factors do to a response, as the kind of the study yields it.
+   subroutine find_effects(study, sampler, data, r, effects)
+      type(study_t), intent(in) :: study
+      type(sampler_t), intent(in) :: sampler
+      type(study_data_t), intent(in) :: data
+      integer, intent(in) :: r
+      type(effects_t), intent(out) :: effects
+      type(sobol_indices_t) :: indices
+      type(morris_effects_t) :: elementary
+      type(tornado_t) :: bars
+      logical, allocatable :: is_used(:)
+      integer :: f, k, d, n
+
+      k = size(data%factors)
+      n = min(data%designs, most_ranked)
+      allocate (effects%correlation(k))
+      effects%correlation = ieee_value(1.0_wp, ieee_quiet_nan)
+      is_used = ieee_is_finite(data%y(r, :n))
+      if (count(is_used) > 2) then
+         do f = 1, k
+            effects%correlation(f) = rank_correlation(pack(data%x(f, :n), is_used), pack(data%y(r, :n), is_used))
+         end do
+      end if
+      select case (study%kind)
+      case (saltelli_kind)
+         call sobol_indices(k, data%y(r, :), indices)
+         effects%first = indices%first
+         effects%total = indices%total
+         effects%first_error = indices%first_error
+         effects%total_error = indices%total_error
+         effects%used = indices%used
+      case (morris_kind)
+         call morris_effects(sampler, data%y(r, :), elementary)
+         effects%mean_size = elementary%mean_size
+         effects%deviation = elementary%deviation
+      case (one_at_a_time_kind)
+         call tornado(sampler, data%y(r, :), bars)
+         effects%nominal = bars%nominal
+         effects%lowest = bars%lowest
+         effects%highest = bars%highest
+         effects%at_low = spread(bars%nominal, 1, k)
+         effects%at_high = effects%at_low
+         do f = 1, k
+            ! the response at the smallest and at the largest value of the factor
+            associate (low => data%x(f, 1), values => data%x(f, :))
+               do d = 2, data%designs
+                  if (changed_factor(sampler, int(d, i8)) /= f .or. .not. ieee_is_finite(data%y(r, d))) cycle
+                  if (values(d) <= minval(values)) effects%at_low(f) = data%y(r, d)
+                  if (values(d) >= maxval(values) .and. values(d) > low) effects%at_high(f) = data%y(r, d)
+               end do
+            end associate
+         end do
+      end select
+   end subroutine find_effects
+
+   !> The best and the worst design of a response: by its limits, otherwise the smallest and the largest.
+   subroutine find_extremes(study, designer, data, r)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(study_data_t), intent(inout) :: data
+      integer, intent(in) :: r
+      real(wp), allocatable :: margin(:)
+      logical :: is_judged
+
+      associate (y => data%y(r, :), axis => data%responses(r))
+         if (.not. any(ieee_is_finite(y))) return
+         is_judged = axis%lower > -huge(1.0_wp) .or. axis%upper < huge(1.0_wp)
+         allocate (margin, source=-y)
+         if (is_judged) margin = min(y - axis%lower, axis%upper - y)
+         if (axis%upper >= huge(1.0_wp) .and. is_judged) margin = y - axis%lower
+         if (axis%lower <= -huge(1.0_wp) .and. is_judged) margin = axis%upper - y
+         is_judged = is_judged .or. study%responses(r)%of == 'rms'
+         call add(maxloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('best    ', 'smallest', is_judged)))
+         call add(minloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('worst   ', 'largest ', is_judged)))
+      end associate
+
+   contains
+
+      subroutine add(design, what)
+         integer, intent(in) :: design
+         character(*), intent(in) :: what
+         type(extreme_t) :: one
+         character(:), allocatable :: label
+         integer :: k
+
+         one%response = r
+         one%what = what
+         one%design = design
+         one%value = data%y(r, design)
+         label = label_of(study, data%x(:, design))
+         one%settings = '--set '
+         do k = 1, len(label)
+            if (label(k:k) == ' ') one%settings = one%settings//' --set '
+            if (label(k:k) /= ' ') one%settings = one%settings//label(k:k)
+         end do
+         one%fragment = deck_fragment(designer, data%x(:, design))
+         data%extremes = [data%extremes, one]
+      end subroutine add
+
+   end subroutine find_extremes
+
+end module ek_study_results
