@@ -369,10 +369,10 @@ contains
       integer :: k, j, d, longest
 
       allocate (begins(0))
+      d = 0
       do k = 1, size(rows, 2)
-         if (k > 1) then
-            if (nint(rows(1, k)) == nint(rows(1, k - 1))) cycle
-         end if
+         if (nint(rows(1, k)) == d) cycle
+         d = nint(rows(1, k))
          begins = [begins, k]
       end do
       begins = [begins, size(rows, 2) + 1]
@@ -386,7 +386,8 @@ contains
          allocate (data%sweep(0), data%curves(size(data%columns), 0, 0))
          return
       end if
-      allocate (data%sweep, source=rows(2, begins(longest):begins(longest + 1) - 1))
+      allocate (data%sweep(begins(longest + 1) - begins(longest)))
+      data%sweep(:) = rows(2, begins(longest):begins(longest + 1) - 1)
       allocate (data%curves(size(data%columns), size(data%sweep), size(data%drawn)))
       data%curves = ieee_value(1.0_wp, ieee_quiet_nan)
       near = 1.0e-9_wp*(maxval(data%sweep) - minval(data%sweep))
@@ -415,7 +416,7 @@ contains
             if (size(values) == 0) cycle
             allocate (order(size(values)))
             call ascending_order(values, order)
-            values = values(order)
+            values(:) = values(order)
             deallocate (order)
             do p = 1, size(percents)
                data%bands(p, c, j) = percentile(values, 0.01_wp*percents(p))
@@ -463,15 +464,16 @@ contains
       real(wp) :: width, sum_of, square
       integer :: k, n, bins, step
 
-      allocate (values, source=pack(all_values, ieee_is_finite(all_values)))
-      n = size(values)
+      n = count(ieee_is_finite(all_values))
+      allocate (values(n), sorted(n))
+      values(:) = pack(all_values, ieee_is_finite(all_values))
       summary%used = n
       allocate (summary%counts(0), summary%steps(0), summary%running(0), summary%half(0))
       if (n == 0) return
       call mean_and_deviation(values, summary%mean, summary%deviation)
       allocate (order(n))
       call ascending_order(values, order)
-      allocate (sorted, source=values(order))
+      sorted(:) = values(order)
       summary%lowest = sorted(1)
       summary%highest = sorted(n)
       do k = 1, size(percents)
@@ -573,10 +575,11 @@ contains
       associate (y => data%y(r, :), axis => data%responses(r))
          if (.not. any(ieee_is_finite(y))) return
          is_judged = axis%lower > -huge(1.0_wp) .or. axis%upper < huge(1.0_wp)
-         allocate (margin, source=-y)
-         if (is_judged) margin = min(y - axis%lower, axis%upper - y)
-         if (axis%upper >= huge(1.0_wp) .and. is_judged) margin = y - axis%lower
-         if (axis%lower <= -huge(1.0_wp) .and. is_judged) margin = axis%upper - y
+         allocate (margin(size(y)))
+         margin(:) = -y
+         if (is_judged) margin(:) = min(y - axis%lower, axis%upper - y)
+         if (axis%upper >= huge(1.0_wp) .and. is_judged) margin(:) = y - axis%lower
+         if (axis%lower <= -huge(1.0_wp) .and. is_judged) margin(:) = axis%upper - y
          is_judged = is_judged .or. study%responses(r)%of == 'rms'
          call add(maxloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('best    ', 'smallest', is_judged)))
          call add(minloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('worst   ', 'largest ', is_judged)))
@@ -596,11 +599,12 @@ contains
          one%design = design
          one%value = data%y(r, design)
          label = label_of(study, data%x(:, design))
-         one%settings = '--set '
+         one%settings = '--set "'
          do k = 1, len(label)
-            if (label(k:k) == ' ') one%settings = one%settings//' --set '
+            if (label(k:k) == ' ') one%settings = one%settings//'" --set "'
             if (label(k:k) /= ' ') one%settings = one%settings//label(k:k)
          end do
+         one%settings = one%settings//'"'
          one%fragment = deck_fragment(designer, data%x(:, design))
          data%extremes = [data%extremes, one]
       end subroutine add

@@ -3,7 +3,7 @@ module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, most_panels, range_of_values
+   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
    implicit none(type, external)
    private
@@ -25,7 +25,9 @@ contains
       integer :: r, d
 
       sheet = new_sheet(name, 'Responses over two factors', subtitle, min(size(study%responses), most_panels))
-      sheet%right = 120
+      sheet%right = 105
+      sheet%left = 105
+      sheet%bottom = 92
       if (sheet%panels == 1) sheet%width = 900
       do r = 1, sheet%panels
          call begin_data(sheet, 'map'//str(r))
@@ -38,9 +40,10 @@ contains
          call end_data(sheet)
       end do
       call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset grid; unset xzeroaxis; unset yzeroaxis; set xtics nomirror rotate by 0')
+      call sheet%text%line(blues//nl//'unset grid; unset xzeroaxis; unset yzeroaxis; set xtics offset 0, 0.5')
       if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
       if (is_geometric(study%x(2, :))) call sheet%text%line('set logscale y')
+      call sheet%text%line('set xtics '//tics_of(study%x(1, :))//'; set ytics '//tics_of(study%x(2, :)))
       call sheet%text%line('set xrange '//bounds(study%x(1, :))//'; set yrange '//bounds(study%x(2, :)))
       do r = 1, sheet%panels
          call begin_panel(sheet, r, study%responses(r)%label, study%factors(1)%label, study%factors(2)%label)
@@ -48,13 +51,15 @@ contains
          ! the lines of equal response are computed first, as a table
          call sheet%text%line('set contour base; set cntrparam levels auto 8; unset surface; set table $lines'//nl// &
             'splot '//data//' using 1:2:3 with lines'//nl//'unset table; unset contour; set surface; set view map')
+         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset 2.2, 0; set cbrange '//bounds(study%y(r, :)))
          call sheet%text%line('set pm3d map interpolate 4, 4')
          call sheet%text%line('splot '//data//' using 1:2:3 with pm3d notitle, \'//nl// &
             "      $lines using 1:2:(0) with lines linecolor rgb '#FFFFFF' linewidth 1.2 notitle, \"//nl// &
             '      '//data//" using 1:2:(0) with points pointtype 7 pointsize 0.25 linecolor rgb '#80FFFFFF' notitle")
          call sheet%text%line('unset pm3d')
       end do
-      call sheet%text%line('unset logscale; set xrange [*:*]; set yrange [*:*]')
+      call sheet%text%line('unset logscale; set xrange [*:*]; set yrange [*:*]; set cbrange [*:*]; set view 60, 30')
+      call sheet%text%line('set xtics autofreq; set ytics autofreq')
       text = end_panels(sheet)
    end function map_script
 
@@ -83,31 +88,39 @@ contains
       text = end_panels(sheet)
    end function line_script
 
-   !> Whether positive values span a decade or so in equal ratios rather than equal steps: the middle level tells.
-   pure logical function is_geometric(values)
-      real(wp), intent(in) :: values(:)
-      real(wp) :: low, high, middle, geometric
-      integer :: k
-
-      is_geometric = .false.
-      low = minval(values)
-      high = maxval(values)
-      if (.not. low > 0.0_wp) return
-      if (high < 4.0_wp*low) return
-      geometric = sqrt(low*high)
-      middle = values(1)                             ! the level next to the geometric mean, if there is one at all
-      do k = 1, size(values)
-         if (abs(log(values(k)/geometric)) < abs(log(middle/geometric))) middle = values(k)
-      end do
-      is_geometric = middle < 0.35_wp*(low + high)
-   end function is_geometric
-
    !> '[low:high]'
    pure function bounds(values) result(text)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: text
-      text = '['//str(minval(values), 7)//':'//str(maxval(values), 7)//']'
+      real(wp) :: range(2)
+
+      range = range_of_values(values)
+      if (.not. range(2) > range(1)) range(2) = range(1) + max(1.0e-6_wp, abs(range(1)))
+      text = '['//str(range(1), 7)//':'//str(range(2), 7)//']'
    end function bounds
+
+   !> Tics at 1, 2 and 5 of every decade for a logarithmic axis.
+   pure function tics_of(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: text
+      real(wp), parameter :: steps(3) = [1.0_wp, 2.0_wp, 5.0_wp]
+      real(wp) :: at
+      integer :: decade, k
+
+      text = 'autofreq'
+      if (.not. is_geometric(values)) return
+      text = ''
+      do decade = floor(log10(minval(values))), ceiling(log10(maxval(values)))
+         do k = 1, 3
+            at = steps(k)*10.0_wp**decade
+            if (at < 0.999_wp*minval(values) .or. at > 1.001_wp*maxval(values)) cycle
+            text = text//', '//str(at, 5)
+         end do
+      end do
+      if (len(text) < 3) text = '  autofreq'
+      if (text(3:) /= 'autofreq') text = ', ('//text(3:)//')'
+      text = text(3:)
+   end function tics_of
 
    !> The factors in descending order of importance, at most so many; those without a value last.
    pure function ranked(importance, most) result(order)
@@ -187,7 +200,8 @@ contains
       call sheet%text%line('set style fill solid 1 noborder; unset xzeroaxis; unset yzeroaxis; set grid noytics')
       call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
       do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%name, study%responses(r)%label, '')
+         call begin_panel(sheet, r, study%responses(r)%label, '', '')
+         call sheet%text%line('set xtics '//tic_step([study%effects(r)%lowest, study%effects(r)%highest]))
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
             " using 5:1:5:6:($1-0.06):($1+0.06):ytic(7) with boxxyerror linecolor rgb '#A0A0A0' notitle, \"//nl// &
@@ -197,7 +211,7 @@ contains
             ' notitle, \'//nl// &
             '     '//data//" using 2:($1-0.5):(0):(1) with vectors nohead linewidth 1.5 linecolor rgb '#202020' notitle")
       end do
-      call sheet%text%line('set yrange [*:*]; set border 3')
+      call sheet%text%line('set yrange [*:*]; set border 3; set xtics autofreq')
       text = end_panels(sheet)
    end function tornado_script
 
@@ -248,6 +262,8 @@ contains
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      character(24) :: half
       real(wp) :: range(2)
       integer, allocatable :: order(:)
       integer :: r, k
@@ -270,12 +286,19 @@ contains
       do r = 1, sheet%panels
          range = range_of_values(study%effects(r)%mean_size)
          call begin_panel(sheet, r, study%responses(r)%label, 'μ*, mean size of the effect', 'σ, spread of the effect')
-         call sheet%text%line('set xrange [0:'//str(max(1.35_wp*range(2), 1.0e-12_wp), 6)//']; set yrange [0:*]')
+         range(1) = maxval([0.05_wp*range(2), 1.2_wp*maxval(study%effects(r)%deviation, &
+            mask=ieee_is_finite(study%effects(r)%deviation)), 1.0e-12_wp])
+         data = '$points'//str(r)
+         half = str(0.55_wp*range(2), 7)
+         call sheet%text%line('set xtics '//tic_step([0.0_wp, range(2)])//'; set xrange [0:'// &
+            str(max(1.08_wp*range(2), 1.0e-12_wp), 6)//']; set yrange [0:'// &
+            str(range(1), 6)//']')
          call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
-            '     $points'//str(r)//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
-            '     $points'//str(r)//" using 1:2:3 with labels left offset 0.9, 0.25 textcolor rgb '#202020' notitle")
+            '     '//data//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
+            '     '//data//' using ($1 < '//trim(half)//' ? $1 : NaN):2:3 with labels left offset 0.9, 0.25 notitle, \'//nl// &
+            '     '//data//' using ($1 < '//trim(half)//' ? NaN : $1):2:3 with labels right offset -0.9, 0.25 notitle')
       end do
-      call sheet%text%line('set xrange [*:*]; set yrange [*:*]')
+      call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq')
       text = end_panels(sheet)
    end function morris_script
 

@@ -4,14 +4,15 @@ module ek_sample_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_gnuplot_text, only: gnuplot_text
-   use ek_study_data, only: study_data_t, most_panels, range_of_values
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
+   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
+      full_height, blues
    implicit none(type, external)
    private
    public :: family_script, fan_script, scatter_script, parallel_script, histogram_script, convergence_script
 
    character(*), parameter :: nl = new_line('a')
-   integer, parameter :: most_curves = 200           !! of a family
+   integer, parameter :: most_curves = 300           !! of a family
    integer, parameter :: most_lines = 300            !! of parallel coordinates
    integer, parameter :: most_points = 20000         !! of a scatter matrix, all panels together
    integer, parameter :: most_rows = 6, most_columns = 7     !! of a scatter matrix: responses, factors
@@ -43,33 +44,54 @@ contains
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
-      integer :: k, j, c, every
+      integer :: k, j, c, every, leader(1)
 
+      leader = leading_factors(study, 1)
       every = (size(study%drawn) + most_curves - 1)/most_curves
       sheet = new_sheet(name, 'The curves of all designs', '', min(size(study%columns), most_panels))
       if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
-      sheet%subtitle = subtitle//'; coloured by '//study%factors(1)%label// &
+      sheet%subtitle = subtitle// &
          thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)// &
          cut(sheet%panels, size(study%columns), 'columns')
-      sheet%right = merge(105, 30, sheet%columns == 1)
       call begin_data(sheet, 'curves')
       do k = 1, size(study%drawn), every
          do j = 1, size(study%sweep)
             if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
-            call add_numbers(sheet, [study%sweep(j), study%x(1, study%drawn(k)), study%curves(:sheet%panels, j, k)])
+            call add_numbers(sheet, [study%sweep(j), study%x(leader(1), study%drawn(k)), study%curves(:sheet%panels, j, k)])
          end do
          call sheet%text%line('')
       end do
       call end_data(sheet)
       call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset colorbox; set cbtics nomirror')
+      call sheet%text%line(blues)
+      if (is_geometric(study%x(leader(1), :))) call sheet%text%line('set logscale cb')
+      call add_scale(sheet, study%factors(leader(1))%label)
       do c = 1, sheet%panels
          call begin_panel(sheet, c, '', study%swept, study%columns(c)%label)
-         if (c == sheet%panels .and. sheet%columns == 1) call sheet%text%line('set colorbox')
+         if (c == 2) call sheet%text%line('unset colorbox')
          call sheet%text%line('plot $curves using 1:'//str(c + 2)//':2 with lines linewidth 1 linecolor palette notitle')
       end do
       text = end_panels(sheet)
    end function family_script
+
+   !> The scale of the colours, above the panels at the right.
+   subroutine add_scale(sheet, label)
+      type(sheet_t), intent(inout) :: sheet
+      character(*), intent(in) :: label
+
+      call sheet%text%line('set colorbox horizontal user origin screen 0.74, screen '//above(sheet, 42)//' size screen 0.22, '// &
+         'screen '//str(14.0_wp/full_height(sheet), 4)//" noborder; set cbtics nomirror scale 0.4 font ',12'")
+      call sheet%text%line('set label 9 '//gnuplot_text(label)//' at screen 0.74, screen '//above(sheet, 14)// &
+         " left font ',13' textcolor rgb '#404040'")
+   end subroutine add_scale
+
+   !> A place so many pixels below the upper edge.
+   pure function above(sheet, pixels) result(text)
+      type(sheet_t), intent(in) :: sheet
+      integer, intent(in) :: pixels
+      character(:), allocatable :: text
+      text = str(1.0_wp - real(pixels, wp)/full_height(sheet), 5)
+   end function above
 
    !> Median, and the bands in which half and 90 % of the curves lie.
    function fan_script(study, name, subtitle) result(text)
@@ -112,7 +134,8 @@ contains
       character(:), allocatable :: x_label, y_label, title
 
       rows = min(size(study%responses), most_rows)
-      allocate (factors, source=leading_factors(study, most_columns))
+      allocate (factors(min(most_columns, size(study%factors))))
+      factors(:) = leading_factors(study, most_columns)
       every = max(1, (study%designs*rows*size(factors) + most_points - 1)/most_points)
       sheet = new_sheet(name, 'Responses over factors', subtitle//'; r: rank correlation'//thinned(every, study%designs)// &
          cut(size(factors), size(study%factors), 'factors, those with the largest r')// &
@@ -120,16 +143,16 @@ contains
       sheet%columns = size(factors)
       sheet%width = max(900, min(1700, 120 + 270*size(factors)))
       sheet%letters = 12
-      sheet%left = 72
+      sheet%left = 84
       sheet%right = 14
-      sheet%bottom = 48
+      sheet%bottom = 60
       call begin_data(sheet, 'rows')
       do d = 1, study%designs, every
          call add_numbers(sheet, [study%x(factors, d), study%y(:rows, d)])
       end do
       call end_data(sheet)
       call begin_panels(sheet)
-      call sheet%text%line('unset xzeroaxis; unset yzeroaxis; set xtics autofreq; set xtics rotate by 0')
+      call sheet%text%line('unset xzeroaxis; unset yzeroaxis')
       number = 0
       do r = 1, rows
          do f = 1, size(factors)
@@ -142,26 +165,14 @@ contains
             if (ieee_is_finite(study%effects(r)%correlation(factors(f)))) &
                title = 'r = '//str(real(nint(100*study%effects(r)%correlation(factors(f))), wp)/100, 2)
             call begin_panel(sheet, number, title, x_label, y_label)
-            call sheet%text%line('set xtics '//step_of(study%x(factors(f), :))//'; plot $rows using '//str(f)//':'// &
+            call sheet%text%line('set xtics '//tic_step(study%x(factors(f), :))//'; set ytics '//tic_step(study%y(r, :))//nl// &
+               'plot $rows using '//str(f)//':'// &
                str(size(factors) + r)//" with points pointtype 7 pointsize 0.35 linecolor rgb '#600072B2' notitle")
          end do
       end do
+      call sheet%text%line('set xtics autofreq; set ytics autofreq')
       text = end_panels(sheet)
    end function scatter_script
-
-   !> A step that puts about four tics on an axis.
-   pure function step_of(values) result(text)
-      real(wp), intent(in) :: values(:)
-      character(:), allocatable :: text
-      real(wp) :: range(2), step, decade
-
-      range = range_of_values(values)
-      text = 'autofreq'
-      if (.not. range(2) > range(1)) return
-      step = (range(2) - range(1))/3
-      decade = 10.0_wp**floor(log10(step))
-      text = str(decade*merge(1.0_wp, merge(2.0_wp, 5.0_wp, step < 4*decade), step < 1.6_wp*decade), 3)
-   end function step_of
 
    !> The factors in their order; of many, those with the largest rank correlation with any response.
    pure function leading_factors(study, most) result(factors)
@@ -199,17 +210,20 @@ contains
       character(:), allocatable :: place
       integer :: k, d, n, every
 
-      allocate (factors, source=leading_factors(study, most_columns))
+      allocate (factors(min(most_columns, size(study%factors))))
+      factors(:) = leading_factors(study, most_columns)
       n = size(factors) + min(size(study%responses), 4)
       values = reshape([study%x(factors, :)], [size(factors), study%designs])
       allocate (low(n), span(n))
       every = max(1, (study%designs + most_lines - 1)/most_lines)
-      sheet = new_sheet(name, 'Factors and responses of each design', subtitle//'; one line per design, coloured by '// &
-         study%responses(1)%label//thinned(every, study%designs)// &
+      sheet = new_sheet(name, 'Factors and responses of each design', subtitle// &
+         '; one line per design'//thinned(every, study%designs)// &
          cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
          height=560)
-      sheet%right = 110
-      sheet%letters = merge(13, 14, n > 7)
+      sheet%right = 60
+      sheet%left = 60
+      sheet%bottom = 24
+      sheet%letters = merge(12, 14, n > 7)
       do k = 1, n
          if (k <= size(factors)) range = range_of_values(values(k, :))
          if (k > size(factors)) range = range_of_values(study%y(k - size(factors), :))
@@ -229,7 +243,8 @@ contains
       call end_data(sheet)
       call begin_panels(sheet)
       call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
-      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.16]; set cbtics nomirror')
+      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.16]')
+      call add_scale(sheet, study%responses(1)%label)
       do k = 1, n
          place = ' at first '//str(k)//', first '
          call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
@@ -241,9 +256,9 @@ contains
             call sheet%text%line('set label '//str(10 + k)//' '//gnuplot_text(study%responses(k - size(factors))%label)//place// &
                trim(merge('1.13', '1.09', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
          end if
-         call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 4))//place// &
+         call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
             "-0.045 center textcolor rgb '#606060'")
-         call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 4))//place// &
+         call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 5))//place// &
             "1.035 center textcolor rgb '#606060'")
       end do
       call begin_panel(sheet, 1, '', '', '')
@@ -259,7 +274,7 @@ contains
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: line
-      real(wp) :: width
+      real(wp) :: width, room, ends(2)
       integer :: r, k
 
       sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
@@ -292,12 +307,21 @@ contains
                call sheet%text%line('set label '//str(k + 2)//' '//gnuplot_text(trim(adjustl(line)))//' at first '// &
                   str(summary%percentiles(2*k - 1), 7)//", graph 1.035 center font ',12' textcolor rgb '#404040'")
             end do
-            if (response%lower > -huge(1.0_wp)) call add_mark(sheet, 4, response%lower, ' dashtype (8, 6)')
-            if (response%upper < huge(1.0_wp)) call add_mark(sheet, 5, response%upper, ' dashtype (8, 6)')
+            if (response%lower > summary%lowest - (summary%highest - summary%lowest)) &
+               call add_mark(sheet, 4, response%lower, ' dashtype (8, 6)')
+            if (response%upper < summary%highest + (summary%highest - summary%lowest)) &
+               call add_mark(sheet, 5, response%upper, ' dashtype (8, 6)')
+            ! room for the limits, unless they are far away
+            ends = [summary%lowest, summary%highest]
+            room = max(ends(2) - ends(1), 1.0e-6_wp*max(abs(ends(1)), 1.0e-6_wp))
+            if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
+            if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
+            call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
+               ']; set xtics '//tic_step(ends))
             call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle")
          end associate
       end do
-      call sheet%text%line('unset arrow; set yrange [*:*]')
+      call sheet%text%line('unset arrow; set yrange [*:*]; set xrange [*:*]; set xtics autofreq')
       text = end_panels(sheet)
    end function histogram_script
 

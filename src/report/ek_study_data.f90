@@ -3,9 +3,11 @@ module ek_study_data
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
+   use ek_text, only: str
    implicit none(type, external)
    private
-   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents, most_panels, range_of_values
+   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents, most_panels
+   public :: range_of_values, is_geometric, tic_step
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
    integer, parameter :: most_panels = 9                        !! of one figure; more responses are left out, which it says
@@ -78,5 +80,39 @@ contains
       if (any(ieee_is_finite(values))) range = [minval(values, mask=ieee_is_finite(values)), &
          maxval(values, mask=ieee_is_finite(values))]
    end function range_of_values
+
+   !> Whether positive values span a decade or so in equal ratios rather than equal steps: the middle level tells.
+   pure logical function is_geometric(values)
+      real(wp), intent(in) :: values(:)
+      real(wp) :: low, high, middle, geometric
+      integer :: k
+
+      is_geometric = .false.
+      low = minval(values)
+      high = maxval(values)
+      if (.not. low > 0.0_wp) return
+      if (high < 4.0_wp*low) return
+      geometric = sqrt(low*high)
+      middle = values(1)                             ! the level next to the geometric mean, if there is one at all
+      do k = 1, size(values)
+         if (abs(log(values(k)/geometric)) < abs(log(middle/geometric))) middle = values(k)
+      end do
+      is_geometric = middle < 0.35_wp*(low + high)
+   end function is_geometric
+
+   !> A step that puts about four tics on an axis.
+   pure function tic_step(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: text
+      real(wp) :: range(2), step, decade
+
+      range = range_of_values(values)
+      text = 'autofreq'
+      if (.not. range(2) > range(1)) return
+      step = (range(2) - range(1))/3
+      decade = 10.0_wp**floor(log10(step))
+            step = step/decade
+      text = str(decade*merge(1.0_wp, merge(2.0_wp, merge(5.0_wp, 10.0_wp, step < 7.5_wp), step < 3.5_wp), step < 1.6_wp), 3)
+   end function tic_step
 
 end module ek_study_data

@@ -9,7 +9,7 @@ module ek_study_sheet
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    implicit none(type, external)
    private
-   public :: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
+   public :: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height, blues
 
    character(*), parameter :: nl = new_line('a')
    !> Of a colour scale: viridis without its lightest end.
@@ -22,7 +22,7 @@ module ek_study_sheet
       integer :: panels = 1, columns = 1
       integer :: width = 1200                     !! pixels
       integer :: height = 420                     !! of a row of panels
-      integer :: left = 85, right = 30, bottom = 66, top = 34      !! margins of a panel, pixels
+      integer :: left = 95, right = 30, bottom = 72, top = 34      !! margins of a panel, pixels
       integer :: letters = 15                     !! size of the font
       type(buffer_t) :: text
    end type sheet_t
@@ -134,7 +134,7 @@ contains
       right = ((column + 1)*cell - sheet%right)/sheet%width
       top = 1.0_wp - (title_height + row*sheet%height + sheet%top)/high
       bottom = 1.0_wp - (title_height + (row + 1)*sheet%height - sheet%bottom)/high
-      if (number == 2) call sheet%text%line('unset label 1; unset label 2')
+      if (number == 2) call sheet%text%line('unset label 1; unset label 2; unset label 9')
       call sheet%text%line(nl//'set lmargin at screen '//str(left, 5)//'; set rmargin at screen '//str(right, 5)// &
          '; set bmargin at screen '//str(bottom, 5)//'; set tmargin at screen '//str(top, 5))
       call sheet%text%line('set title '//gnuplot_text(title)//" offset 0, -0.4 font 'sans-serif:Bold,"//str(sheet%letters)// &
