@@ -26,7 +26,7 @@ contains
 
       sheet = new_sheet(name, 'Responses over two factors', subtitle, min(size(study%responses), most_panels))
       sheet%right = 105
-      sheet%left = 105
+      sheet%left = 118
       sheet%bottom = 92
       if (sheet%panels == 1) sheet%width = 900
       do r = 1, sheet%panels
@@ -51,7 +51,7 @@ contains
          ! the lines of equal response are computed first, as a table
          call sheet%text%line('set contour base; set cntrparam levels auto 8; unset surface; set table $lines'//nl// &
             'splot '//data//' using 1:2:3 with lines'//nl//'unset table; unset contour; set surface; set view map')
-         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset 2.2, 0; set cbrange '//bounds(study%y(r, :)))
+         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset 0.4, 0; set cbrange '//bounds(study%y(r, :)))
          call sheet%text%line('set pm3d map interpolate 4, 4')
          call sheet%text%line('splot '//data//' using 1:2:3 with pm3d notitle, \'//nl// &
             "      $lines using 1:2:(0) with lines linecolor rgb '#FFFFFF' linewidth 1.2 notitle, \"//nl// &
@@ -270,6 +270,7 @@ contains
 
       sheet = new_sheet(name, 'Morris: size and spread of the effects', subtitle// &
          '; effect: change of the response over the full range of the factor', min(size(study%responses), most_panels))
+      sheet%left = 115
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
             order = ranked(effect%mean_size, size(study%factors))
@@ -290,7 +291,8 @@ contains
             mask=ieee_is_finite(study%effects(r)%deviation)), 1.0e-12_wp])
          data = '$points'//str(r)
          half = str(0.55_wp*range(2), 7)
-         call sheet%text%line('set xtics '//tic_step([0.0_wp, range(2)])//'; set xrange [0:'// &
+         call sheet%text%line('set ytics '//tic_step([0.0_wp, range(1)])//'; set xtics '//tic_step([0.0_wp, range(2)])// &
+            '; set xrange [0:'// &
             str(max(1.08_wp*range(2), 1.0e-12_wp), 6)//']; set yrange [0:'// &
             str(range(1), 6)//']')
          call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
@@ -298,7 +300,7 @@ contains
             '     '//data//' using ($1 < '//trim(half)//' ? $1 : NaN):2:3 with labels left offset 0.9, 0.25 notitle, \'//nl// &
             '     '//data//' using ($1 < '//trim(half)//' ? NaN : $1):2:3 with labels right offset -0.9, 0.25 notitle')
       end do
-      call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq')
+      call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq')
       text = end_panels(sheet)
    end function morris_script
 

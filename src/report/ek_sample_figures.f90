@@ -220,8 +220,8 @@ contains
          '; one line per design'//thinned(every, study%designs)// &
          cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
          height=560)
-      sheet%right = 60
-      sheet%left = 60
+      sheet%right = 95
+      sheet%left = 95
       sheet%bottom = 24
       sheet%letters = merge(12, 14, n > 7)
       do k = 1, n
