@@ -19,13 +19,13 @@ module ek_sample_figures
 
 contains
 
-   !> '; every 25th of 5000 designs' if only every so many is drawn.
+   !> '; one in 25 of the 5000 designs is drawn' if only every so many is.
    pure function thinned(every, of) result(words)
       integer, intent(in) :: every, of
       character(:), allocatable :: words
 
       words = ''
-      if (every > 1) words = '; 1 of '//str(every)//' of the '//str(of)//' designs is drawn'
+      if (every > 1) words = '; one in '//str(every)//' of the '//str(of)//' designs is drawn'
    end function thinned
 
    !> '; 9 of 12 responses'
@@ -65,7 +65,7 @@ contains
       call begin_panels(sheet)
       call sheet%text%line(blues)
       if (is_geometric(study%x(leader(1), :))) call sheet%text%line('set logscale cb')
-      call add_scale(sheet, study%factors(leader(1))%label)
+      call add_scale(sheet, study%factors(leader(1))%label, study%x(leader(1), :))
       do c = 1, sheet%panels
          call begin_panel(sheet, c, '', study%swept, study%columns(c)%label)
          if (c == 2) call sheet%text%line('unset colorbox')
@@ -75,10 +75,12 @@ contains
    end function family_script
 
    !> The scale of the colours, above the panels at the right.
-   subroutine add_scale(sheet, label)
+   subroutine add_scale(sheet, label, values)
       type(sheet_t), intent(inout) :: sheet
       character(*), intent(in) :: label
+      real(wp), intent(in) :: values(:)              !! that are coloured
 
+      if (.not. is_geometric(pack(values, ieee_is_finite(values)))) call sheet%text%line('set cbtics '//tic_step(values))
       call sheet%text%line('set colorbox horizontal user origin screen 0.74, screen '//above(sheet, 42)//' size screen 0.22, '// &
          'screen '//str(14.0_wp/full_height(sheet), 4)//" noborder; set cbtics nomirror scale 0.4 font ',12'")
       call sheet%text%line('set label 9 '//gnuplot_text(label)//' at screen 0.74, screen '//above(sheet, 14)// &
@@ -100,6 +102,7 @@ contains
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data
+      real(wp) :: base
       integer :: c, j
 
       sheet = new_sheet(name, 'The band of the curves', subtitle// &
@@ -108,13 +111,16 @@ contains
       do c = 1, sheet%panels
          call begin_data(sheet, 'band'//str(c))
          do j = 1, size(study%sweep)
-            if (ieee_is_finite(study%bands(1, c, j))) call add_numbers(sheet, [study%sweep(j), study%bands(:, c, j)])
+            if (.not. ieee_is_finite(study%bands(1, c, j))) cycle
+            base = merge(study%bands(3, c, j), 0.0_wp, is_narrow(study, c))
+            call add_numbers(sheet, [study%sweep(j), study%bands(:, c, j) - base])
          end do
          call end_data(sheet)
       end do
       call begin_panels(sheet)
       do c = 1, sheet%panels
-         call begin_panel(sheet, c, '', study%swept, study%columns(c)%label)
+         call begin_panel(sheet, c, trim(merge('deviation from the median', '                         ', is_narrow(study, c))), &
+            study%swept, study%columns(c)%label)
          data = '$band'//str(c)
          call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
             '     '//data//" using 1:3:5 with filledcurves fillcolor rgb '#80BAD8' notitle, \"//nl// &
@@ -122,6 +128,17 @@ contains
       end do
       text = end_panels(sheet)
    end function fan_script
+
+   !> Whether the band is too narrow to be seen beside its curve: then the deviation from the median is drawn.
+   pure logical function is_narrow(study, c)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: c                       !! column
+      real(wp) :: range(2), width(2)
+
+      range = range_of_values(study%bands(3, c, :))
+      width = range_of_values(study%bands(5, c, :) - study%bands(1, c, :))
+      is_narrow = width(2) < 0.05_wp*(range(2) - range(1))
+   end function is_narrow
 
    !> Responses over factors; the factors with the largest rank correlations if there are many.
    function scatter_script(study, name, subtitle) result(text)
@@ -244,7 +261,7 @@ contains
       call begin_panels(sheet)
       call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
       call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.16]')
-      call add_scale(sheet, study%responses(1)%label)
+      call add_scale(sheet, study%responses(1)%label, study%y(1, :))
       do k = 1, n
          place = ' at first '//str(k)//', first '
          call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
@@ -263,7 +280,7 @@ contains
       end do
       call begin_panel(sheet, 1, '', '', '')
       call sheet%text%line("plot $lines using 1:2:3 with lines linewidth 1 linecolor palette notitle")
-      call sheet%text%line('unset label; unset arrow; set border 3; set xrange [*:*]; set yrange [*:*]')
+      call sheet%text%line('set cbtics autofreq; unset label; unset arrow; set border 3; set xrange [*:*]; set yrange [*:*]')
       text = end_panels(sheet)
    end function parallel_script
 

@@ -81,23 +81,18 @@ contains
          maxval(values, mask=ieee_is_finite(values))]
    end function range_of_values
 
-   !> Whether positive values span a decade or so in equal ratios rather than equal steps: the middle level tells.
+   !> Whether positive values span a factor of 4 or more in equal ratios rather than equal steps: their median tells.
    pure logical function is_geometric(values)
       real(wp), intent(in) :: values(:)
-      real(wp) :: low, high, middle, geometric
-      integer :: k
+      real(wp) :: low, high
 
       is_geometric = .false.
+      if (size(values) == 0) return
       low = minval(values)
       high = maxval(values)
       if (.not. low > 0.0_wp) return
-      if (high < 4.0_wp*low) return
-      geometric = sqrt(low*high)
-      middle = values(1)                             ! the level next to the geometric mean, if there is one at all
-      do k = 1, size(values)
-         if (abs(log(values(k)/geometric)) < abs(log(middle/geometric))) middle = values(k)
-      end do
-      is_geometric = middle < 0.35_wp*(low + high)
+      if (low > 0.25_wp*high) return
+      is_geometric = 2*count(values < 0.42_wp*(low + high)) >= size(values)
    end function is_geometric
 
    !> A step that puts about four tics on an axis.

@@ -22,7 +22,7 @@ module ek_study_sheet
       integer :: panels = 1, columns = 1
       integer :: width = 1200                     !! pixels
       integer :: height = 420                     !! of a row of panels
-      integer :: left = 95, right = 30, bottom = 72, top = 34      !! margins of a panel, pixels
+      integer :: left = 104, right = 30, bottom = 72, top = 34      !! margins of a panel, pixels
       integer :: letters = 15                     !! size of the font
       type(buffer_t) :: text
    end type sheet_t
