@@ -40,7 +40,7 @@ module ek_study_results
       integer :: used = 0
    end type lines_t
 
-   !> Failures with the same words, apart from their numbers.
+   !> Failures with the same message, apart from the numbers in it.
    type :: reason_t
       character(:), allocatable :: pattern, words
       integer :: count = 0, design = 0
@@ -275,7 +275,7 @@ contains
       if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
    end subroutine name_response
 
-   !> Counts a failure with those whose words are the same.
+   !> Counts a failure with those of the same message.
    subroutine count_reason(field, design, reasons)
       character(*), intent(in) :: field              !! of the table, in quotes
       integer, intent(in) :: design

@@ -87,7 +87,7 @@ contains
          " left font ',13' textcolor rgb '#404040'")
    end subroutine add_scale
 
-   !> A place so many pixels below the upper edge.
+   !> The screen coordinate of a point so many pixels below the upper edge.
    pure function above(sheet, pixels) result(text)
       type(sheet_t), intent(in) :: sheet
       integer, intent(in) :: pixels

@@ -49,7 +49,7 @@ module ek_study_data
       integer :: design = 0
       real(wp) :: value = 0.0_wp
       character(:), allocatable :: settings            !! --set a=1 --set b=2
-      character(:), allocatable :: fragment            !! of the deck; '' if it cannot be told
+      character(:), allocatable :: fragment            !! of the deck; '' if it is not known
    end type extreme_t
 
    type :: study_data_t
@@ -81,7 +81,7 @@ contains
          maxval(values, mask=ieee_is_finite(values))]
    end function range_of_values
 
-   !> Whether positive values span a factor of 4 or more in equal ratios rather than equal steps: their median tells.
+   !> Whether positive values span a factor of 4 or more in equal ratios rather than equal steps, judged by their median.
    pure logical function is_geometric(values)
       real(wp), intent(in) :: values(:)
       real(wp) :: low, high

@@ -46,7 +46,7 @@ contains
 
       applies = rule%kinds == '*' .or. index(' '//rule%kinds, ' '//trim(study%kind)//' ') > 0
       if (rule%needs_curves) applies = applies .and. size(study%columns) > 0 .and. size(study%drawn) > 0
-      if (rule%needs_responses) applies = applies .and. size(study%responses) > 0
+      if (rule%needs_responses) applies = applies .and. any(study%summaries%used > 0)
       applies = applies .and. size(study%factors) >= rule%least_factors .and. size(study%factors) <= rule%most_factors .and. &
          study%designs >= rule%least_designs
       if (applies .and. rule%name == 'map') applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. &

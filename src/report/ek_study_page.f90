@@ -174,7 +174,7 @@ contains
       end do
    end subroutine add_figures
 
-   !> The numbers of the kinds that tell what the factors do.
+   !> The table of what the factors do, for the kinds that yield it.
    subroutine add_effects(page, study)
       type(page_t), intent(inout) :: page
       type(study_data_t), intent(in) :: study

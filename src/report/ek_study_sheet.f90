@@ -22,7 +22,7 @@ module ek_study_sheet
       integer :: panels = 1, columns = 1
       integer :: width = 1200                     !! pixels
       integer :: height = 420                     !! of a row of panels
-      integer :: left = 104, right = 30, bottom = 72, top = 34      !! margins of a panel, pixels
+      integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel, pixels
       integer :: letters = 15                     !! size of the font
       type(buffer_t) :: text
    end type sheet_t
@@ -40,7 +40,7 @@ contains
       sheet%subtitle = subtitle
       sheet%panels = max(1, panels)
       sheet%columns = merge(3, merge(2, 1, panels > 1), panels > 4)
-      sheet%height = merge(360, merge(480, 640, panels > 1), panels > 4)
+      sheet%height = merge(370, merge(490, 640, panels > 1), panels > 4)
       if (present(height)) then
          if (height > 0) sheet%height = height
       end if
