@@ -78,7 +78,11 @@ contains
       call name_axes(study, designer, data)
       call read_rows(study, deck_checksum(deck), join_path(out, responses_name(study)), data, error)
       if (allocated(error)) return
-      if (size(data%columns) > 0) call read_curves(join_path(out, curves_name(study)), data, error)
+      if (size(data%columns) > 0) then
+         call read_curves(join_path(out, curves_name(study)), data, error)
+      else
+         allocate (data%drawn(0), data%sweep(0), data%curves(0, 0, 0), data%bands(size(percents), 0, 0))
+      end if
       if (allocated(error)) return
       allocate (data%summaries(size(data%responses)), data%effects(size(data%responses)), data%extremes(0))
       do r = 1, size(data%responses)
