@@ -262,9 +262,12 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
       type(study_factor_t), intent(in) :: this
+      logical :: is_reversed
 
       if (study%kind == list_kind) return        ! its values are in the list
-      if (is_given(this%lower) .and. is_given(this%upper) .and. .not. this%lower < this%upper) then
+      is_reversed = .false.
+      if (is_given(this%lower) .and. is_given(this%upper)) is_reversed = this%lower >= this%upper
+      if (is_reversed) then
          call complain(reading, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
       else if (is_given(this%tolerance) .and. is_given(this%deviation)) then
          call complain(reading, 'deviation', 'give tolerance or deviation, not both')
