@@ -29,7 +29,8 @@ module ek_study_results
    integer, parameter :: most_ranked = 20000         !! designs of a rank correlation
    integer, parameter :: most_reasons = 12           !! kinds of failures
    integer, parameter :: most_steps = 120            !! of the running mean
-   integer, parameter :: longest_line = 200000       !! characters
+   integer, parameter :: longest_line = 200000       !! characters, of the column names
+   integer, parameter :: longest_message = 1000      !! characters of a reason that are kept
    real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
 
    !> A table that is read line by line.
@@ -176,6 +177,9 @@ contains
          names = [character(64) :: names, lines%content(first:comma - 1)]
          first = comma + 1
       end do
+      ! Fortran fills the text with blanks for every line: no longer than a row of numbers and a message
+      deallocate (lines%content)
+      allocate (character(28*size(names) + longest_message) :: lines%content)
    end subroutine open_table
 
    !> The next line that is not empty; status is not 0 at the end.
@@ -186,6 +190,7 @@ contains
       do
          lines%used = 0
          read (lines%unit, '(a)', advance='no', iostat=status, size=lines%used) lines%content
+         if (status == 0) read (lines%unit, '()', iostat=status)     ! the rest of a long message is not needed
          if (is_iostat_eor(status)) status = 0
          if (status /= 0) return
          lines%line = lines%line + 1
