@@ -9,6 +9,7 @@ module ek_command
    use ek_report, only: report
    use ek_compare, only: compare
    use ek_study_command, only: run_study_command, run_merge_command
+   use ek_plot, only: run_plot_command
    use ek_bench, only: bench
    implicit none(type, external)
    private
@@ -41,11 +42,16 @@ module ek_command
       'The table is also printed to standard output and written to differences.csv. Columns missing from one'//nl// &
       'result are listed.', '', 2), &
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'many designs of a deck, or step-size convergence', &
-      'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, runs the study''s plot'//nl// &
-      'script there. A study that was stopped or killed goes on where it was: DIR/<study>.parts keeps what is done.', &
+      'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
+      'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
+      'that was stopped or killed goes on where it was: DIR/<study>.parts keeps what is done.', &
       'Exit status 4: stopped, or a design failed (see the columns status and reason; the others are written).'), &
       command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'the tables of a study that ran in shards', &
       'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', ''), &
+      command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'figures and page of a finished study', &
+      'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
+      'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
+      'Which figures there are follows from the kind of the study and from its columns and responses.', ''), &
       command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
@@ -84,8 +90,14 @@ module ek_command
       option_t('study', '--status', 'print how far the study is, and end'), &
       option_t('study', '--set path=value', 'change the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
+      option_t('study', '--no-plots', no_plots_help), &
       option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), &
-      option_t('merge', '--quiet', ''), &
+      option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
+      option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado sobol morris line map fan family'//indent// &
+      'histogram scatter parallel convergence'), &
+      option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
+      option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
+      option_t('plot', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
       option_t('', '--help', ''), option_t('', '--version', '')]
@@ -110,6 +122,8 @@ contains
          call run_study_command(line, error)
       case ('merge')
          call run_merge_command(line, error)
+      case ('plot')
+         call run_plot_command(line, error)
       case ('bench')
          call bench(line, error)
       end select

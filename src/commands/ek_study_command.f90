@@ -24,6 +24,7 @@ module ek_study_command
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
+   use ek_plot, only: draw_study
    use ek_console, only: print_note, print_warning, print_error, print_path, print_text
    implicit none(type, external)
    private
@@ -339,11 +340,16 @@ contains
       do k = 1, tables%count()
          call print_path(join_path(this%out, tables%line(k)), unprinted)
       end do
+      if (line%has('--no-plots')) then
+         if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+         return
+      end if
       if (this%has_store) then
-         if (file_exists(join_path(this%home, this%study%plot))) call print_note(line%has('--quiet'), 'no figures: '// &
-            this%study%plot//' reads CSV (format = ''csv'' in the study)')
+         call print_note(line%has('--quiet'), 'no figures: they are drawn from CSV tables (format = ''csv'' in the study)')
       else
-         call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
+         if (this%study%kind /= step_size_kind) call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, &
+            message_list_t(), line%has('--quiet'), undrawn)
+         if (.not. allocated(undrawn)) call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
       end if
       if (allocated(undrawn)) then
          if (allocated(error)) call print_error(undrawn%message)

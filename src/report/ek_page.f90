@@ -31,7 +31,8 @@ module ek_page
       'nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:6px 18px;margin:10px 0;padding:0;font-size:.92rem}'//nl// &
       'dl{display:flex;flex-wrap:wrap;gap:6px 32px;margin:12px 0}dl div{min-width:0}dt{color:var(--soft);font-size:.8rem}'// &
       'dd{margin:0;overflow-wrap:anywhere}'//nl//'.scroll{overflow-x:auto;margin:10px 0;-webkit-overflow-scrolling:touch}'// &
-      'table{border-collapse:collapse;font-size:.9rem;min-width:100%}'//nl//'th,td{text-align:left;padding:4px 14px 4px 0;'// &
+      'table{border-collapse:collapse;font-size:.9rem;min-width:100%}pre{overflow-x:auto;background:var(--band);'// &
+      'padding:10px 14px;font-size:.82rem;margin:6px 0 14px}'//nl//'th,td{text-align:left;padding:4px 14px 4px 0;'// &
       'border-bottom:1px solid var(--line);vertical-align:baseline}thead th{color:var(--soft);font-weight:600;'// &
       'font-size:.8rem;white-space:nowrap}'//nl//'td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;'// &
       'white-space:nowrap}td.s{color:var(--soft);font-size:.82rem}tr.group th{padding-top:16px;font-weight:650}'//nl// &

@@ -19,7 +19,7 @@ module ek_study_design
    use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
    implicit none(type, external)
    private
-   public :: designer_t, new_designer, solve_design, label_of, shortest
+   public :: designer_t, begin_designer, new_designer, solve_design, label_of, shortest
 
    !> What one thread keeps from design to design.
    type :: designer_t
@@ -37,13 +37,12 @@ module ek_study_design
 
 contains
 
-   !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
-   subroutine new_designer(study, deck, home, designer, error)
+   !> Reads the deck and finds the numbers that the factors change; nothing is solved.
+   subroutine begin_designer(study, deck, designer, error)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
-      character(*), intent(in) :: home                     !! folder of the study with its slash
       type(designer_t), intent(out) :: designer
-      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the study
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the paths
       integer :: k
 
       call list_cases(study, designer)
@@ -56,6 +55,19 @@ contains
       do k = 1, size(study%factors)
          call find_paths(study, k, designer)
       end do
+   end subroutine begin_designer
+
+   !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
+   subroutine new_designer(study, deck, home, designer, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: home                     !! folder of the study with its slash
+      type(designer_t), intent(out) :: designer
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: all mistakes of the study
+      integer :: k
+
+      call begin_designer(study, deck, designer, error)
+      if (allocated(error)) return
       allocate (designer%options(size(designer%case_names)), designer%results(size(designer%case_names)))
       do k = 1, size(designer%case_names)
          call list_columns(study, designer, k)

@@ -16,7 +16,7 @@ module ek_study_plan
    use ek_chunk, only: chunk_t, new_chunk
    implicit none(type, external)
    private
-   public :: study_plan_t, new_plan, begin_chunk
+   public :: study_plan_t, new_plan, plan_sampler, begin_chunk
 
    integer, parameter :: max_designs = 2000000000
    integer, parameter :: usual_chunks = 400       !! of a large study
@@ -45,25 +45,11 @@ contains
       type(study_plan_t), intent(out) :: plan
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
       type(sampler_settings_t) :: settings
-      type(factor_t) :: factors(size(study%factors))
       type(checksum_t) :: sum
-      integer :: f, k
+      integer :: k
 
-      settings = study%settings
-      if (study%kind == list_kind) call read_list(study, home, settings%rows, error)
-      do f = 1, size(factors)
-         if (.not. allocated(error)) call define_factor(study%factors(f), study%kind, &
-            deck_value(designer%worker, designer%paths(f)), factors(f), error)
-      end do
-      if (.not. allocated(error)) then
-         call new_sampler(settings, factors, plan%sampler, error)
-         if (allocated(error)) error%message = study%where//': '//error%message
-      end if
+      call plan_sampler(study, home, designer, settings, plan%sampler, error)
       if (allocated(error)) return
-      if (designs_of(plan%sampler) > max_designs) then
-         call fail(error, exit_deck, study%where//': the study has more than '//str(max_designs)//' designs')
-         return
-      end if
       plan%designs = int(designs_of(plan%sampler))
       plan%chunk = study%chunk
       if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, min_chunk), max_chunk)
@@ -96,6 +82,33 @@ contains
       end subroutine include_numbers
 
    end subroutine new_plan
+
+   !> The sampler of a study. Nothing of the designer but the numbers of the deck is used.
+   subroutine plan_sampler(study, home, designer, settings, sampler, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: home                     !! folder of the study with its slash
+      type(designer_t), intent(in) :: designer
+      type(sampler_settings_t), intent(out) :: settings    !! with the rows of a list
+      type(sampler_t), intent(out) :: sampler
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
+      type(factor_t) :: factors(size(study%factors))
+      integer :: f
+
+      settings = study%settings
+      if (study%kind == list_kind) call read_list(study, home, settings%rows, error)
+      do f = 1, size(factors)
+         if (.not. allocated(error)) call define_factor(study%factors(f), study%kind, &
+            deck_value(designer%worker, designer%paths(f)), factors(f), error)
+      end do
+      if (.not. allocated(error)) then
+         call new_sampler(settings, factors, sampler, error)
+         if (allocated(error)) error%message = study%where//': '//error%message
+      end if
+      if (allocated(error)) return
+      if (designs_of(sampler) > max_designs) then
+         call fail(error, exit_deck, study%where//': the study has more than '//str(max_designs)//' designs')
+      end if
+   end subroutine plan_sampler
 
    !> Reads the designs of a list: a column per factor, of its name; other columns are not used.
    subroutine read_list(study, home, rows, error)

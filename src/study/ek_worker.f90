@@ -20,7 +20,7 @@ module ek_worker
    use ek_study, only: by_value, by_delta, not_given
    implicit none(type, external)
    private
-   public :: worker_t, worker_case_t, factor_paths_t, make_worker, change_design, deck_value
+   public :: worker_t, worker_case_t, factor_paths_t, make_worker, change_design, put_factor, deck_value
 
    !> The parameters of one factor.
    type :: factor_paths_t

@@ -1,0 +1,180 @@
+!> What is computed from the responses of a finished study: statistics, what the factors do, best and worst designs.
+module ek_study_findings
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp, i8
+   use ek_study, only: study_t
+   use ek_sampler, only: sampler_t, changed_factor
+   use ek_sampler_kind, only: one_at_a_time_kind, saltelli_kind, morris_kind
+   use ek_study_design, only: designer_t, label_of
+   use ek_sensitivity, only: sobol_indices_t, sobol_indices, morris_effects_t, morris_effects, tornado_t, tornado
+   use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, rank_correlation
+   use ek_study_data, only: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents
+   use ek_deck_fragment, only: deck_fragment
+   implicit none(type, external)
+   private
+   public :: summarise, find_effects, find_extremes
+
+   integer, parameter :: most_ranked = 20000         !! designs of a rank correlation
+   integer, parameter :: most_steps = 120            !! of the running mean
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+
+contains
+
+   !> Mean, deviation, percentiles, histogram and running mean of a response.
+   subroutine summarise(axis, all_values, summary)
+      type(study_axis_t), intent(in) :: axis
+      real(wp), intent(in) :: all_values(:)          !! in the order of the designs, NaN without a value
+      type(summary_t), intent(out) :: summary
+      real(wp), allocatable :: values(:), sorted(:)
+      integer, allocatable :: order(:)
+      real(wp) :: width, sum_of, square
+      integer :: k, n, bins, step
+
+      n = count(ieee_is_finite(all_values))
+      allocate (values(n), sorted(n))
+      values(:) = pack(all_values, ieee_is_finite(all_values))
+      summary%used = n
+      allocate (summary%counts(0), summary%steps(0), summary%running(0), summary%half(0))
+      if (n == 0) return
+      call mean_and_deviation(values, summary%mean, summary%deviation)
+      allocate (order(n))
+      call ascending_order(values, order)
+      sorted(:) = values(order)
+      summary%lowest = sorted(1)
+      summary%highest = sorted(n)
+      do k = 1, size(percents)
+         summary%percentiles(k) = percentile(sorted, 0.01_wp*percents(k))
+      end do
+      summary%within = count(values >= axis%lower .and. values <= axis%upper)
+      ! intervals after D. Freedman, P. Diaconis, Z. Wahrscheinlichkeitstheorie 57 (1981): 2 × interquartile range / ∛n
+      width = 2.0_wp*(summary%percentiles(4) - summary%percentiles(2))/real(n, wp)**(1.0_wp/3.0_wp)
+      bins = 8
+      if (width*60.0_wp > summary%highest - summary%lowest) bins = ceiling((summary%highest - summary%lowest)/width)
+      if (width > 0.0_wp .and. .not. width*60.0_wp > summary%highest - summary%lowest) bins = 60
+      bins = max(1, min(60, bins))
+      if (.not. summary%highest > summary%lowest) bins = 1
+      summary%counts = spread(0, 1, bins)
+      do k = 1, n
+         step = 1
+         if (bins > 1) step = min(bins, 1 + int(bins*((values(k) - summary%lowest)/(summary%highest - summary%lowest))))
+         summary%counts(step) = summary%counts(step) + 1
+      end do
+      sum_of = 0.0_wp
+      square = 0.0_wp
+      step = 2
+      do k = 1, n                                    ! relative to the mean of all: no cancellation
+         sum_of = sum_of + (values(k) - summary%mean)
+         square = square + (values(k) - summary%mean)**2
+         if (k < step .and. k < n) cycle
+         if (k < 2) cycle
+         summary%steps = [summary%steps, k]
+         summary%running = [summary%running, summary%mean + sum_of/k]
+         summary%half = [summary%half, normal_95*sqrt(max(0.0_wp, (square - sum_of**2/k)/(k - 1.0_wp))/k)]
+         step = max(k + 1, nint(k*real(n, wp)**(1.0_wp/most_steps)))
+      end do
+   end subroutine summarise
+
+   !> What the factors do to a response, as the kind of the study yields it.
+   subroutine find_effects(study, sampler, data, r, effects)
+      type(study_t), intent(in) :: study
+      type(sampler_t), intent(in) :: sampler
+      type(study_data_t), intent(in) :: data
+      integer, intent(in) :: r
+      type(effects_t), intent(out) :: effects
+      type(sobol_indices_t) :: indices
+      type(morris_effects_t) :: elementary
+      type(tornado_t) :: bars
+      logical, allocatable :: is_used(:)
+      integer :: f, k, d, n
+
+      k = size(data%factors)
+      n = min(data%designs, most_ranked)
+      allocate (effects%correlation(k))
+      effects%correlation = ieee_value(1.0_wp, ieee_quiet_nan)
+      is_used = ieee_is_finite(data%y(r, :n))
+      if (count(is_used) > 2) then
+         do f = 1, k
+            effects%correlation(f) = rank_correlation(pack(data%x(f, :n), is_used), pack(data%y(r, :n), is_used))
+         end do
+      end if
+      select case (study%kind)
+      case (saltelli_kind)
+         call sobol_indices(k, data%y(r, :), indices)
+         effects%first = indices%first
+         effects%total = indices%total
+         effects%first_error = indices%first_error
+         effects%total_error = indices%total_error
+         effects%used = indices%used
+      case (morris_kind)
+         call morris_effects(sampler, data%y(r, :), elementary)
+         effects%mean_size = elementary%mean_size
+         effects%deviation = elementary%deviation
+      case (one_at_a_time_kind)
+         call tornado(sampler, data%y(r, :), bars)
+         effects%nominal = bars%nominal
+         effects%lowest = bars%lowest
+         effects%highest = bars%highest
+         effects%at_low = spread(bars%nominal, 1, k)
+         effects%at_high = effects%at_low
+         do f = 1, k
+            ! the response at the smallest and at the largest value of the factor
+            associate (low => data%x(f, 1), values => data%x(f, :))
+               do d = 2, data%designs
+                  if (changed_factor(sampler, int(d, i8)) /= f .or. .not. ieee_is_finite(data%y(r, d))) cycle
+                  if (values(d) <= minval(values)) effects%at_low(f) = data%y(r, d)
+                  if (values(d) >= maxval(values) .and. values(d) > low) effects%at_high(f) = data%y(r, d)
+               end do
+            end associate
+         end do
+      end select
+   end subroutine find_effects
+
+   !> The best and the worst design of a response: by its limits, otherwise the smallest and the largest.
+   subroutine find_extremes(study, designer, data, r)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(study_data_t), intent(inout) :: data
+      integer, intent(in) :: r
+      real(wp), allocatable :: margin(:)
+      logical :: is_judged
+
+      associate (y => data%y(r, :), axis => data%responses(r))
+         if (.not. any(ieee_is_finite(y))) return
+         is_judged = axis%lower > -huge(1.0_wp) .or. axis%upper < huge(1.0_wp)
+         allocate (margin(size(y)))
+         margin(:) = -y
+         if (is_judged) margin(:) = min(y - axis%lower, axis%upper - y)
+         if (axis%upper >= huge(1.0_wp) .and. is_judged) margin(:) = y - axis%lower
+         if (axis%lower <= -huge(1.0_wp) .and. is_judged) margin(:) = axis%upper - y
+         is_judged = is_judged .or. study%responses(r)%of == 'rms'
+         call add(maxloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('best    ', 'smallest', is_judged)))
+         call add(minloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('worst   ', 'largest ', is_judged)))
+      end associate
+
+   contains
+
+      subroutine add(design, what)
+         integer, intent(in) :: design
+         character(*), intent(in) :: what
+         type(extreme_t) :: one
+         character(:), allocatable :: label
+         integer :: k
+
+         one%response = r
+         one%what = what
+         one%design = design
+         one%value = data%y(r, design)
+         label = label_of(study, data%x(:, design))
+         one%settings = '--set "'
+         do k = 1, len(label)
+            if (label(k:k) == ' ') one%settings = one%settings//'" --set "'
+            if (label(k:k) /= ' ') one%settings = one%settings//label(k:k)
+         end do
+         one%settings = one%settings//'"'
+         one%fragment = deck_fragment(designer, data%x(:, design))
+         data%extremes = [data%extremes, one]
+      end subroutine add
+
+   end subroutine find_extremes
+
+end module ek_study_findings

@@ -1,0 +1,378 @@
+!> The results of a finished study for its figures and its page: the tables are read line by line.
+!>
+!> Of a table of many designs all factors and responses are kept (8 bytes each), of the curves those of 5,000 designs at most.
+module ek_study_results
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_file
+   use ek_text, only: str, plural
+   use ek_file, only: join_path, file_exists
+   use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
+   use ek_deck, only: deck_t, deck_checksum
+   use ek_study, only: study_t, by_delta, by_scale
+   use ek_sampler, only: sampler_t, designs_of
+   use ek_sampler_kind, only: sampler_kinds
+   use ek_sampler_settings, only: sampler_settings_t
+   use ek_study_design, only: designer_t, begin_designer
+   use ek_study_plan, only: plan_sampler
+   use ek_study_tables, only: responses_name, curves_name, has_limits
+   use ek_sample_statistics, only: ascending_order, percentile
+   use ek_study_data, only: study_data_t, study_axis_t, percents
+   use ek_deck_fragment, only: factor_unit
+   use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
+   use ek_study_findings, only: summarise, find_effects, find_extremes
+   implicit none(type, external)
+   private
+   public :: read_results_of
+
+   integer, parameter :: most_curves = 5000          !! designs whose curves are kept
+   integer, parameter :: most_reasons = 12           !! kinds of failures
+
+   !> Failures with the same message, apart from the numbers in it.
+   type :: reason_t
+      character(:), allocatable :: pattern, words
+      integer :: count = 0, design = 0
+   end type reason_t
+
+contains
+
+   !> Reads the tables of a study that is finished; nothing is solved.
+   subroutine read_results_of(study, deck, home, out, data, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: home               !! folder of the study with its slash
+      character(*), intent(in) :: out                !! folder of the tables
+      type(study_data_t), intent(out) :: data
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
+      type(designer_t) :: designer
+      type(sampler_settings_t) :: settings
+      type(sampler_t) :: sampler
+      integer :: r
+
+      if (.not. file_exists(join_path(out, responses_name(study)))) then
+         call fail(error, exit_file, 'there is no '//join_path(out, responses_name(study))// &
+            ': the study is not finished, or its results are in another folder (--out)')
+         return
+      end if
+      call begin_designer(study, deck, designer, error)
+      if (.not. allocated(error)) call plan_sampler(study, home, designer, settings, sampler, error)
+      if (allocated(error)) return
+      data%name = study%name
+      data%title = study%title
+      data%kind = trim(sampler_kinds(study%kind)%name)
+      data%deck = study%deck
+      data%case = trim(designer%worker%cases(1)%case%name)
+      data%designs = int(designs_of(sampler))
+      call name_axes(study, designer, data)
+      call read_rows(study, deck_checksum(deck), join_path(out, responses_name(study)), data, error)
+      if (allocated(error)) return
+      if (size(data%columns) > 0) then
+         call read_curves(join_path(out, curves_name(study)), data, error)
+      else
+         allocate (data%drawn(0), data%sweep(0), data%curves(0, 0, 0), data%bands(size(percents), 0, 0))
+      end if
+      if (allocated(error)) return
+      allocate (data%summaries(size(data%responses)), data%effects(size(data%responses)), data%extremes(0))
+      do r = 1, size(data%responses)
+         call summarise(data%responses(r), data%y(r, :), data%summaries(r))
+         call find_effects(study, sampler, data, r, data%effects(r))
+         call find_extremes(study, designer, data, r)
+      end do
+   end subroutine read_results_of
+
+   !> Names and labels of factors, responses and columns.
+   subroutine name_axes(study, designer, data)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(study_data_t), intent(inout) :: data
+      type(quantity_t) :: quantity
+      character(:), allocatable :: unit
+      integer :: k, j
+
+      allocate (data%factors(size(study%factors)), data%responses(size(study%responses)), data%columns(size(study%columns)))
+      do k = 1, size(study%factors)
+         associate (axis => data%factors(k), factor => study%factors(k))
+            axis%name = factor%name
+            unit = factor_unit(designer, k)
+            if (factor%change == by_scale) unit = '× deck'
+            axis%label = factor%name
+            if (factor%change == by_delta) axis%label = 'Δ '//factor%name
+            if (unit /= '') axis%label = axis%label//' ['//unit//']'
+            axis%note = trim(factor%paths(1))
+            do j = 2, size(factor%paths)
+               axis%note = axis%note//', '//trim(factor%paths(j))
+            end do
+         end associate
+      end do
+      do k = 1, size(study%responses)
+         associate (axis => data%responses(k), response => study%responses(k))
+            axis%name = response%name
+            axis%label = response%name
+            axis%note = response%of//' of '//response%column
+            if (response%case /= '') axis%note = axis%note//', case '//response%case
+            axis%lower = response%lower
+            axis%upper = response%upper
+         end associate
+      end do
+      do k = 1, size(study%columns)
+         quantity = quantity_named(trim(study%columns(k)))
+         associate (axis => data%columns(k))
+            axis%name = trim(study%columns(k))
+            axis%label = trim(quantity%title)
+            axis%note = trim(quantity%sign)
+            if (axis%label == '') axis%label = axis%name
+            if (unit_of(axis%name) /= '' .and. axis%label /= axis%name) &
+               axis%label = axis%label//' ['//unit_text(unit_of(axis%name))//']'
+         end associate
+      end do
+   end subroutine name_axes
+
+   !> The table of responses.
+   subroutine read_rows(study, deck_sum, path, data, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: deck_sum, path
+      type(study_data_t), intent(inout) :: data
+      type(error_t), allocatable, intent(out) :: error
+      type(lines_t) :: lines
+      type(reason_t), allocatable :: reasons(:)
+      character(64), allocatable :: names(:)
+      real(wp), allocatable :: values(:)
+      integer :: k, m, status, rest, d
+
+      call open_table(path, deck_sum, lines, names, error)
+      k = size(data%factors)
+      m = size(data%responses)
+      if (.not. allocated(error)) then
+         if (size(names) /= 1 + k + m + merge(3, 2, has_limits(study))) call wrong()
+      end if
+      if (.not. allocated(error)) then
+         if (any(names(2:k + 1) /= [character(64) :: (data%factors(d)%name, d=1, k)])) call wrong()
+      end if
+      if (.not. allocated(error)) then
+         do d = 1, m
+            call name_response(study, d, trim(names(1 + k + d)), data%responses(d))
+         end do
+         allocate (values(size(names) - 1), data%x(k, data%designs), data%y(m, data%designs), reasons(0))
+         d = 0
+         do
+            call next_line(lines, status)
+            if (status /= 0) exit
+            d = d + 1
+            if (d > data%designs) exit
+            call take_numbers(lines%content(:lines%used), values, rest)
+            data%x(:, d) = values(2:k + 1)
+            data%y(:, d) = values(k + 2:k + m + 1)
+            if (has_limits(study)) data%within = data%within + merge(1, 0, values(k + m + 2) > 0.5_wp)
+            if (values(size(values)) < 0.5_wp) cycle
+            data%failed = data%failed + 1
+            call count_reason(lines%content(rest:lines%used), d, reasons)
+         end do
+         if (d /= data%designs) call wrong()
+         call list_reasons(reasons, data%reasons)
+      end if
+      call close_table(lines)
+
+   contains
+
+      subroutine wrong()
+         if (.not. allocated(error)) call fail(error, exit_file, path//': this is not the table of the '// &
+            plural(data%designs, 'design', 'designs')//' of the study; run the study again')
+      end subroutine wrong
+
+   end subroutine read_rows
+
+   !> The label of a response: its column heading and its unit.
+   subroutine name_response(study, number, head, axis)
+      type(study_t), intent(in) :: study
+      integer, intent(in) :: number
+      character(*), intent(in) :: head
+      type(study_axis_t), intent(inout) :: axis
+      character(:), allocatable :: unit
+
+      axis%name = head
+      unit = unit_of(trim(study%responses(number)%column))
+      if (study%responses(number)%of == 'slope') unit = unit_of(head)
+      axis%label = study%responses(number)%name
+      if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
+   end subroutine name_response
+
+   !> Counts a failure with those of the same message.
+   subroutine count_reason(field, design, reasons)
+      character(*), intent(in) :: field              !! of the table, in quotes
+      integer, intent(in) :: design
+      type(reason_t), allocatable, intent(inout) :: reasons(:)
+      type(reason_t) :: new
+      integer :: k
+
+      new%words = field
+      if (len(field) > 1) new%words = field(2:len(field) - 1)
+      new%pattern = ''
+      do k = 1, len(new%words)
+         if (scan(new%words(k:k), '0123456789.-+E') == 0) new%pattern = new%pattern//new%words(k:k)
+      end do
+      do k = 1, size(reasons)
+         if (reasons(k)%pattern /= new%pattern) cycle
+         reasons(k)%count = reasons(k)%count + 1
+         return
+      end do
+      if (size(reasons) >= most_reasons) then
+         reasons(most_reasons)%count = reasons(most_reasons)%count + 1
+         reasons(most_reasons)%words = 'other reasons'
+         return
+      end if
+      new%count = 1
+      new%design = design
+      reasons = [reasons, new]
+   end subroutine count_reason
+
+   !> '12 designs, for instance design 7: case 'sweep': no equilibrium'
+   subroutine list_reasons(reasons, list)
+      type(reason_t), intent(in) :: reasons(:)
+      type(message_list_t), intent(inout) :: list
+      integer :: k
+
+      do k = 1, size(reasons)
+         if (reasons(k)%count == 1) call list%add('design '//str(reasons(k)%design)//': '//reasons(k)%words)
+         if (reasons(k)%count > 1) call list%add(str(reasons(k)%count)//' designs, the first design '//str(reasons(k)%design)// &
+            ': '//reasons(k)%words)
+      end do
+   end subroutine list_reasons
+
+   !> The curves of every n-th design, and their bands.
+   subroutine read_curves(path, data, error)
+      character(*), intent(in) :: path
+      type(study_data_t), intent(inout) :: data
+      type(error_t), allocatable, intent(out) :: error
+      type(lines_t) :: lines
+      character(64), allocatable :: names(:)
+      real(wp), allocatable :: values(:), rows(:, :), grown(:, :)
+      integer :: k, c, status, used, every, rest, last
+
+      call open_table(path, '', lines, names, error)
+      k = size(data%factors)
+      c = size(data%columns)
+      if (.not. allocated(error) .and. size(names) /= k + c + 2) call fail(error, exit_file, path// &
+         ': this is not the table of curves of the study; run the study again')
+      if (.not. allocated(error)) then
+         every = (data%designs + most_curves - 1)/most_curves
+         allocate (values(k + c + 2), rows(c + 2, 1024))
+         used = 0
+         do
+            call next_line(lines, status)
+            if (status /= 0) exit
+            if (every > 1) then
+               call take_numbers(lines%content(:lines%used), values(:1), rest)
+               if (mod(nint(values(1)) - 1, every) /= 0) cycle
+            end if
+            call take_numbers(lines%content(:lines%used), values, rest)
+            used = used + 1
+            if (used > size(rows, 2)) then
+               last = size(rows, 2)
+               allocate (grown(c + 2, 2*last))
+               grown(:, :last) = rows
+               call move_alloc(grown, rows)
+            end if
+            rows(:, used) = [values(1), values(k + 2:)]
+         end do
+         call sort_curves(rows(:, :used), data)
+         call find_bands(data)
+         call name_sweep(data)
+      end if
+      call close_table(lines)
+   end subroutine read_curves
+
+   !> Puts the states of each design at the swept values of the design that has most of them.
+   subroutine sort_curves(rows, data)
+      real(wp), intent(in) :: rows(:, :)             !! (design, swept value, columns; state)
+      type(study_data_t), intent(inout) :: data
+      integer, allocatable :: begins(:)
+      real(wp) :: near
+      integer :: k, j, d, longest
+
+      allocate (begins(0))
+      d = 0
+      do k = 1, size(rows, 2)
+         if (nint(rows(1, k)) == d) cycle
+         d = nint(rows(1, k))
+         begins = [begins, k]
+      end do
+      begins = [begins, size(rows, 2) + 1]
+      allocate (data%drawn(size(begins) - 1))
+      longest = 1
+      do d = 1, size(data%drawn)
+         data%drawn(d) = nint(rows(1, begins(d)))
+         if (begins(d + 1) - begins(d) > begins(longest + 1) - begins(longest)) longest = d
+      end do
+      if (size(data%drawn) == 0) then
+         allocate (data%sweep(0), data%curves(size(data%columns), 0, 0))
+         return
+      end if
+      allocate (data%sweep(begins(longest + 1) - begins(longest)))
+      data%sweep(:) = rows(2, begins(longest):begins(longest + 1) - 1)
+      allocate (data%curves(size(data%columns), size(data%sweep), size(data%drawn)))
+      data%curves = ieee_value(1.0_wp, ieee_quiet_nan)
+      near = 1.0e-9_wp*(maxval(data%sweep) - minval(data%sweep))
+      do d = 1, size(data%drawn)
+         do k = begins(d), begins(d + 1) - 1
+            j = k - begins(d) + 1
+            if (abs(data%sweep(min(j, size(data%sweep))) - rows(2, k)) > near) &
+               j = minloc(abs(data%sweep - rows(2, k)), dim=1)
+            if (abs(data%sweep(j) - rows(2, k)) <= near) data%curves(:, j, d) = rows(3:, k)
+         end do
+      end do
+   end subroutine sort_curves
+
+   !> Percentiles at each state over the designs that have it.
+   subroutine find_bands(data)
+      type(study_data_t), intent(inout) :: data
+      real(wp), allocatable :: values(:)
+      integer, allocatable :: order(:)
+      integer :: c, j, p
+
+      allocate (data%bands(size(percents), size(data%columns), size(data%sweep)))
+      data%bands = ieee_value(1.0_wp, ieee_quiet_nan)
+      do j = 1, size(data%sweep)
+         do c = 1, size(data%columns)
+            values = pack(data%curves(c, j, :), ieee_is_finite(data%curves(c, j, :)))
+            if (size(values) == 0) cycle
+            allocate (order(size(values)))
+            call ascending_order(values, order)
+            values(:) = values(order)
+            deallocate (order)
+            do p = 1, size(percents)
+               data%bands(p, c, j) = percentile(values, 0.01_wp*percents(p))
+            end do
+         end do
+      end do
+   end subroutine find_bands
+
+   !> The label of the swept value. If it is a column of the curves, it is called so, and the column is not drawn over itself.
+   subroutine name_sweep(data)
+      type(study_data_t), intent(inout) :: data
+      logical :: is_drawn(size(data%columns))
+      real(wp) :: near
+      integer :: c, j, d
+
+      data%swept = 'swept value of '//data%case
+      if (size(data%sweep) == 0) return
+      near = 1.0e-6_wp*(maxval(data%sweep) - minval(data%sweep))
+      is_drawn = .true.
+      do c = 1, size(data%columns)
+         do d = 1, size(data%drawn)
+            do j = 1, size(data%sweep)
+               if (.not. ieee_is_finite(data%curves(c, j, d))) cycle
+               if (abs(data%curves(c, j, d) - data%sweep(j)) > near) exit
+            end do
+            if (j <= size(data%sweep)) exit
+         end do
+         is_drawn(c) = d <= size(data%drawn)
+         if (.not. is_drawn(c)) data%swept = data%columns(c)%label
+         if (.not. is_drawn(c) .and. data%columns(c)%note /= '') data%swept = data%swept//'    ('//data%columns(c)%note//')'
+      end do
+      if (all(is_drawn) .or. .not. any(is_drawn)) return
+      data%curves = data%curves(pack([(c, c=1, size(is_drawn))], is_drawn), :, :)
+      data%bands = data%bands(:, pack([(c, c=1, size(is_drawn))], is_drawn), :)
+      data%columns = pack(data%columns, is_drawn)
+   end subroutine name_sweep
+
+end module ek_study_results

@@ -1,0 +1,307 @@
+!> Figures of what the factors of a study do to its responses: maps over two factors, tornado, Sobol indices, Morris' effects.
+module ek_effect_figures
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
+   implicit none(type, external)
+   private
+   public :: map_script, line_script, tornado_script, sobol_script, morris_script
+
+   character(*), parameter :: nl = new_line('a')
+   integer, parameter :: most_bars = 15           !! factors of a panel, the most important ones
+   integer, parameter :: named_points = 8         !! factors named in the Morris plot
+
+contains
+
+   !> Contours of each response over two factors of a grid.
+   function map_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      integer :: r, d
+
+      sheet = new_sheet(name, 'Responses over two factors', subtitle, min(size(study%responses), most_panels))
+      sheet%right = 105
+      sheet%left = 118
+      sheet%bottom = 92
+      if (sheet%panels == 1) sheet%width = 900
+      do r = 1, sheet%panels
+         call begin_data(sheet, 'map'//str(r))
+         do d = 1, size(study%x, 2)
+            if (d > 1) then
+               if (abs(study%x(1, d) - study%x(1, d - 1)) > 0.0_wp) call sheet%text%line('')
+            end if
+            call add_numbers(sheet, [study%x(1, d), study%x(2, d), study%y(r, d)])
+         end do
+         call end_data(sheet)
+      end do
+      call begin_panels(sheet)
+      call sheet%text%line(blues//nl//'unset grid; unset xzeroaxis; unset yzeroaxis; set xtics offset 0, 0.5')
+      if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
+      if (is_geometric(study%x(2, :))) call sheet%text%line('set logscale y')
+      call sheet%text%line('set xtics '//tics_of(study%x(1, :))//'; set ytics '//tics_of(study%x(2, :)))
+      call sheet%text%line('set xrange '//bounds(study%x(1, :))//'; set yrange '//bounds(study%x(2, :)))
+      do r = 1, sheet%panels
+         call begin_panel(sheet, r, study%responses(r)%label, study%factors(1)%label, study%factors(2)%label)
+         data = '$map'//str(r)
+         ! the lines of equal response are computed first, as a table
+         call sheet%text%line('set contour base; set cntrparam levels auto 8; unset surface; set table $lines'//nl// &
+            'splot '//data//' using 1:2:3 with lines'//nl//'unset table; unset contour; set surface; set view map')
+         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset 0.4, 0; set cbrange '//bounds(study%y(r, :)))
+         call sheet%text%line('set pm3d map interpolate 4, 4')
+         call sheet%text%line('splot '//data//' using 1:2:3 with pm3d notitle, \'//nl// &
+            "      $lines using 1:2:(0) with lines linecolor rgb '#FFFFFF' linewidth 1.2 notitle, \"//nl// &
+            '      '//data//" using 1:2:(0) with points pointtype 7 pointsize 0.25 linecolor rgb '#80FFFFFF' notitle")
+         call sheet%text%line('unset pm3d')
+      end do
+      call sheet%text%line('unset logscale; set xrange [*:*]; set yrange [*:*]; set cbrange [*:*]; set view 60, 30')
+      call sheet%text%line('set xtics autofreq; set ytics autofreq')
+      text = end_panels(sheet)
+   end function map_script
+
+   !> Each response over the only factor of a grid.
+   function line_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer :: r, d
+
+      sheet = new_sheet(name, 'Responses over the factor', subtitle, min(size(study%responses), most_panels))
+      call begin_data(sheet, 'rows')
+      do d = 1, size(study%x, 2)
+         call add_numbers(sheet, [study%x(1, d), study%y(:sheet%panels, d)])
+      end do
+      call end_data(sheet)
+      call begin_panels(sheet)
+      if (is_geometric(study%x(1, :))) call sheet%text%line('set logscale x')
+      do r = 1, sheet%panels
+         call begin_panel(sheet, r, study%responses(r)%label, study%factors(1)%label, '')
+         call sheet%text%line('plot $rows using 1:'//str(r + 1)// &
+            " with linespoints pointtype 7 pointsize 0.7 linewidth 2.2 linecolor rgb '#0072B2' notitle")
+      end do
+      call sheet%text%line('unset logscale')
+      text = end_panels(sheet)
+   end function line_script
+
+   !> '[low:high]'
+   pure function bounds(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: text
+      real(wp) :: range(2)
+
+      range = range_of_values(values)
+      if (.not. range(2) > range(1)) range(2) = range(1) + max(1.0e-6_wp, abs(range(1)))
+      text = '['//str(range(1), 7)//':'//str(range(2), 7)//']'
+   end function bounds
+
+   !> Tics at 1, 2 and 5 of every decade for a logarithmic axis.
+   pure function tics_of(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: text
+      real(wp), parameter :: steps(3) = [1.0_wp, 2.0_wp, 5.0_wp]
+      real(wp) :: at
+      integer :: decade, k
+
+      text = 'autofreq'
+      if (.not. is_geometric(values)) return
+      text = ''
+      do decade = floor(log10(minval(values))), ceiling(log10(maxval(values)))
+         do k = 1, 3
+            at = steps(k)*10.0_wp**decade
+            if (at < 0.999_wp*minval(values) .or. at > 1.001_wp*maxval(values)) cycle
+            text = text//', '//str(at, 5)
+         end do
+      end do
+      if (len(text) < 3) text = '  autofreq'
+      if (text(3:) /= 'autofreq') text = ', ('//text(3:)//')'
+      text = text(3:)
+   end function tics_of
+
+   !> The factors in descending order of importance, at most so many; those without a value last.
+   pure function ranked(importance, most) result(order)
+      real(wp), intent(in) :: importance(:)
+      integer, intent(in) :: most
+      integer :: order(min(most, size(importance)))
+      logical :: is_free(size(importance))
+      integer :: k
+
+      is_free = .true.
+      do k = 1, size(order)
+         order(k) = maxloc(merge(importance, -1.0_wp, ieee_is_finite(importance)), dim=1, mask=is_free)
+         is_free(order(k)) = .false.
+      end do
+   end function ranked
+
+   !> Room at the left for the names of the factors, pixels.
+   pure integer function name_room(study, letters) result(room)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: letters
+      integer :: f
+
+      room = 40 + (2*letters*maxval([(len(study%factors(f)%name), f=1, size(study%factors))]))/3
+      room = min(room, 330)
+   end function name_room
+
+   !> A sheet of horizontal bars, one panel per response.
+   function new_bars(study, name, title, subtitle) result(sheet)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, title, subtitle
+      type(sheet_t) :: sheet
+
+      sheet = new_sheet(name, title, subtitle, min(size(study%responses), most_panels), &
+         height=max(170, 110 + 30*min(size(study%factors), most_bars)))
+      sheet%columns = min(sheet%panels, 2)
+      sheet%letters = 14
+      sheet%left = name_room(study, 14)
+   end function new_bars
+
+   !> What follows the names of a list that is cut.
+   pure function cut(study) result(words)
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: words
+
+      words = ''
+      if (size(study%factors) > most_bars) words = '; the '//str(most_bars)//' most important of '// &
+         str(size(study%factors))//' factors'
+      if (size(study%responses) > most_panels) words = words//'; '//str(most_panels)//' of '//str(size(study%responses))// &
+         ' responses'
+   end function cut
+
+   !> The change of each response when one factor changes alone.
+   function tornado_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      integer, allocatable :: order(:)
+      integer :: r, k
+
+      sheet = new_bars(study, name, 'One factor at a time', subtitle// &
+         '; blue: the smallest value of the factor, orange: the largest'//cut(study))
+      do r = 1, sheet%panels
+         associate (effect => study%effects(r))
+            order = ranked(effect%highest - effect%lowest, most_bars)
+            call begin_data(sheet, 'bars'//str(r))
+            do k = 1, size(order)
+               call add_numbers(sheet, [real(k, wp), effect%nominal, effect%at_low(order(k)), effect%at_high(order(k)), &
+                  effect%lowest(order(k)), effect%highest(order(k))], study%factors(order(k))%name)
+            end do
+            call end_data(sheet)
+         end associate
+      end do
+      call sheet%text%line('min2(a,b) = a < b ? a : b; max2(a,b) = a > b ? a : b')
+      call begin_panels(sheet)
+      call sheet%text%line('set style fill solid 1 noborder; unset xzeroaxis; unset yzeroaxis; set grid noytics')
+      call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
+      do r = 1, sheet%panels
+         call begin_panel(sheet, r, study%responses(r)%label, '', '')
+         call sheet%text%line('set xtics '//tic_step([study%effects(r)%lowest, study%effects(r)%highest]))
+         data = '$bars'//str(r)
+         call sheet%text%line('plot '//data// &
+            " using 5:1:5:6:($1-0.06):($1+0.06):ytic(7) with boxxyerror linecolor rgb '#A0A0A0' notitle, \"//nl// &
+            '     '//data//" using 2:1:(min2($2,$3)):(max2($2,$3)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#0072B2'"// &
+            ' notitle, \'//nl// &
+            '     '//data//" using 2:1:(min2($2,$4)):(max2($2,$4)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#E69F00'"// &
+            ' notitle, \'//nl// &
+            '     '//data//" using 2:($1-0.5):(0):(1) with vectors nohead linewidth 1.5 linecolor rgb '#202020' notitle")
+      end do
+      call sheet%text%line('set yrange [*:*]; set border 3; set xtics autofreq')
+      text = end_panels(sheet)
+   end function tornado_script
+
+   !> Sobol indices with their 95 % intervals.
+   function sobol_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      integer, allocatable :: order(:)
+      integer :: r, k
+
+      sheet = new_bars(study, name, 'Sobol indices: share of the variance', subtitle// &
+         '; blue: the factor alone, orange: with its interactions; lines: 95 % confidence'//cut(study))
+      do r = 1, sheet%panels
+         associate (effect => study%effects(r))
+            order = ranked(effect%total, most_bars)
+            call begin_data(sheet, 'bars'//str(r))
+            do k = 1, size(order)
+               call add_numbers(sheet, [real(k, wp), effect%first(order(k)), effect%first_error(order(k)), &
+                  effect%total(order(k)), effect%total_error(order(k))], study%factors(order(k))%name)
+            end do
+            call end_data(sheet)
+         end associate
+      end do
+      call begin_panels(sheet)
+      call sheet%text%line('set style fill solid 1 noborder; set grid noytics; unset xzeroaxis')
+      call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
+      call sheet%text%line('set xrange [* < 0:1 < *]')
+      do r = 1, sheet%panels
+         call begin_panel(sheet, r, study%responses(r)%label, 'share of the variance [–]', '')
+         data = '$bars'//str(r)
+         call sheet%text%line('plot '//data// &
+            " using (0):1:(0):2:($1-0.36):($1-0.02):ytic(6) with boxxyerror linecolor rgb '#0072B2' notitle, \"//nl// &
+            '     '//data//" using (0):1:(0):4:($1+0.02):($1+0.36) with boxxyerror linecolor rgb '#E69F00' notitle, \"//nl// &
+            '     '//data//" using 2:($1-0.19):3 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#202020' notitle, \"// &
+            nl// &
+            '     '//data//" using 4:($1+0.19):5 with xerrorbars pointtype -1 linewidth 1.5 linecolor rgb '#202020' notitle")
+      end do
+      call sheet%text%line('set yrange [*:*]; set xrange [*:*]; set border 3')
+      text = end_panels(sheet)
+   end function sobol_script
+
+   !> Morris' μ* and σ: far right matters, high up acts nonlinearly or with others.
+   function morris_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      character(24) :: half
+      real(wp) :: range(2)
+      integer, allocatable :: order(:)
+      integer :: r, k
+
+      sheet = new_sheet(name, 'Morris: size and spread of the effects', subtitle// &
+         '; effect: change of the response over the full range of the factor', min(size(study%responses), most_panels))
+      sheet%left = 115
+      do r = 1, sheet%panels
+         associate (effect => study%effects(r))
+            order = ranked(effect%mean_size, size(study%factors))
+            call begin_data(sheet, 'points'//str(r))
+            do k = 1, size(order)
+               if (k <= named_points) call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))], &
+                  study%factors(order(k))%name)
+               if (k > named_points) call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))], ' ')
+            end do
+            call end_data(sheet)
+         end associate
+      end do
+      call begin_panels(sheet)
+      do r = 1, sheet%panels
+         range = range_of_values(study%effects(r)%mean_size)
+         call begin_panel(sheet, r, study%responses(r)%label, 'μ*, mean size of the effect', 'σ, spread of the effect')
+         range(1) = maxval([0.05_wp*range(2), 1.2_wp*maxval(study%effects(r)%deviation, &
+            mask=ieee_is_finite(study%effects(r)%deviation)), 1.0e-12_wp])
+         data = '$points'//str(r)
+         half = str(0.55_wp*range(2), 7)
+         call sheet%text%line('set ytics '//tic_step([0.0_wp, range(1)])//'; set xtics '//tic_step([0.0_wp, range(2)])// &
+            '; set xrange [0:'// &
+            str(max(1.08_wp*range(2), 1.0e-12_wp), 6)//']; set yrange [0:'// &
+            str(range(1), 6)//']')
+         call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
+            '     '//data//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
+            '     '//data//' using ($1 < '//trim(half)//' ? $1 : NaN):2:3 with labels left offset 0.9, 0.25 notitle, \'//nl// &
+            '     '//data//' using ($1 < '//trim(half)//' ? NaN : $1):2:3 with labels right offset -0.9, 0.25 notitle')
+      end do
+      call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq')
+      text = end_panels(sheet)
+   end function morris_script
+
+end module ek_effect_figures

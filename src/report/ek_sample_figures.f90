@@ -1,0 +1,392 @@
+!> Figures of the designs of a study as a sample: families and bands of curves, scatter, parallel coordinates, histograms, means.
+module ek_sample_figures
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_gnuplot_text, only: gnuplot_text
+   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
+      full_height, blues
+   implicit none(type, external)
+   private
+   public :: family_script, fan_script, scatter_script, parallel_script, histogram_script, convergence_script
+
+   character(*), parameter :: nl = new_line('a')
+   integer, parameter :: most_curves = 300           !! of a family
+   integer, parameter :: most_lines = 300            !! of parallel coordinates
+   integer, parameter :: most_points = 20000         !! of a scatter matrix, all panels together
+   integer, parameter :: most_rows = 6, most_columns = 7     !! of a scatter matrix: responses, factors
+
+contains
+
+   !> '; one in 25 of the 5000 designs is drawn' if only every so many is.
+   pure function thinned(every, of) result(words)
+      integer, intent(in) :: every, of
+      character(:), allocatable :: words
+
+      words = ''
+      if (every > 1) words = '; one in '//str(every)//' of the '//str(of)//' designs is drawn'
+   end function thinned
+
+   !> '; 9 of 12 responses'
+   pure function cut(drawn, of, what) result(words)
+      integer, intent(in) :: drawn, of
+      character(*), intent(in) :: what
+      character(:), allocatable :: words
+
+      words = ''
+      if (drawn < of) words = '; '//str(drawn)//' of '//str(of)//' '//what
+   end function cut
+
+   !> The curves of the designs, coloured by the first factor.
+   function family_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer :: k, j, c, every, leader(1)
+
+      leader = leading_factors(study, 1)
+      every = (size(study%drawn) + most_curves - 1)/most_curves
+      sheet = new_sheet(name, 'The curves of all designs', '', min(size(study%columns), most_panels))
+      if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
+      sheet%subtitle = subtitle// &
+         thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)// &
+         cut(sheet%panels, size(study%columns), 'columns')
+      call begin_data(sheet, 'curves')
+      do k = 1, size(study%drawn), every
+         do j = 1, size(study%sweep)
+            if (.not. any(ieee_is_finite(study%curves(:, j, k)))) cycle
+            call add_numbers(sheet, [study%sweep(j), study%x(leader(1), study%drawn(k)), study%curves(:sheet%panels, j, k)])
+         end do
+         call sheet%text%line('')
+      end do
+      call end_data(sheet)
+      call begin_panels(sheet)
+      call sheet%text%line(blues)
+      if (is_geometric(study%x(leader(1), :))) call sheet%text%line('set logscale cb')
+      call add_scale(sheet, study%factors(leader(1))%label, study%x(leader(1), :))
+      do c = 1, sheet%panels
+         call begin_panel(sheet, c, '', study%swept, study%columns(c)%label)
+         if (c == 2) call sheet%text%line('unset colorbox')
+         call sheet%text%line('plot $curves using 1:'//str(c + 2)//':2 with lines linewidth 1 linecolor palette notitle')
+      end do
+      text = end_panels(sheet)
+   end function family_script
+
+   !> The scale of the colours, above the panels at the right.
+   subroutine add_scale(sheet, label, values)
+      type(sheet_t), intent(inout) :: sheet
+      character(*), intent(in) :: label
+      real(wp), intent(in) :: values(:)              !! that are coloured
+
+      if (.not. is_geometric(pack(values, ieee_is_finite(values)))) call sheet%text%line('set cbtics '//tic_step(values))
+      call sheet%text%line('set colorbox horizontal user origin screen 0.74, screen '//above(sheet, 42)//' size screen 0.22, '// &
+         'screen '//str(14.0_wp/full_height(sheet), 4)//" noborder; set cbtics nomirror scale 0.4 font ',12'")
+      call sheet%text%line('set label 9 '//gnuplot_text(label)//' at screen 0.74, screen '//above(sheet, 14)// &
+         " left font ',13' textcolor rgb '#404040'")
+   end subroutine add_scale
+
+   !> The screen coordinate of a point so many pixels below the upper edge.
+   pure function above(sheet, pixels) result(text)
+      type(sheet_t), intent(in) :: sheet
+      integer, intent(in) :: pixels
+      character(:), allocatable :: text
+      text = str(1.0_wp - real(pixels, wp)/full_height(sheet), 5)
+   end function above
+
+   !> Median, and the bands in which half and 90 % of the curves lie.
+   function fan_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      real(wp) :: base
+      integer :: c, j
+
+      sheet = new_sheet(name, 'The band of the curves', subtitle// &
+         '; line: median, dark: 25 to 75 %, light: 5 to 95 % of the designs'// &
+         cut(min(size(study%columns), most_panels), size(study%columns), 'columns'), min(size(study%columns), most_panels))
+      do c = 1, sheet%panels
+         call begin_data(sheet, 'band'//str(c))
+         do j = 1, size(study%sweep)
+            if (.not. ieee_is_finite(study%bands(1, c, j))) cycle
+            base = merge(study%bands(3, c, j), 0.0_wp, is_narrow(study, c))
+            call add_numbers(sheet, [study%sweep(j), study%bands(:, c, j) - base])
+         end do
+         call end_data(sheet)
+      end do
+      call begin_panels(sheet)
+      do c = 1, sheet%panels
+         call begin_panel(sheet, c, trim(merge('deviation from the median', '                         ', is_narrow(study, c))), &
+            study%swept, study%columns(c)%label)
+         data = '$band'//str(c)
+         call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
+            '     '//data//" using 1:3:5 with filledcurves fillcolor rgb '#80BAD8' notitle, \"//nl// &
+            '     '//data//" using 1:4 with lines linewidth 2.4 linecolor rgb '#00486F' notitle")
+      end do
+      text = end_panels(sheet)
+   end function fan_script
+
+   !> Whether the band is too narrow to be seen beside its curve: then the deviation from the median is drawn.
+   pure logical function is_narrow(study, c)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: c                       !! column
+      real(wp) :: range(2), width(2)
+
+      range = range_of_values(study%bands(3, c, :))
+      width = range_of_values(study%bands(5, c, :) - study%bands(1, c, :))
+      is_narrow = width(2) < 0.05_wp*(range(2) - range(1))
+   end function is_narrow
+
+   !> Responses over factors; the factors with the largest rank correlations if there are many.
+   function scatter_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer, allocatable :: factors(:)
+      integer :: r, f, d, rows, every, number
+      character(:), allocatable :: x_label, y_label, title
+
+      rows = min(size(study%responses), most_rows)
+      allocate (factors(min(most_columns, size(study%factors))))
+      factors(:) = leading_factors(study, most_columns)
+      every = max(1, (study%designs*rows*size(factors) + most_points - 1)/most_points)
+      sheet = new_sheet(name, 'Responses over factors', subtitle//'; r: rank correlation'//thinned(every, study%designs)// &
+         cut(size(factors), size(study%factors), 'factors, those with the largest r')// &
+         cut(rows, size(study%responses), 'responses'), rows*size(factors), height=merge(250, 340, rows*size(factors) > 4))
+      sheet%columns = size(factors)
+      sheet%width = max(900, min(1700, 120 + 270*size(factors)))
+      sheet%letters = 12
+      sheet%left = 84
+      sheet%right = 14
+      sheet%bottom = 60
+      call begin_data(sheet, 'rows')
+      do d = 1, study%designs, every
+         call add_numbers(sheet, [study%x(factors, d), study%y(:rows, d)])
+      end do
+      call end_data(sheet)
+      call begin_panels(sheet)
+      call sheet%text%line('unset xzeroaxis; unset yzeroaxis')
+      number = 0
+      do r = 1, rows
+         do f = 1, size(factors)
+            number = number + 1
+            x_label = study%factors(factors(f))%label
+            if (r < rows) x_label = ''
+            y_label = study%responses(r)%label
+            if (f > 1) y_label = ''
+            title = 'r = –'
+            if (ieee_is_finite(study%effects(r)%correlation(factors(f)))) &
+               title = 'r = '//str(real(nint(100*study%effects(r)%correlation(factors(f))), wp)/100, 2)
+            call begin_panel(sheet, number, title, x_label, y_label)
+            call sheet%text%line('set xtics '//tic_step(study%x(factors(f), :))//'; set ytics '//tic_step(study%y(r, :))//nl// &
+               'plot $rows using '//str(f)//':'// &
+               str(size(factors) + r)//" with points pointtype 7 pointsize 0.35 linecolor rgb '#600072B2' notitle")
+         end do
+      end do
+      call sheet%text%line('set xtics autofreq; set ytics autofreq')
+      text = end_panels(sheet)
+   end function scatter_script
+
+   !> The factors in their order; of many, those with the largest rank correlation with any response.
+   pure function leading_factors(study, most) result(factors)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: most
+      integer, allocatable :: factors(:)
+      real(wp) :: size_of(size(study%factors))
+      logical :: is_used(size(study%factors))
+      integer :: f, r, at
+
+      size_of = 0.0_wp
+      do r = 1, size(study%responses)
+         do f = 1, size(size_of)
+            if (ieee_is_finite(study%effects(r)%correlation(f))) &
+               size_of(f) = max(size_of(f), abs(study%effects(r)%correlation(f)))
+         end do
+      end do
+      is_used = .false.
+      do f = 1, min(most, size(size_of))
+         at = maxloc(size_of, dim=1, mask=.not. is_used)
+         is_used(at) = .true.
+      end do
+      factors = pack([(f, f=1, size(size_of))], is_used)
+   end function leading_factors
+
+   !> Parallel coordinates: a line per design across factors and responses, coloured by the first response.
+   function parallel_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      integer, allocatable :: factors(:)
+      real(wp), allocatable :: values(:, :), low(:), span(:)
+      real(wp) :: range(2)
+      character(:), allocatable :: place
+      integer :: k, d, n, every
+
+      allocate (factors(min(most_columns, size(study%factors))))
+      factors(:) = leading_factors(study, most_columns)
+      n = size(factors) + min(size(study%responses), 4)
+      values = reshape([study%x(factors, :)], [size(factors), study%designs])
+      allocate (low(n), span(n))
+      every = max(1, (study%designs + most_lines - 1)/most_lines)
+      sheet = new_sheet(name, 'Factors and responses of each design', subtitle// &
+         '; one line per design'//thinned(every, study%designs)// &
+         cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
+         height=560)
+      sheet%right = 95
+      sheet%left = 95
+      sheet%bottom = 24
+      sheet%letters = merge(12, 14, n > 7)
+      do k = 1, n
+         if (k <= size(factors)) range = range_of_values(values(k, :))
+         if (k > size(factors)) range = range_of_values(study%y(k - size(factors), :))
+         low(k) = range(1)
+         span(k) = max(range(2) - range(1), tiny(1.0_wp))
+      end do
+      call begin_data(sheet, 'lines')
+      do d = 1, study%designs, every
+         if (.not. all(ieee_is_finite(study%y(:n - size(factors), d)))) cycle
+         do k = 1, n
+            if (k <= size(factors)) range(1) = values(k, d)
+            if (k > size(factors)) range(1) = study%y(k - size(factors), d)
+            call add_numbers(sheet, [real(k, wp), (range(1) - low(k))/span(k), study%y(1, d)])
+         end do
+         call sheet%text%line('')
+      end do
+      call end_data(sheet)
+      call begin_panels(sheet)
+      call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
+      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.16]')
+      call add_scale(sheet, study%responses(1)%label, study%y(1, :))
+      do k = 1, n
+         place = ' at first '//str(k)//', first '
+         call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
+            ", first 1 nohead front linewidth 1.5 linecolor rgb '#404040'")
+         if (k <= size(factors)) then
+            call sheet%text%line('set label '//str(10 + k)//' '//gnuplot_text(study%factors(factors(k))%label)//place// &
+               trim(merge('1.13', '1.09', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
+         else
+            call sheet%text%line('set label '//str(10 + k)//' '//gnuplot_text(study%responses(k - size(factors))%label)//place// &
+               trim(merge('1.13', '1.09', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
+         end if
+         call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
+            "-0.045 center textcolor rgb '#606060'")
+         call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 5))//place// &
+            "1.035 center textcolor rgb '#606060'")
+      end do
+      call begin_panel(sheet, 1, '', '', '')
+      call sheet%text%line("plot $lines using 1:2:3 with lines linewidth 1 linecolor palette notitle")
+      call sheet%text%line('set cbtics autofreq; unset label; unset arrow; set border 3; set xrange [*:*]; set yrange [*:*]')
+      text = end_panels(sheet)
+   end function parallel_script
+
+   !> Histogram of each response with its percentiles and limits.
+   function histogram_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: line
+      real(wp) :: width, room, ends(2)
+      integer :: r, k
+
+      sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
+         '; lines: 5, 50 and 95 %, dashed: limits'//cut(min(size(study%responses), most_panels), size(study%responses), &
+         'responses'), min(size(study%responses), most_panels))
+      do r = 1, sheet%panels
+         associate (summary => study%summaries(r))
+            call begin_data(sheet, 'bins'//str(r))
+            if (summary%used == 0) call add_numbers(sheet, [0.0_wp, 0.0_wp, 1.0_wp])
+            if (summary%used > 0) then
+               width = (summary%highest - summary%lowest)/size(summary%counts)
+               if (.not. width > 0.0_wp) width = max(abs(summary%lowest), 1.0_wp)*1.0e-6_wp
+               do k = 1, size(summary%counts)
+                  call add_numbers(sheet, [summary%lowest + (k - 0.5_wp)*width, real(summary%counts(k), wp), 0.94_wp*width])
+               end do
+            end if
+            call end_data(sheet)
+         end associate
+      end do
+      call begin_panels(sheet)
+      call sheet%text%line('set style fill solid 1 noborder; unset yzeroaxis; set yrange [0:*]')
+      do r = 1, sheet%panels
+         associate (summary => study%summaries(r), response => study%responses(r))
+            call begin_panel(sheet, r, '', response%label, 'designs')
+            call sheet%text%line('unset arrow; unset label 3; unset label 4; unset label 5')
+            do k = 1, 3
+               call add_mark(sheet, k, summary%percentiles(2*k - 1), '')
+               line = merge(' 5 %', '50 %', k == 1)
+               if (k == 3) line = '95 %'
+               call sheet%text%line('set label '//str(k + 2)//' '//gnuplot_text(trim(adjustl(line)))//' at first '// &
+                  str(summary%percentiles(2*k - 1), 7)//", graph 1.035 center font ',12' textcolor rgb '#404040'")
+            end do
+            if (response%lower > summary%lowest - (summary%highest - summary%lowest)) &
+               call add_mark(sheet, 4, response%lower, ' dashtype (8, 6)')
+            if (response%upper < summary%highest + (summary%highest - summary%lowest)) &
+               call add_mark(sheet, 5, response%upper, ' dashtype (8, 6)')
+            ! room for the limits, unless they are far away
+            ends = [summary%lowest, summary%highest]
+            room = max(ends(2) - ends(1), 1.0e-6_wp*max(abs(ends(1)), 1.0e-6_wp))
+            if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
+            if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
+            call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
+               ']; set xtics '//tic_step(ends))
+            call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle")
+         end associate
+      end do
+      call sheet%text%line('unset arrow; set yrange [*:*]; set xrange [*:*]; set xtics autofreq')
+      text = end_panels(sheet)
+   end function histogram_script
+
+   !> A vertical line across a panel: dark, or red if it is dashed.
+   subroutine add_mark(sheet, number, x, dash)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: number
+      real(wp), intent(in) :: x
+      character(*), intent(in) :: dash
+
+      call sheet%text%line('set arrow '//str(number)//' from first '//str(x, 7)//', graph 0 to first '//str(x, 7)// &
+         ", graph 1 nohead front linewidth 1.6 linecolor rgb '"//merge('#B02020', '#404040', len(dash) > 0)//"'"//dash)
+   end subroutine add_mark
+
+   !> The mean of the first n designs with its 95 % interval, over n.
+   function convergence_script(study, name, subtitle) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: name, subtitle
+      character(:), allocatable :: text
+      type(sheet_t) :: sheet
+      character(:), allocatable :: data
+      integer :: r, k
+
+      sheet = new_sheet(name, 'Convergence of the mean', subtitle// &
+         '; band: 95 % confidence if the designs were drawn at random'// &
+         cut(min(size(study%responses), most_panels), size(study%responses), 'responses'), &
+         min(size(study%responses), most_panels))
+      do r = 1, sheet%panels
+         associate (summary => study%summaries(r))
+            call begin_data(sheet, 'mean'//str(r))
+            if (size(summary%steps) == 0) call add_numbers(sheet, [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+            do k = 1, size(summary%steps)
+               call add_numbers(sheet, [real(summary%steps(k), wp), summary%running(k), summary%running(k) - summary%half(k), &
+                  summary%running(k) + summary%half(k)])
+            end do
+            call end_data(sheet)
+         end associate
+      end do
+      call begin_panels(sheet)
+      call sheet%text%line('set logscale x; unset xzeroaxis; unset yzeroaxis')
+      do r = 1, sheet%panels
+         data = '$mean'//str(r)
+         call begin_panel(sheet, r, '', 'number of designs', 'mean of '//study%responses(r)%label)
+         call sheet%text%line('plot '//data//" using 1:3:4 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
+            '     '//data//" using 1:2 with lines linewidth 2.2 linecolor rgb '#00486F' notitle")
+      end do
+      call sheet%text%line('unset logscale')
+      text = end_panels(sheet)
+   end function convergence_script
+
+end module ek_sample_figures

@@ -1,0 +1,113 @@
+!> What the figures and the page of a study show: the rows of its tables and what was computed from them, as plain numbers.
+module ek_study_data
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str
+   implicit none(type, external)
+   private
+   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents, most_panels
+   public :: range_of_values, is_geometric, tic_step
+
+   integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
+   integer, parameter :: most_panels = 9                        !! of one figure; more responses are left out, which it says
+
+   !> A factor, a response or a column of the curves.
+   type :: study_axis_t
+      character(:), allocatable :: name
+      character(:), allocatable :: label               !! name with unit
+      character(:), allocatable :: note                !! path of a factor; what a response is
+      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
+   end type study_axis_t
+
+   !> A response over all designs that have it.
+   type :: summary_t
+      integer :: used = 0                              !! designs with a value
+      real(wp) :: mean = 0.0_wp, deviation = 0.0_wp, lowest = 0.0_wp, highest = 0.0_wp
+      real(wp) :: percentiles(size(percents)) = 0.0_wp
+      integer :: within = 0                            !! designs that keep its limits
+      integer, allocatable :: counts(:)                !! histogram: designs in equal intervals from lowest to highest
+      integer, allocatable :: steps(:)                 !! convergence: numbers of designs
+      real(wp), allocatable :: running(:), half(:)     !! mean of the first so many, half of its 95 % interval
+   end type summary_t
+
+   !> What the factors do to a response; allocated for the kinds that yield it.
+   type :: effects_t
+      real(wp) :: nominal = 0.0_wp
+      real(wp), allocatable :: at_low(:), at_high(:)           !! tornado: at the smallest and the largest value of each factor
+      real(wp), allocatable :: lowest(:), highest(:)           !! tornado: over all its values
+      real(wp), allocatable :: first(:), total(:), first_error(:), total_error(:)    !! Sobol indices, half of the 95 % interval
+      real(wp), allocatable :: mean_size(:), deviation(:)      !! Morris: μ* and σ
+      real(wp), allocatable :: correlation(:)                  !! rank correlation with each factor
+      integer :: used = 0                                      !! Sobol: rows
+   end type effects_t
+
+   !> A design to be shown on the page.
+   type :: extreme_t
+      integer :: response = 0
+      character(:), allocatable :: what                !! 'smallest', 'best' …
+      integer :: design = 0
+      real(wp) :: value = 0.0_wp
+      character(:), allocatable :: settings            !! --set a=1 --set b=2
+      character(:), allocatable :: fragment            !! of the deck; '' if it is not known
+   end type extreme_t
+
+   type :: study_data_t
+      character(:), allocatable :: name, title, kind, deck, case
+      integer :: designs = 0, within = 0, failed = 0
+      type(study_axis_t), allocatable :: factors(:), responses(:), columns(:)
+      real(wp), allocatable :: x(:, :), y(:, :)        !! (factor or response, design); NaN without a value
+      type(message_list_t) :: reasons                  !! of the designs that failed, with their number
+      type(summary_t), allocatable :: summaries(:)     !! of the responses
+      type(effects_t), allocatable :: effects(:)       !! on the responses
+      type(extreme_t), allocatable :: extremes(:)
+      ! curves of some designs
+      character(:), allocatable :: swept               !! label of the swept value
+      real(wp), allocatable :: sweep(:)                !! swept value of each state
+      integer, allocatable :: drawn(:)                 !! the designs whose curves were read
+      real(wp), allocatable :: curves(:, :, :)         !! (column, state, drawn)
+      real(wp), allocatable :: bands(:, :, :)          !! (percent, column, state)
+   end type study_data_t
+
+contains
+
+   !> Smallest and largest finite value; 0 and 1 if there is none.
+   pure function range_of_values(values) result(range)
+      real(wp), intent(in) :: values(:)
+      real(wp) :: range(2)
+
+      range = [0.0_wp, 1.0_wp]
+      if (any(ieee_is_finite(values))) range = [minval(values, mask=ieee_is_finite(values)), &
+         maxval(values, mask=ieee_is_finite(values))]
+   end function range_of_values
+
+   !> Whether positive values span a factor of 4 or more in equal ratios rather than equal steps, judged by their median.
+   pure logical function is_geometric(values)
+      real(wp), intent(in) :: values(:)
+      real(wp) :: low, high
+
+      is_geometric = .false.
+      if (size(values) == 0) return
+      low = minval(values)
+      high = maxval(values)
+      if (.not. low > 0.0_wp) return
+      if (low > 0.25_wp*high) return
+      is_geometric = 2*count(values < 0.42_wp*(low + high)) >= size(values)
+   end function is_geometric
+
+   !> A step that puts about four tics on an axis.
+   pure function tic_step(values) result(text)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: text
+      real(wp) :: range(2), step, decade
+
+      range = range_of_values(values)
+      text = 'autofreq'
+      if (.not. range(2) > range(1)) return
+      step = (range(2) - range(1))/3
+      decade = 10.0_wp**floor(log10(step))
+            step = step/decade
+      text = str(decade*merge(1.0_wp, merge(2.0_wp, merge(5.0_wp, 10.0_wp, step < 7.5_wp), step < 3.5_wp), step < 1.6_wp), 3)
+   end function tic_step
+
+end module ek_study_data

@@ -1,0 +1,101 @@
+!> The figures of a study: which of them apply follows from its kind and its columns, by one table.
+!>
+!> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures or ek_effect_figures.
+module ek_study_figures
+   use ek_text, only: plural
+   use ek_study_data, only: study_data_t
+   use ek_sample_figures, only: family_script, fan_script, scatter_script, parallel_script, histogram_script, convergence_script
+   use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
+   implicit none(type, external)
+   private
+   public :: figure_rule_t, rules, applies, script_of, figure_name
+
+   !> When a figure is drawn.
+   type :: figure_rule_t
+      character(11) :: name
+      character(48) :: title
+      character(80) :: kinds             !! of studies; '*': all
+      logical :: needs_curves            !! columns in &study, and designs with curves
+      logical :: needs_responses
+      integer :: least_factors, most_factors
+      integer :: least_designs
+   end type figure_rule_t
+
+   character(*), parameter :: samples = 'monte_carlo latin_hypercube sobol saltelli list'
+   integer, parameter :: no_end = huge(1)
+
+   type(figure_rule_t), parameter :: rules(*) = [ &
+      figure_rule_t('tornado', 'Tornado: one factor at a time', 'one_at_a_time', .false., .true., 1, no_end, 2), &
+      figure_rule_t('sobol', 'Sobol indices', 'saltelli', .false., .true., 1, no_end, 6), &
+      figure_rule_t('morris', 'Morris'' elementary effects', 'morris', .false., .true., 1, no_end, 4), &
+      figure_rule_t('line', 'Responses over the factor', 'grid', .false., .true., 1, 1, 2), &
+      figure_rule_t('map', 'Contours over two factors', 'grid', .false., .true., 2, 2, 4), &
+      figure_rule_t('fan', 'Band of the curves', samples, .true., .false., 1, no_end, 10), &
+      figure_rule_t('family', 'Family of curves', '*', .true., .false., 1, no_end, 2), &
+      figure_rule_t('histogram', 'Distribution of the responses', samples, .false., .true., 1, no_end, 10), &
+      figure_rule_t('scatter', 'Responses over factors', samples, .false., .true., 1, no_end, 5), &
+      figure_rule_t('parallel', 'Parallel coordinates', samples//' grid', .false., .true., 2, no_end, 5), &
+      figure_rule_t('convergence', 'Convergence of the mean', 'monte_carlo latin_hypercube sobol', .false., .true., 1, no_end, 10)]
+
+contains
+
+   !> Whether a figure applies to a study.
+   pure logical function applies(rule, study)
+      type(figure_rule_t), intent(in) :: rule
+      type(study_data_t), intent(in) :: study
+
+      applies = rule%kinds == '*' .or. index(' '//rule%kinds, ' '//trim(study%kind)//' ') > 0
+      if (rule%needs_curves) applies = applies .and. size(study%columns) > 0 .and. size(study%drawn) > 0
+      if (rule%needs_responses) applies = applies .and. any(study%summaries%used > 0)
+      applies = applies .and. size(study%factors) >= rule%least_factors .and. size(study%factors) <= rule%most_factors .and. &
+         study%designs >= rule%least_designs
+      if (applies .and. rule%name == 'map') applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. &
+         maxval(study%x(2, :)) > minval(study%x(2, :))
+   end function applies
+
+   !> '<study>_<figure>', the name of its files.
+   pure function figure_name(rule, study) result(name)
+      type(figure_rule_t), intent(in) :: rule
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: name
+      name = study%name//'_'//trim(rule%name)
+   end function figure_name
+
+   !> The gnuplot script of a figure that applies.
+   function script_of(rule, study) result(text)
+      type(figure_rule_t), intent(in) :: rule
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: text
+      character(:), allocatable :: name, subtitle
+
+      name = figure_name(rule, study)
+      subtitle = study%name//', '//plural(study%designs, 'design', 'designs')
+      select case (rule%name)
+      case ('tornado')
+         text = tornado_script(study, name, subtitle)
+      case ('sobol')
+         text = sobol_script(study, name, subtitle)
+      case ('morris')
+         text = morris_script(study, name, subtitle)
+      case ('line')
+         text = line_script(study, name, subtitle)
+      case ('map')
+         text = map_script(study, name, subtitle)
+      case ('fan')
+         text = fan_script(study, name, subtitle)
+      case ('family')
+         text = family_script(study, name, subtitle)
+      case ('histogram')
+         text = histogram_script(study, name, subtitle)
+      case ('scatter')
+         text = scatter_script(study, name, subtitle)
+      case ('parallel')
+         text = parallel_script(study, name, subtitle)
+      case ('convergence')
+         text = convergence_script(study, name, subtitle)
+      case default
+         text = ''
+      end select
+   end function script_of
+
+end module ek_study_figures

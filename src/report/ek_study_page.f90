@@ -1,0 +1,242 @@
+!> The page of a study: its question, factors, responses with statistics, failures, figures, and the best and worst designs.
+module ek_study_page
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str, plural
+   use ek_version, only: version
+   use ek_file, only: join_path, file_exists, read_whole
+   use ek_study_data, only: study_data_t, study_axis_t, percents, range_of_values
+   use ek_study_figures, only: rules, applies, figure_name
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
+      end_table, add_picture, page_text, page_number
+   implicit none(type, external)
+   private
+   public :: study_page, page_name
+
+contains
+
+   !> '<study>.html'
+   pure function page_name(study) result(name)
+      type(study_data_t), intent(in) :: study
+      character(:), allocatable :: name
+      name = study%name//'.html'
+   end function page_name
+
+   !> The page as text. Pictures are those of the rules that apply, in the folder of figures; '' as folder: none.
+   function study_page(study, figures, message) result(text)
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: figures            !! folder of the pictures
+      character(*), intent(in) :: message            !! why there are no pictures, or fewer; may be ''
+      character(:), allocatable :: text
+      type(page_t) :: page
+      type(message_list_t) :: names, values, trouble
+      character(:), allocatable :: title
+
+      title = study%title
+      if (title == '') title = study%name
+      call begin_page(page, title, study%name//', a study of '//study%deck)
+      call add('Kind', study%kind)
+      call add('Designs', str(study%designs))
+      call add('Factors', str(size(study%factors)))
+      call add('Responses', str(size(study%responses)))
+      call add('Case', study%case)
+      call add('Failed', str(study%failed))
+      if (any_limit(study)) call add('Within all limits', str(study%within)//' ('//share(study%within, study%designs)//')')
+      call add('Program', 'elastokin '//version)
+      call add_facts(page, names, values)
+      call add_warnings(page, plural(study%failed, 'design', 'designs')//' of '//str(study%designs)// &
+         ' failed and are left out below', study%reasons)
+      if (message /= '') call trouble%add(message)
+      call add_warnings(page, 'Figures', trouble)
+      call add_responses(page, study)
+      call add_factors(page, study)
+      if (figures /= '') call add_figures(page, study, figures)
+      call add_effects(page, study)
+      call add_extremes(page, study)
+      text = page_text(page)
+
+   contains
+
+      subroutine add(name, value)
+         character(*), intent(in) :: name, value
+         call names%add(name)
+         call values%add(value)
+      end subroutine add
+
+   end function study_page
+
+   !> Whether a response has a limit.
+   pure logical function any_limit(study)
+      type(study_data_t), intent(in) :: study
+      any_limit = any(study%responses%lower > -huge(1.0_wp) .or. study%responses%upper < huge(1.0_wp))
+   end function any_limit
+
+   !> '97.3 %'
+   pure function share(part, whole) result(text)
+      integer, intent(in) :: part, whole
+      character(:), allocatable :: text
+      text = page_number(100.0_wp*part/max(1, whole))//' %'
+   end function share
+
+   !> The limits of a response: '−2 … 0.5', '≤ 0.5'; '' if it has none.
+   pure function limits_text(axis) result(text)
+      type(study_axis_t), intent(in) :: axis
+      character(:), allocatable :: text
+
+      text = ''
+      if (axis%lower > -huge(1.0_wp) .and. axis%upper < huge(1.0_wp)) then
+         text = page_number(axis%lower)//' … '//page_number(axis%upper)
+      else if (axis%lower > -huge(1.0_wp)) then
+         text = '≥ '//page_number(axis%lower)
+      else if (axis%upper < huge(1.0_wp)) then
+         text = '≤ '//page_number(axis%upper)
+      end if
+   end function limits_text
+
+   !> The statistics of the responses.
+   subroutine add_responses(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      character(24) :: heads(8 + size(percents))
+      integer :: r, k
+
+      if (size(study%responses) == 0) return
+      call begin_section(page, 'responses', 'Responses')
+      heads = [character(24) :: 'Response', 'What it is', '>designs', '>mean', '>deviation', '>smallest', &
+         ('>'//str(percents(k))//' %', k=1, size(percents)), '>largest', 'limits, share within']
+      call begin_table(page, heads)
+      do r = 1, size(study%responses)
+         associate (summary => study%summaries(r), axis => study%responses(r))
+            call add_cell(page, axis%label)
+            call add_cell(page, axis%note, 's')
+            call add_cell(page, str(summary%used), 'n')
+            if (summary%used == 0) then
+               do k = 1, 4 + size(percents)
+                  call add_cell(page, '–', 'n')
+               end do
+               call add_cell(page, limits_text(axis))
+               cycle
+            end if
+            call add_cell(page, page_number(summary%mean), 'n')
+            call add_cell(page, page_number(summary%deviation), 'n')
+            call add_cell(page, page_number(summary%lowest), 'n')
+            do k = 1, size(percents)
+               call add_cell(page, page_number(summary%percentiles(k)), 'n')
+            end do
+            call add_cell(page, page_number(summary%highest), 'n')
+            if (limits_text(axis) == '') call add_cell(page, '–')
+            if (limits_text(axis) /= '') call add_cell(page, limits_text(axis)//': '//share(summary%within, study%designs))
+         end associate
+      end do
+      call end_table(page)
+   end subroutine add_responses
+
+   !> The factors and the ranges that the designs cover.
+   subroutine add_factors(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      real(wp) :: range(2)
+      integer :: f
+
+      call begin_section(page, 'factors', 'Factors')
+      call begin_table(page, [character(24) :: 'Factor', 'Numbers of the deck', '>smallest', '>largest'])
+      do f = 1, size(study%factors)
+         range = range_of_values(study%x(f, :))
+         call add_cell(page, study%factors(f)%label)
+         call add_cell(page, study%factors(f)%note, 's')
+         call add_cell(page, page_number(range(1)), 'n')
+         call add_cell(page, page_number(range(2)), 'n')
+      end do
+      call end_table(page)
+   end subroutine add_factors
+
+   !> The pictures that were drawn.
+   subroutine add_figures(page, study, folder)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      character(*), intent(in) :: folder
+      type(error_t), allocatable :: error
+      character(:), allocatable :: svg, path
+      integer :: k
+      logical :: is_begun
+
+      is_begun = .false.
+      do k = 1, size(rules)
+         if (.not. applies(rules(k), study)) cycle
+         path = join_path(folder, figure_name(rules(k), study)//'.svg')
+         if (.not. file_exists(path)) cycle
+         call read_whole(path, svg, error)
+         if (allocated(error)) cycle
+         if (.not. is_begun) call begin_section(page, 'figures', 'Figures')
+         is_begun = .true.
+         call add_text(page, 'h3', trim(rules(k)%title))
+         call add_picture(page, svg, trim(rules(k)%title), 'figures/'//figure_name(rules(k), study)//'.gp draws this figure.')
+      end do
+   end subroutine add_figures
+
+   !> The table of what the factors do, for the kinds that yield it.
+   subroutine add_effects(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      integer :: r, f
+
+      select case (study%kind)
+      case ('saltelli')
+         call begin_section(page, 'indices', 'Sobol indices')
+         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %'])
+      case ('morris')
+         call begin_section(page, 'effects', 'Elementary effects')
+         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ'])
+      case ('one_at_a_time')
+         call begin_section(page, 'effects', 'One factor at a time')
+         call begin_table(page, [character(24) :: 'Factor', '>at its smallest', '>at its largest', '>span'])
+      case default
+         return
+      end select
+      do r = 1, size(study%responses)
+         call add_group(page, study%responses(r)%label)
+         do f = 1, size(study%factors)
+            call add_cell(page, study%factors(f)%name)
+            associate (effect => study%effects(r))
+               select case (study%kind)
+               case ('saltelli')
+                  call add_cell(page, page_number(effect%first(f)), 'n')
+                  call add_cell(page, page_number(effect%first_error(f)), 'n')
+                  call add_cell(page, page_number(effect%total(f)), 'n')
+                  call add_cell(page, page_number(effect%total_error(f)), 'n')
+               case ('morris')
+                  call add_cell(page, page_number(effect%mean_size(f)), 'n')
+                  call add_cell(page, page_number(effect%deviation(f)), 'n')
+               case default
+                  call add_cell(page, page_number(effect%at_low(f)), 'n')
+                  call add_cell(page, page_number(effect%at_high(f)), 'n')
+                  call add_cell(page, page_number(effect%highest(f) - effect%lowest(f)), 'n')
+               end select
+            end associate
+         end do
+      end do
+      call end_table(page)
+   end subroutine add_effects
+
+   !> The best and the worst designs, with what makes them.
+   subroutine add_extremes(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      integer :: k
+
+      if (size(study%extremes) == 0) return
+      call begin_section(page, 'designs', 'Best and worst designs')
+      call add_text(page, 'p', 'Best is farthest inside the limits of the response, or the smallest deviation; without limits, '// &
+         'the smallest and the largest value are shown. The options make the design on the command line; the lines '// &
+         'of the deck replace the keys of the same names.')
+      do k = 1, size(study%extremes)
+         associate (extreme => study%extremes(k))
+            call add_text(page, 'h3', study%responses(extreme%response)%label//', '//extreme%what//': '// &
+               page_number(extreme%value)//' (design '//str(extreme%design)//')')
+            call add_text(page, 'pre', 'elastokin run '//study%deck//' '//extreme%settings)
+            if (extreme%fragment /= '') call add_text(page, 'pre', extreme%fragment)
+         end associate
+      end do
+   end subroutine add_extremes
+
+end module ek_study_page

@@ -1,0 +1,155 @@
+!> A sheet of panels as a gnuplot script that contains its data: `gnuplot name.gp` draws name.png and name.svg where it runs.
+!>
+!> First the data blocks, then begin_panels, then for each panel begin_panel and its plot command, then sheet_text.
+module ek_study_sheet
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_chart, only: add_coordinate, axes_style
+   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   implicit none(type, external)
+   private
+   public :: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height, blues
+
+   character(*), parameter :: nl = new_line('a')
+   !> Of a colour scale: viridis without its lightest end.
+   character(*), parameter :: blues = "set palette defined (0 '#440154', 0.25 '#3B528B', 0.5 '#21918C', 0.75 '#5EC962', "// &
+      "1 '#E8D000')"
+   integer, parameter :: title_height = 88        !! pixels above the panels
+
+   type :: sheet_t
+      character(:), allocatable :: name, title, subtitle
+      integer :: panels = 1, columns = 1
+      integer :: width = 1200                     !! pixels
+      integer :: height = 420                     !! of a row of panels
+      integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel, pixels
+      integer :: letters = 15                     !! size of the font
+      type(buffer_t) :: text
+   end type sheet_t
+
+contains
+
+   !> A sheet of so many panels: in one column, two or three, as they fit.
+   pure type(sheet_t) function new_sheet(name, title, subtitle, panels, height) result(sheet)
+      character(*), intent(in) :: name, title, subtitle
+      integer, intent(in) :: panels
+      integer, intent(in), optional :: height     !! of a row of panels; chosen here if absent or 0
+
+      sheet%name = name
+      sheet%title = title
+      sheet%subtitle = subtitle
+      sheet%panels = max(1, panels)
+      sheet%columns = merge(3, merge(2, 1, panels > 1), panels > 4)
+      sheet%height = merge(370, merge(490, 640, panels > 1), panels > 4)
+      if (present(height)) then
+         if (height > 0) sheet%height = height
+      end if
+      if (panels > 4) sheet%letters = 13
+      call sheet%text%line(gnuplot_comment(title)//nl//'#'//nl//gnuplot_comment('    gnuplot '//name//'.gp')//nl//'#')
+      call sheet%text%line(gnuplot_comment('in this folder draws '//name//'.png and .svg.'))
+      call sheet%text%line("if (!exists('formats')) formats = 'png svg'"//nl//'reset'//nl//'set encoding utf8')
+      call sheet%text%line("set datafile separator whitespace"//nl//"set datafile missing 'NaN'")
+      call sheet%text%line("set border 3 linecolor rgb '#808080'"//nl// &
+         "set tics out nomirror scale 0.6 textcolor rgb '#404040'"//nl//axes_style//nl//'unset key')
+   end function new_sheet
+
+   !> Begins a data block: $name << EOD.
+   pure subroutine begin_data(sheet, name)
+      type(sheet_t), intent(inout) :: sheet
+      character(*), intent(in) :: name
+      call sheet%text%line('$'//name//' << EOD')
+   end subroutine begin_data
+
+   !> A row of a data block, with seven digits, and a text at its end.
+   pure subroutine add_numbers(sheet, values, label)
+      type(sheet_t), intent(inout) :: sheet
+      real(wp), intent(in) :: values(:)
+      character(*), intent(in), optional :: label      !! a word without quotes and blanks becomes a quoted field
+      integer :: k
+
+      do k = 1, size(values)
+         if (k > 1) call sheet%text%add(' ')
+         call add_coordinate(sheet%text, values(k), 7)
+      end do
+      if (present(label)) call sheet%text%add(' "'//field_of(label)//'"')
+      call sheet%text%line('')
+   end subroutine add_numbers
+
+   !> A text as a field of a data block.
+   pure function field_of(label) result(field)
+      character(*), intent(in) :: label
+      character(len(label)) :: field
+      integer :: k
+
+      field = label
+      do k = 1, len(label)
+         if (scan(label(k:k), '"\') == 1 .or. iachar(label(k:k)) < 32) field(k:k) = '_'
+      end do
+   end function field_of
+
+   !> Ends a data block.
+   pure subroutine end_data(sheet)
+      type(sheet_t), intent(inout) :: sheet
+      call sheet%text%line('EOD')
+   end subroutine end_data
+
+   !> Begins the drawing: format, size, title.
+   pure subroutine begin_panels(sheet)
+      type(sheet_t), intent(inout) :: sheet
+      character(:), allocatable :: size_text, heading, small
+
+      size_text = ' size '//str(sheet%width)//', '//str(full_height(sheet))//" font 'sans-serif,"//str(sheet%letters)//"'"
+      call sheet%text%line(nl//'do for [format in formats] {')
+      call sheet%text%line("if (format eq 'png') { set terminal pngcairo"//size_text//' noenhanced }')
+      call sheet%text%line("if (format eq 'svg') { set terminal svg"//size_text//" background 'white' noenhanced }")
+      call sheet%text%line('set output '//gnuplot_text(sheet%name//'.')//'.format')
+      heading = str(1.0_wp - 30.0_wp/full_height(sheet), 5)
+      small = str(1.0_wp - 60.0_wp/full_height(sheet), 5)
+      call sheet%text%line('set label 1 '//gnuplot_text(sheet%title)//' at screen 0.02, screen '//heading// &
+         " font 'sans-serif:Bold,20' textcolor rgb '#202020'")
+      call sheet%text%line('set label 2 '//gnuplot_text(sheet%subtitle)//' at screen 0.02, screen '//small// &
+         " font 'sans-serif,14' textcolor rgb '#606060'")
+      call sheet%text%line('set multiplot')
+   end subroutine begin_panels
+
+   !> Height of the whole picture, pixels.
+   pure integer function full_height(sheet)
+      type(sheet_t), intent(in) :: sheet
+      full_height = title_height + sheet%height*((sheet%panels + sheet%columns - 1)/sheet%columns)
+   end function full_height
+
+   !> Places the next panel, by rows from the top, and gives it title and axis labels.
+   pure subroutine begin_panel(sheet, number, title, x_label, y_label)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: number
+      character(*), intent(in) :: title, x_label, y_label
+      integer :: column, row
+      real(wp) :: left, right, top, bottom, cell, high
+
+      column = modulo(number - 1, sheet%columns)
+      row = (number - 1)/sheet%columns
+      cell = real(sheet%width, wp)/sheet%columns
+      high = full_height(sheet)
+      left = (column*cell + sheet%left)/sheet%width
+      right = ((column + 1)*cell - sheet%right)/sheet%width
+      top = 1.0_wp - (title_height + row*sheet%height + sheet%top)/high
+      bottom = 1.0_wp - (title_height + (row + 1)*sheet%height - sheet%bottom)/high
+      if (number == 2) call sheet%text%line('unset label 1; unset label 2; unset label 9')
+      call sheet%text%line(nl//'set lmargin at screen '//str(left, 5)//'; set rmargin at screen '//str(right, 5)// &
+         '; set bmargin at screen '//str(bottom, 5)//'; set tmargin at screen '//str(top, 5))
+      call sheet%text%line('set title '//gnuplot_text(title)//" offset 0, -0.4 font 'sans-serif:Bold,"//str(sheet%letters)// &
+         "' textcolor rgb '#202020'")
+      call sheet%text%line('set xlabel '//gnuplot_text(x_label)//" offset 0, 0.3 textcolor rgb '#404040'")
+      call sheet%text%line('set ylabel '//gnuplot_text(y_label)//" offset 0.6, 0 textcolor rgb '#404040'")
+   end subroutine begin_panel
+
+   !> Ends the script.
+   function end_panels(sheet) result(text)
+      type(sheet_t), intent(inout) :: sheet
+      character(:), allocatable :: text
+
+      call sheet%text%line('unset multiplot'//nl//'unset output'//nl//'unset label'//nl//'}')
+      text = sheet%text%text()
+   end function end_panels
+
+end module ek_study_sheet
