@@ -9,13 +9,14 @@ module ek_study_command
    use ek_threads, only: processor_count
    use ek_interrupt, only: watch_for_stop
    use ek_deck, only: deck_t
-   use ek_writer, only: writer_t, begin_file, remove_stale
+   use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t, end_scratch
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, step_size_kind
    use ek_study_reader, only: read_study
    use ek_study_design, only: designer_t, new_designer
+   use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
    use ek_study_plan, only: study_plan_t, new_plan
-   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
+   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts, parts_folder
    use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name, has_limits
    use ek_chunk, only: status_names
    use ek_step_size, only: step_size_text
@@ -41,32 +42,48 @@ contains
 
    !> Tables are written to DIR (default: out, beside the study) when all designs are done; until then DIR/<study>.parts holds the
    !> finished chunks, with which the next run goes on. gnuplot then runs the study's plot script; its variable `out` is the
-   !> folder of the tables and figures.
+   !> folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the tables.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      type(ranks_t) :: ranks
+      logical :: is_first
+
+      call start_ranks(ranks, error)
+      is_first = ranks%is_first
+      if (.not. allocated(error)) call run_as_rank(line, ranks, error)
+      call end_ranks(ranks)
+      if (.not. is_first .and. allocated(error)) deallocate (error)
+   end subroutine run_study_command
+
+   !> One rank of a study.
+   subroutine run_as_rank(line, ranks, error)
+      type(command_line_t), intent(in) :: line
+      type(ranks_t), intent(inout) :: ranks
       type(error_t), allocatable, intent(out) :: error
       type(opened_t) :: this
       type(run_options_t) :: options
       type(message_list_t) :: tables
+      logical :: has_designs, asks_status
 
-      call read_options(line, options, error)
+      call read_options(line, ranks, options, error)
       if (.not. allocated(error)) call open_study(line, this, error)
+      has_designs = .not. allocated(error)
+      if (has_designs) has_designs = this%study%kind /= step_size_kind
+      if (has_designs) call prepare(this, error)
+      asks_status = has_designs .and. line%has('--status')
+      if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
+      call agree(ranks, error)
       if (allocated(error)) return
-      if (this%study%kind == step_size_kind) then
-         call make_folder(this%out, error)
-         if (.not. allocated(error)) call run_step_size(this%study, this%deck, this%out, tables, error)
-      else
-         call prepare(this, error)
-         if (allocated(error)) return
-         if (line%has('--status')) then
-            call print_status(this, error)
-            return
-         end if
-         call make_folder(this%out, error)
-         if (.not. allocated(error)) call run_designs(line, this, options, tables, error)
+      if (asks_status) then
+         if (ranks%is_first) call print_status(this, error)
+      else if (has_designs) then
+         call run_designs(line, this, options, ranks, tables, error)
+      else if (ranks%is_first) then
+         call run_step_size(this%study, this%deck, this%out, tables, error)
       end if
       call show(line, this, tables, error)
-   end subroutine run_study_command
+   end subroutine run_as_rank
 
    !> Merges the chunks of a study into its tables.
    subroutine run_merge_command(line, error)
@@ -74,6 +91,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(opened_t) :: this
       type(message_list_t) :: tables
+      type(scratch_t) :: hold
+      logical :: is_missing
       integer :: done
 
       call open_study(line, this, error)
@@ -88,20 +107,23 @@ contains
             'what is missing), or elastokin study '//line%files%line(1))
          return
       end if
-      call finish(line%has('--quiet'), this, tables, error)
+      call open_parts(this%study, this%plan, this%out, hold, error)
+      if (.not. allocated(error)) call finish(line%has('--quiet'), this, hold, tables, is_missing, error)
+      call end_scratch(hold)
       call show(line, this, tables, error)
    end subroutine run_merge_command
 
    !> --jobs, --shard and --time-limit.
-   subroutine read_options(line, options, error)
+   subroutine read_options(line, ranks, options, error)
       type(command_line_t), intent(in) :: line
+      type(ranks_t), intent(in) :: ranks
       type(run_options_t), intent(out) :: options
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: text
       integer :: slash, status
 
       options%jobs = line%number('--jobs')
-      if (options%jobs == 0) options%jobs = processor_count()
+      if (options%jobs == 0) options%jobs = merge(processor_count(), 1, ranks%count == 1)
       text = line%value('--shard')
       if (text /= '') then
          slash = index(text, '/')
@@ -165,34 +187,62 @@ contains
    end subroutine prepare
 
    !> Runs the designs that are missing, then writes the tables unless this is a shard.
-   subroutine run_designs(line, this, options, tables, error)
+   subroutine run_designs(line, this, options, ranks, tables, error)
       type(command_line_t), intent(in) :: line
       type(opened_t), intent(inout) :: this
       type(run_options_t), intent(in) :: options
+      type(ranks_t), intent(inout) :: ranks
       type(message_list_t), intent(inout) :: tables
+      type(error_t), allocatable, intent(out) :: error
+      type(ranks_t) :: alone
+      type(scratch_t) :: hold
+      logical :: is_missing
+
+      call watch_for_stop()
+      is_missing = .false.
+      call compute(line, this, options, ranks, hold, error)
+      call end_ranks(ranks)
+      if (ranks%is_first .and. options%shards == 1) then
+         if (.not. allocated(error)) call finish(line%has('--quiet'), this, hold, tables, is_missing, error)
+         call end_scratch(hold)
+         if (is_missing) call compute(line, this, options, alone, hold, error)         ! another run has removed them
+         if (is_missing .and. .not. allocated(error)) call finish(line%has('--quiet'), this, hold, tables, is_missing, error)
+      end if
+      call end_scratch(hold)
+   end subroutine run_designs
+
+   !> Runs the designs that are missing. All ranks.
+   subroutine compute(line, this, options, ranks, hold, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_t), intent(inout) :: this
+      type(run_options_t), intent(in) :: options
+      type(ranks_t), intent(inout) :: ranks
+      type(scratch_t), intent(inout) :: hold               !! of the folder of the chunks
       type(error_t), allocatable, intent(out) :: error
       type(run_state_t) :: state
       real(wp) :: told
       logical :: is_quiet
 
-      is_quiet = line%has('--quiet')
-      call open_parts(this%study, this%plan, this%out, error)
+      is_quiet = line%has('--quiet') .or. .not. ranks%is_first
+      if (ranks%is_first) call open_parts(this%study, this%plan, this%out, hold, error)
+      call agree(ranks, error)
       if (allocated(error)) return
-      call watch_for_stop()
+      if (.not. ranks%is_first) call open_parts(this%study, this%plan, this%out, hold, error)
+      call agree(ranks, error)
+      if (allocated(error)) return
       told = seconds()
-      call run_chunks(this%study, this%plan, this%deck, this%out, options, this%designer, state, show_state, error)
+      call run_chunks(this%study, this%plan, this%deck, this%out, options, this%designer, ranks, state, show_state, error)
       if (is_terminal(2) .and. .not. is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
-      if (state%before > 0 .and. .not. allocated(error)) call print_note(is_quiet, str(state%before)//' of '// &
-         plural(state%wanted, 'design was', 'designs were')//' done before')
-      if (state%is_stopped .and. .not. allocated(error)) call fail(error, exit_convergence, 'stopped: '//str(state%done)// &
-         ' of '//plural(state%wanted, 'design is', 'designs are')//' done and kept; the same command goes on from there')
       if (allocated(error)) return
-      if (options%shards > 1) then
+      if (state%before > 0) call print_note(is_quiet, str(state%before)//' of '// &
+         plural(state%wanted, 'design was', 'designs were')//' done before')
+      if (state%is_stopped) then
+         call fail(error, exit_convergence, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
+            'designs are')//' done and kept; the same command goes on from there')
+      else if (options%shards > 1) then
          call print_note(is_quiet, 'shard '//str(options%shard)//' of '//str(options%shards)//' is done: '// &
             plural(state%wanted, 'design', 'designs')//'; when all are, elastokin merge '//line%files%line(1))
-         return
       end if
-      call finish(is_quiet, this, tables, error)
 
    contains
 
@@ -209,7 +259,7 @@ contains
          end if
       end subroutine show_state
 
-   end subroutine run_designs
+   end subroutine compute
 
    !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'
    function state_text(state) result(text)
@@ -254,19 +304,25 @@ contains
    end subroutine print_status
 
    !> Writes the tables, removes the chunks, and counts the designs that failed.
-   subroutine finish(is_quiet, this, tables, error)
+   subroutine finish(is_quiet, this, hold, tables, is_missing, error)
       logical, intent(in) :: is_quiet
       type(opened_t), intent(in) :: this
+      type(scratch_t), intent(inout) :: hold             !! of the folder of the chunks; ended if the tables were written
       type(message_list_t), intent(inout) :: tables
+      logical, intent(out) :: is_missing                 !! a chunk is missing: no table was written
       type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
       type(study_counts_t) :: counts
       character(:), allocatable :: list
+      logical :: is_removed
       integer :: k, failed
 
       call remove_stale(this%out)
       call write_tables(this%study, this%plan, this%out, counts, error)
+      is_missing = counts%is_missing
       if (allocated(error)) return
-      call remove_parts(this%study, this%plan, this%out)
+      call remove_parts(this%study, this%plan, this%out, hold, is_removed)
+      if (.not. is_removed) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
+         '; it removes that folder')
       if (this%plan%columns > 0) call tables%add(curves_name(this%study))
       call tables%add(responses_name(this%study))
       if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &

@@ -25,6 +25,7 @@ module ek_study_tables
    type :: study_counts_t
       integer :: designs(0:ubound(status_names, 1)) = 0      !! per status
       integer :: within = 0                                  !! designs that keep all limits of the responses
+      logical :: is_missing = .false.                        !! a chunk is missing or damaged: no table was written
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
    end type study_counts_t
 
@@ -68,6 +69,7 @@ contains
          do k = 1, plan%chunks
             call read_chunk(join_path(parts_folder(study, out), chunk_name(k)), plan%identity, chunk, is_good)
             if (.not. is_good) then
+               counts%is_missing = .true.
                call fail(error, exit_file, join_path(parts_folder(study, out), chunk_name(k))//': the chunk is missing or damaged')
                exit
             end if
