@@ -239,6 +239,9 @@ contains
       if (state%is_stopped) then
          call fail(error, exit_convergence, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
             'designs are')//' done and kept; the same command goes on from there')
+         if (ranks%count == 1) return
+         call print_note(is_quiet, error%message)          ! a launcher that was stopped may not let this process end in order
+         error%message = 'the study is not complete'
       else if (options%shards > 1) then
          call print_note(is_quiet, 'shard '//str(options%shard)//' of '//str(options%shards)//' is done: '// &
             plural(state%wanted, 'design', 'designs')//'; when all are, elastokin merge '//line%files%line(1))
