@@ -18,7 +18,7 @@ module ek_study_command
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts, parts_folder
    use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name, has_limits
-   use ek_chunk, only: status_names
+   use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
@@ -333,7 +333,7 @@ contains
       failed = sum(counts%designs(1:))
       if (failed == 0) return
       list = ''
-      do k = 1, ubound(status_names, 1)
+      do k = 1, design_invalid
          if (counts%designs(k) > 0) list = list//', '//str(counts%designs(k))//' '//trim(status_names(k))
       end do
       do k = 1, counts%reasons%count()

@@ -178,10 +178,10 @@ contains
          associate (this => parameters%list(k), record => records(parameters%list(k)%record))
             if (record%group /= group_names(path%group) .or. this%key /= path%key) cycle
             if (path%has_subscript .and. this%at /= path%first) cycle
-            if (is_meant(record, path)) then
-               found = [found, choice_t(k, 1.0_wp)]
-            else if (is_like(own_name(record), path%name)) then
+            if (is_like(own_name(record), path%name)) then      ! of both sides, also if a wild name fits the sided name too
                found = [found, choice_t(k, this%sign)]
+            else if (is_meant(record, path)) then
+               found = [found, choice_t(k, 1.0_wp)]
             end if
          end associate
       end do

@@ -116,8 +116,9 @@ contains
             call complain(reading, 'name', 'the name is reserved for a column of the results')
          do j = 1, reading%k - 1
             if (reading%cards(j)%group /= factor_group .and. reading%cards(j)%group /= response_group) cycle
-            if (reading%cards(j)%name == card%name) call complain(reading, 'name', 'the name is given twice, first in '// &
-               line_of(reading, j))
+            if (reading%cards(j)%name /= card%name) cycle
+            call complain(reading, 'name', 'the name is given twice, first in '//line_of(reading, j))
+            exit
          end do
       end associate
    end subroutine check_name

@@ -14,7 +14,7 @@ module ek_study_tables
    use ek_study_design, only: label_of
    use ek_study_plan, only: study_plan_t
    use ek_study_run, only: parts_folder
-   use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, status_names
+   use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, design_invalid
    implicit none(type, external)
    private
    public :: study_counts_t, write_tables, responses_name, curves_name, has_limits
@@ -23,7 +23,7 @@ module ek_study_tables
 
    !> How the designs of a study ended.
    type :: study_counts_t
-      integer :: designs(0:ubound(status_names, 1)) = 0      !! per status
+      integer :: designs(0:design_invalid) = 0                !! per status
       integer :: within = 0                                  !! designs that keep all limits of the responses
       logical :: is_missing = .false.                        !! a chunk is missing or damaged: no table was written
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them

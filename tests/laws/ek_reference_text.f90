@@ -15,13 +15,17 @@ module ek_reference_text
 
 contains
 
-   !> Version, date, scratch folder and the last digits of numbers taken out.
+   !> Version, date, scratch folder, identity of a study (which holds the version) and the last digits of numbers taken out.
    function normalised(text) result(plain)
       character(*), intent(in) :: text
       character(:), allocatable :: plain
+      character(*), parameter :: mark = ', study '
+      integer :: at
 
       plain = replaced(text, scratch(''), 'SCRATCH')
       plain = replaced(plain, 'elastokin '//version, 'elastokin VERSION')
+      at = index(plain, mark) + len(mark)
+      if (at > len(mark) .and. index(plain, 'deck checksum') > 0) plain = plain(:at - 1)//'IDENTITY'//plain(at + 16:)
       plain = rounded(undated(plain))
    end function normalised
 
