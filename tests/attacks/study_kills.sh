@@ -25,7 +25,7 @@ cat >"$work/study.nml" <<END
 &response name = 'camber', column = 'camber_deg' /
 END
 sed "s/samples = 2000/samples = 1990/" "$work/study.nml" >"$work/other.nml"
-few=(--set case.vertical_sweep.increments=20)
+few=(--set case.vertical_sweep.increments=40)
 
 study() { "$program" study "$work/study.nml" "${few[@]}" --out "$@"; } # study FOLDER [OPTION...]
 merge() { "$program" merge "$work/study.nml" "${few[@]}" --out "$1"; }
@@ -51,10 +51,10 @@ echo "2000 designs by one thread: $undisturbed_us us"
 # The processes below one that are this program
 runs_below() {
   local child
-  for child in $(cat /proc/"$1"/task/*/children 2>/dev/null); do
+  while read -r child; do
     [ "$(readlink "/proc/$child/exe")" = "$program" ] && echo "$child"
     runs_below "$child"
-  done
+  done < <(cat /proc/"$1"/task/*/children 2>/dev/null | tr -s ' ' '\n' | grep .)
 }
 
 # Identity and time of each finished chunk
