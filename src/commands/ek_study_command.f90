@@ -49,7 +49,7 @@ contains
       type(ranks_t) :: ranks
       logical :: is_first
 
-      call start_ranks(ranks, error)
+      if (line%value('--shard') == '') call start_ranks(ranks, error)      ! a shard is one process
       is_first = ranks%is_first
       if (.not. allocated(error)) call run_as_rank(line, ranks, error)
       call end_ranks(ranks)
