@@ -78,12 +78,14 @@ module ek_command
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
       option_t('study', '--jobs N', 'threads (default: one per processor; under mpirun one per process)'), &
+      option_t('study', '--samples N', 'in place of those of the study, for a trial'), &
       option_t('study', '--shard i/n', 'only part i of n of the designs, for the tasks of a job array; then elastokin merge'), &
       option_t('study', '--time-limit TIME', 'stop in time: seconds or [hours:]minutes:seconds'), &
       option_t('study', '--status', 'print how far the study is, and end'), &
       option_t('study', '--set path=value', 'change the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
-      option_t('merge', '--out DIR', ''), option_t('merge', '--set path=value', ''), option_t('merge', '--quiet', ''), &
+      option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), &
+      option_t('merge', '--quiet', ''), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
       option_t('', '--help', ''), option_t('', '--version', '')]

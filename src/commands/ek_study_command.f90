@@ -6,13 +6,14 @@ module ek_study_command
    use ek_text, only: str, plural, quoted
    use ek_clock, only: seconds
    use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists, is_terminal, write_standard_error
-   use ek_threads, only: processor_count
    use ek_interrupt, only: watch_for_stop
    use ek_deck, only: deck_t
    use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t, end_scratch
    use ek_drawing, only: run_plot_script
-   use ek_study, only: study_t, step_size_kind
+   use ek_sampler_kind, only: sampler_kinds
+   use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
+   use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
    use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
    use ek_study_plan, only: study_plan_t, new_plan
@@ -21,6 +22,7 @@ module ek_study_command
    use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
+   use ek_study_options, only: read_options
    use ek_load_deck, only: read_changed
    use ek_console, only: print_note, print_warning, print_error, print_path, print_text
    implicit none(type, external)
@@ -113,58 +115,6 @@ contains
       call show(line, this, tables, error)
    end subroutine run_merge_command
 
-   !> --jobs, --shard and --time-limit.
-   subroutine read_options(line, ranks, options, error)
-      type(command_line_t), intent(in) :: line
-      type(ranks_t), intent(in) :: ranks
-      type(run_options_t), intent(out) :: options
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: text
-      integer :: slash, status
-
-      options%jobs = line%number('--jobs')
-      if (options%jobs == 0) options%jobs = merge(processor_count(), 1, ranks%count == 1)
-      text = line%value('--shard')
-      if (text /= '') then
-         slash = index(text, '/')
-         status = 1
-         if (slash > 1 .and. verify(text, '0123456789/') == 0) then
-            read (text(:slash - 1), *, iostat=status) options%shard
-            if (status == 0) read (text(slash + 1:), *, iostat=status) options%shards
-         end if
-         if (status /= 0 .or. options%shard < 1 .or. options%shard > options%shards) then
-            call fail(error, exit_usage, '--shard: expected i/n, 1 to n of n, for instance 2/4, found '//quoted(text))
-            return
-         end if
-      end if
-      text = line%value('--time-limit')
-      if (text /= '') call read_time(text, options%time_limit, error)
-   end subroutine read_options
-
-   !> '90' (seconds), '30:00' or '1:30:00'.
-   subroutine read_time(text, time, error)
-      character(*), intent(in) :: text
-      real(wp), intent(out) :: time                  !! s
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: rest
-      real(wp) :: part
-      integer :: colon, status
-
-      time = 0.0_wp
-      rest = text//':'
-      do
-         colon = index(rest, ':')
-         status = 1
-         if (colon > 1 .and. verify(rest(:colon - 1), '0123456789.') == 0) read (rest(:colon - 1), *, iostat=status) part
-         if (status /= 0) exit
-         time = 60.0_wp*time + part
-         rest = rest(colon + 1:)
-         if (rest == '') exit
-      end do
-      if (status /= 0) call fail(error, exit_usage, '--time-limit: expected seconds or [hours:]minutes:seconds, found '// &
-         quoted(text))
-   end subroutine read_time
-
    !> Reads the study and its deck.
    subroutine open_study(line, this, error)
       type(command_line_t), intent(in) :: line
@@ -174,15 +124,32 @@ contains
       this%home = folder_name(line%files%line(1))
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
+      if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
    end subroutine open_study
+
+   !> --samples: a trial of a large study.
+   subroutine set_samples(samples, study, error)
+      integer, intent(in) :: samples
+      type(study_t), intent(inout) :: study
+      type(error_t), allocatable, intent(out) :: error
+
+      if (study%kind < step_size_kind) then
+         if (sampler_kinds(study%kind)%has_size) then
+            study%settings%size = samples
+            return
+         end if
+      end if
+      call fail(error, exit_usage, '--samples: a study of kind '//quoted(trim(kind_names(study%kind)))//' has no samples')
+   end subroutine set_samples
 
    !> The design of the deck, against which the study is checked, and the plan.
    subroutine prepare(this, error)
       type(opened_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
 
-      call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
+      call expand_factors(this%study, this%deck, error)
+      if (.not. allocated(error)) call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
    end subroutine prepare
 
@@ -227,7 +194,10 @@ contains
       if (ranks%is_first) call open_parts(this%study, this%plan, this%out, hold, error)
       call agree(ranks, error)
       if (allocated(error)) return
-      if (.not. ranks%is_first) call open_parts(this%study, this%plan, this%out, hold, error)
+      if (.not. ranks%is_first) then                       ! the same study? Rank 0 keeps the folder
+         call open_parts(this%study, this%plan, this%out, hold, error)
+         call end_scratch(hold)
+      end if
       call agree(ranks, error)
       if (allocated(error)) return
       told = seconds()

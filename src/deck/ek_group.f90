@@ -203,6 +203,7 @@ module ek_group
       key_t(study_group, 'chunk', whole, 1, 1, .false.), &
       key_t(study_group, 'format', word, 1, 1, .false.), &
       key_t(factor_group, 'path', prose, 1, max_paths, .true.), &
+      key_t(factor_group, 'each', switch, 1, 1, .false.), &
       key_t(factor_group, 'change', word, 1, 1, .false.), &
       key_t(factor_group, 'lower', number, 1, 1, .false.), &
       key_t(factor_group, 'upper', number, 1, 1, .false.), &

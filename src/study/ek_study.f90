@@ -29,6 +29,7 @@ module ek_study
    type :: study_factor_t
       character(:), allocatable :: name
       character(note_length), allocatable :: paths(:)      !! as in --set
+      logical :: is_each = .false.                         !! every number is a factor of its own, see ek_study_each
       integer :: change = by_value
       integer :: distribution = uniform_kind
       real(wp) :: lower, upper, nominal, tolerance, deviation    !! NaN: not given

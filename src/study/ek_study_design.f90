@@ -30,6 +30,7 @@ module ek_study_design
       type(case_result_t), allocatable :: results(:)       !! of each case, of the present design
       type(reading_t), allocatable :: readings(:)
       integer, allocatable :: case_of(:)                   !! of each response
+      integer :: increments = 0                            !! of all cases; 0: those of the deck
       integer :: states = 0                                !! of the first case, in the first design
       character(name_length), allocatable :: units(:)      !! of the responses, '' if unknown
    end type designer_t
@@ -48,7 +49,8 @@ contains
       call list_cases(study, designer)
       call check_paths(study, deck, error)
       if (allocated(error)) return
-      call make_worker(deck, designer%case_names, designer%worker, error)
+      if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
+      call make_worker(deck, designer%case_names, designer%worker, error, designer%increments)
       if (allocated(error)) return
       allocate (designer%paths(size(study%factors)))
       do k = 1, size(study%factors)
@@ -77,7 +79,7 @@ contains
       allocate (designer%case_of(size(study%responses)))
       do k = 1, size(study%responses)
          if (study%responses(k)%case /= '' .and. .not. any(designer%case_names == study%responses(k)%case)) &
-            designer%case_names = [designer%case_names, [character(name_length) :: study%responses(k)%case]]
+            designer%case_names = [character(name_length) :: designer%case_names, study%responses(k)%case]
          designer%case_of(k) = 1
          if (study%responses(k)%case /= '') &
             designer%case_of(k) = findloc(designer%case_names == study%responses(k)%case, .true., dim=1)
@@ -233,7 +235,7 @@ contains
                setting_of(study%factors(f)%change, chunk%factors(f, k)), error)
          end do
       end do
-      if (.not. allocated(error)) call make_worker(changed, designer%case_names, worker, error)
+      if (.not. allocated(error)) call make_worker(changed, designer%case_names, worker, error, designer%increments)
       if (allocated(error)) then
          chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)
          do f = 1, size(study%factors)          ! a number of the study, not of the command line

@@ -189,7 +189,8 @@ contains
          if (size(study%increments) == 0) call complain(reading, '', 'kind = ''step_size'' needs increments = …')
          return
       end if
-      call refuse(reading, [character(10) :: 'increments', 'methods', 'end'], why)
+      call refuse(reading, [character(7) :: 'methods', 'end'], why)
+      if (size(study%increments) > 1) call complain(reading, 'increments', 'a study of designs takes one number of increments')
       associate (kind => sampler_kinds(study%kind))
          if (.not. kind%has_size) call refuse(reading, ['samples'], why)
          if (.not. kind%has_levels) call refuse(reading, ['levels'], why)
@@ -213,6 +214,7 @@ contains
       do k = 1, size(this%paths)
          this%paths(k) = raw(reading, 'path', k)
       end do
+      this%is_each = switch_of(reading, 'each', .false.)
       call choice(reading, 'change', change_names, this%change, default=by_value)
       call choice(reading, 'distribution', distribution_kinds, this%distribution, default=uniform_kind)
       this%lower = number_of(reading, 'lower', not_given())
@@ -265,7 +267,7 @@ contains
       type(study_factor_t), intent(in) :: this
 
       if (study%kind == list_kind) return        ! its values are in the list
-      if (is_given(this%lower) .and. is_given(this%upper) .and. .not. this%lower < this%upper) then
+      if (is_reversed(this%lower, this%upper)) then
          call complain(reading, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
       else if (is_given(this%tolerance) .and. is_given(this%deviation)) then
          call complain(reading, 'deviation', 'give tolerance or deviation, not both')
@@ -280,6 +282,14 @@ contains
       end if
    end subroutine check_range
 
+   !> Whether both ends of a range are given, and not in ascending order.
+   pure logical function is_reversed(lower, upper)
+      real(wp), intent(in) :: lower, upper
+
+      is_reversed = .false.
+      if (is_given(lower) .and. is_given(upper)) is_reversed = lower >= upper
+   end function is_reversed
+
    !> &correlation
    subroutine take_correlation(reading, study)
       type(deck_reading_t), intent(inout) :: reading
@@ -293,6 +303,9 @@ contains
          do j = 1, size(study%factors)
             if (study%factors(j)%name == names(k)) pair(k) = j
          end do
+         if (pair(k) > 0) then
+            if (study%factors(pair(k))%is_each) call complain(reading, 'factors', 'a factor with each = .true. has no correlation')
+         end if
          if (pair(k) == 0 .and. names(k) /= '') call complain(reading, 'factors', 'there is no factor '//quoted(names(k)))
       end do
       if (pair(1) > 0 .and. pair(1) == pair(2)) call complain(reading, 'factors', 'name two different factors')

@@ -49,11 +49,12 @@ contains
    !> Builds the model of a deck, examines it on the rig of each case ('': the first of the deck) and balances it.
    !>
    !> A study passes the same worker with each design of a deck: what does not change between designs is then checked once.
-   subroutine make_worker(deck, case_names, worker, error)
+   subroutine make_worker(deck, case_names, worker, error, increments)
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: case_names(:)
       type(worker_t), intent(inout) :: worker
       type(error_t), allocatable, intent(out) :: error
+      integer, intent(in), optional :: increments          !! of all cases; absent or 0: those of the deck
       type(diagnosis_t) :: diagnosis
       logical :: is_good
       integer :: k
@@ -64,6 +65,9 @@ contains
       if (.not. allocated(worker%cases)) allocate (worker%cases(size(case_names)))
       call read_design(deck, worker%design, error)
       if (allocated(error)) return
+      if (present(increments)) then
+         if (increments > 0) worker%design%cases%increments = increments
+      end if
       call new_design(worker%design%plan, worker%suspension)
       call realise(worker%design%plan, worker%design%parameters%x, worker%suspension, is_good)
       worker%x = worker%design%parameters%x

@@ -1,0 +1,128 @@
+!> Factors with each = .true.: every number to which their paths lead becomes a factor of its own.
+module ek_study_each
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: str, quoted, is_like
+   use ek_record, only: record_t, element, own_name, single, right_side
+   use ek_deck, only: deck_t
+   use ek_group, only: group_names, point_group
+   use ek_parameter, only: parameter_t, choice_t, path_t, find_parameters, split_path, parameter_path
+   use ek_reader, only: design_t, read_design
+   use ek_study, only: study_t, study_factor_t, by_scale
+   implicit none(type, external)
+   private
+   public :: expand_factors
+
+contains
+
+   !> Replaces such factors. Left out are numbers that the deck omits, zeros that would be scaled, and the distance of a point of a
+   !> mirrored deck from the centre plane in which it lies. The two sides of a mirrored axle are one factor, unless the path has the
+   !> side in its name.
+   subroutine expand_factors(study, deck, error)
+      type(study_t), intent(inout) :: study
+      type(deck_t), intent(in) :: deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck
+      type(design_t) :: design
+      type(study_factor_t), allocatable :: factors(:)
+      integer :: place(size(study%factors)), f, k, before
+
+      if (.not. any(study%factors%is_each)) return
+      call read_design(deck, design, error)
+      if (allocated(error)) return
+      allocate (factors(0))
+      do f = 1, size(study%factors)
+         before = size(factors)
+         place(f) = before + 1
+         if (.not. study%factors(f)%is_each) then
+            factors = [factors, study%factors(f)]
+            cycle
+         end if
+         do k = 1, size(study%factors(f)%paths)
+            call add_each(design, study%factors(f), trim(study%factors(f)%paths(k)), factors)
+         end do
+         if (size(factors) > before) cycle
+         call fail(error, exit_deck, study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
+            ': its paths lead to no number of the deck')
+         return
+      end do
+      study%settings%pairs = reshape(place(pack(study%settings%pairs, .true.)), shape(study%settings%pairs))
+      call move_alloc(factors, study%factors)
+   end subroutine expand_factors
+
+   !> The factors of one path.
+   subroutine add_each(design, given, path_text, factors)
+      type(design_t), intent(in) :: design
+      type(study_factor_t), intent(in) :: given
+      character(*), intent(in) :: path_text
+      type(study_factor_t), allocatable, intent(inout) :: factors(:)
+      type(study_factor_t) :: one
+      type(choice_t), allocatable :: found(:)
+      type(path_t) :: path
+      character(:), allocatable :: message
+      logical :: is_both
+      integer :: k
+
+      call split_path(path_text, path, message)
+      call find_parameters(design%parameters, design%records, path_text, found)
+      do k = 1, size(found)
+         associate (parameter => design%parameters%list(found(k)%number), x => design%parameters%x(found(k)%number), &
+            record => design%records(design%parameters%list(found(k)%number)%record))
+            is_both = is_like(own_name(record), path%name)
+            if (is_both .and. record%side == right_side .and. parameter%tied > 0) cycle      ! with that of the left side
+            if (.not. is_useful(design, parameter, record, x, given%change)) cycle
+            one = given
+            one%is_each = .false.
+            deallocate (one%paths)
+            allocate (one%paths(1))
+            one%paths(1) = parameter_path(parameter, design%records)
+            if (is_both) one%paths(1) = without_side(trim(one%paths(1)), element(record, 'name', 1), own_name(record))
+            one%name = name_of(trim(one%paths(1)), factors)
+            factors = [factors, one]
+         end associate
+      end do
+   end subroutine add_each
+
+   !> Whether a number is worth a factor.
+   pure logical function is_useful(design, parameter, record, x, change)
+      type(design_t), intent(in) :: design
+      type(parameter_t), intent(in) :: parameter
+      type(record_t), intent(in) :: record
+      real(wp), intent(in) :: x
+      integer, intent(in) :: change
+
+      is_useful = parameter%is_given .and. (change /= by_scale .or. abs(x) > 0.0_wp)
+      if (record%group == group_names(point_group) .and. parameter%at == 2 .and. record%side == single .and. &
+         .not. abs(x) > 0.0_wp) is_useful = is_useful .and. all(design%records%side == single)
+   end function is_useful
+
+   !> 'point.left_ball.z' → 'point.ball.z'
+   pure function without_side(path, name, own) result(text)
+      character(*), intent(in) :: path, name, own
+      character(:), allocatable :: text
+      integer :: at
+
+      text = path
+      at = index(path, '.'//name//'.')
+      if (at > 0) text = path(:at)//own//path(at + len(name) + 1:)
+   end function without_side
+
+   !> 'bushing.lca_front.kt(1)' → 'lca_front_kt_1'; with the group in front if another factor has this name.
+   pure function name_of(path, factors) result(name)
+      character(*), intent(in) :: path
+      type(study_factor_t), intent(in) :: factors(:)
+      character(:), allocatable :: name
+      integer :: k
+
+      name = ''
+      do k = 1, len(path)
+         if (path(k:k) == ')') cycle
+         name = name//path(k:k)
+         if (scan(path(k:k), '.(') > 0) name(len(name):) = '_'
+      end do
+      do k = 1, size(factors)
+         if (factors(k)%name == name(index(name, '_') + 1:)) return
+      end do
+      name = name(index(name, '_') + 1:)
+   end function name_of
+
+end module ek_study_each
