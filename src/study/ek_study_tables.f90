@@ -118,7 +118,6 @@ contains
       type(chunk_t), intent(in) :: chunk
       type(writer_t), intent(inout) :: rows
       type(study_counts_t), intent(inout) :: counts
-      character(:), allocatable :: line
       real(wp), allocatable :: values(:)
       integer :: k, n, block
       logical :: is_within
@@ -134,13 +133,21 @@ contains
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
          end if
-         line = csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)])
-         call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
+         call add_line(csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)]))
          counts%designs(chunk%status(k)) = counts%designs(chunk%status(k)) + 1
          if (chunk%status(k) == 0) cycle
          if (counts%reasons%count() < max_reasons) call counts%reasons%add('design '//str(int(chunk%first) + k - 1)//' ('// &
             label_of(study, chunk%factors(:, k))//'): '//reason_of(chunk, k))
       end do
+
+   contains
+
+      !> The numbers of a design, then its reason.
+      subroutine add_line(line)
+         character(*), intent(in) :: line            !! with its end
+         call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
+      end subroutine add_line
+
    end subroutine add_rows
 
    !> The columns behind the responses.
