@@ -26,7 +26,7 @@ module ek_writer
       try_lock, random_tag, machine_tag, system_reason, error_number, folder_exists, write_bytes, already_there, not_for_this_kind
    implicit none(type, external)
    private
-   public :: writer_t, begin_file, move_file, remove_stale, remove_empty_folder
+   public :: writer_t, begin_file, move_file, remove_stale, remove_empty_folder, is_in_use
    public :: scratch_t, begin_scratch, end_scratch
 
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
@@ -313,6 +313,20 @@ contains
       character(*), intent(in) :: folder
       call remove_tagged(folder_of(folder//'/'), front, tail)
    end subroutine remove_stale
+
+   !> Whether a run that lives has a temporary file or folder in this folder.
+   logical function is_in_use(folder)
+      character(*), intent(in) :: folder
+      type(message_list_t) :: names
+      integer :: k
+
+      call remove_stale(folder)
+      call folder_names(folder, names)
+      is_in_use = .false.
+      do k = 1, names%count()
+         if (index(names%line(k), front) == 1) is_in_use = .true.
+      end do
+   end function is_in_use
 
    !> Removes what dead runs left under the names <begin><machine>-<random><end>.
    subroutine remove_tagged(folder, begin, end)

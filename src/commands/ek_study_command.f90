@@ -6,23 +6,24 @@ module ek_study_command
    use ek_text, only: str, plural, quoted
    use ek_clock, only: seconds
    use ek_file, only: make_folder, join_path, folder_name, file_exists, program_exists, is_terminal, write_standard_error
-   use ek_threads, only: processor_count
    use ek_interrupt, only: watch_for_stop
    use ek_deck, only: deck_t
-   use ek_writer, only: writer_t, begin_file, remove_stale
+   use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t, end_scratch
    use ek_drawing, only: run_plot_script
    use ek_sampler_kind, only: sampler_kinds
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
    use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
+   use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
    use ek_study_plan, only: study_plan_t, new_plan
-   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts
+   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, remove_parts, parts_folder
    use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
    use ek_store, only: store_texts_t, keep_texts, choose_store, write_store, store_name
    use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
+   use ek_study_options, only: read_options
    use ek_load_deck, only: read_changed
    use ek_plot, only: draw_study
    use ek_console, only: print_note, print_warning, print_error, print_path, print_text
@@ -47,34 +48,50 @@ contains
 
    !> Tables are written to DIR (default: out, beside the study) when all designs are done; until then DIR/<study>.parts holds the
    !> finished chunks, with which the next run goes on. gnuplot then runs the study's plot script; its variable `out` is the
-   !> folder of the tables and figures.
+   !> folder of the tables and figures. Under mpirun all ranks compute; rank 0 prints and writes the tables.
    subroutine run_study_command(line, error)
       type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      type(ranks_t) :: ranks
+      logical :: is_first
+
+      if (line%value('--shard') == '') call start_ranks(ranks, error)      ! a shard is one process
+      is_first = ranks%is_first
+      if (.not. allocated(error)) call run_as_rank(line, ranks, error)
+      call end_ranks(ranks)
+      if (.not. is_first .and. allocated(error)) deallocate (error)
+   end subroutine run_study_command
+
+   !> One rank of a study.
+   subroutine run_as_rank(line, ranks, error)
+      type(command_line_t), intent(in) :: line
+      type(ranks_t), intent(inout) :: ranks
       type(error_t), allocatable, intent(out) :: error
       type(opened_t) :: this
       type(run_options_t) :: options
       type(message_list_t) :: tables
+      logical :: has_designs, asks_status
 
-      call read_options(line, options, error)
+      call read_options(line, ranks, options, error)
       if (.not. allocated(error)) call open_study(line, this, error)
-      if (allocated(error)) return
-      if (this%study%kind == step_size_kind) then
-         call make_folder(this%out, error)
-         if (.not. allocated(error)) call run_step_size(this%study, this%deck, this%out, tables, error)
-      else
-         call prepare(this, error)
-         if (allocated(error)) return
-         if (line%has('--status')) then
-            call print_status(this, error)
-            return
-         end if
+      has_designs = .not. allocated(error)
+      if (has_designs) has_designs = this%study%kind /= step_size_kind
+      if (has_designs) call prepare(this, error)
+      asks_status = has_designs .and. line%has('--status')
+      if (has_designs .and. .not. asks_status .and. .not. allocated(error)) &
          call choose_store(this%study, this%plan, this%has_store, error)
-         if (allocated(error)) return
-         call make_folder(this%out, error)
-         if (.not. allocated(error)) call run_designs(line, this, options, tables, error)
+      if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
+      call agree(ranks, error)
+      if (allocated(error)) return
+      if (asks_status) then
+         if (ranks%is_first) call print_status(this, error)
+      else if (has_designs) then
+         call run_designs(line, this, options, ranks, tables, error)
+      else if (ranks%is_first) then
+         call run_step_size(this%study, this%deck, this%out, tables, error)
       end if
       call show(line, this, tables, error)
-   end subroutine run_study_command
+   end subroutine run_as_rank
 
    !> Merges the chunks of a study into its tables.
    subroutine run_merge_command(line, error)
@@ -82,6 +99,8 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(opened_t) :: this
       type(message_list_t) :: tables
+      type(scratch_t) :: hold
+      logical :: is_missing
       integer :: done
 
       call open_study(line, this, error)
@@ -97,60 +116,11 @@ contains
             'what is missing), or elastokin study '//line%files%line(1))
          return
       end if
-      call finish(line%has('--quiet'), this, tables, error)
+      call open_parts(this%study, this%plan, this%out, hold, error)
+      if (.not. allocated(error)) call finish(line%has('--quiet'), this, hold, tables, is_missing, error)
+      call end_scratch(hold)
       call show(line, this, tables, error)
    end subroutine run_merge_command
-
-   !> --jobs, --shard and --time-limit.
-   subroutine read_options(line, options, error)
-      type(command_line_t), intent(in) :: line
-      type(run_options_t), intent(out) :: options
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: text
-      integer :: slash, status
-
-      options%jobs = line%number('--jobs')
-      if (options%jobs == 0) options%jobs = processor_count()
-      text = line%value('--shard')
-      if (text /= '') then
-         slash = index(text, '/')
-         status = 1
-         if (slash > 1 .and. verify(text, '0123456789/') == 0) then
-            read (text(:slash - 1), *, iostat=status) options%shard
-            if (status == 0) read (text(slash + 1:), *, iostat=status) options%shards
-         end if
-         if (status /= 0 .or. options%shard < 1 .or. options%shard > options%shards) then
-            call fail(error, exit_usage, '--shard: expected i/n, 1 to n of n, for instance 2/4, found '//quoted(text))
-            return
-         end if
-      end if
-      text = line%value('--time-limit')
-      if (text /= '') call read_time(text, options%time_limit, error)
-   end subroutine read_options
-
-   !> '90' (seconds), '30:00' or '1:30:00'.
-   subroutine read_time(text, time, error)
-      character(*), intent(in) :: text
-      real(wp), intent(out) :: time                  !! s
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: rest
-      real(wp) :: part
-      integer :: colon, status
-
-      time = 0.0_wp
-      rest = text//':'
-      do
-         colon = index(rest, ':')
-         status = 1
-         if (colon > 1 .and. verify(rest(:colon - 1), '0123456789.') == 0) read (rest(:colon - 1), *, iostat=status) part
-         if (status /= 0) exit
-         time = 60.0_wp*time + part
-         rest = rest(colon + 1:)
-         if (rest == '') exit
-      end do
-      if (status /= 0) call fail(error, exit_usage, '--time-limit: expected seconds or [hours:]minutes:seconds, found '// &
-         quoted(text))
-   end subroutine read_time
 
    !> Reads the study and its deck.
    subroutine open_study(line, this, error)
@@ -196,34 +166,68 @@ contains
    end subroutine prepare
 
    !> Runs the designs that are missing, then writes the tables unless this is a shard.
-   subroutine run_designs(line, this, options, tables, error)
+   subroutine run_designs(line, this, options, ranks, tables, error)
       type(command_line_t), intent(in) :: line
       type(opened_t), intent(inout) :: this
       type(run_options_t), intent(in) :: options
+      type(ranks_t), intent(inout) :: ranks
       type(message_list_t), intent(inout) :: tables
+      type(error_t), allocatable, intent(out) :: error
+      type(ranks_t) :: alone
+      type(scratch_t) :: hold
+      logical :: is_missing
+
+      call watch_for_stop()
+      is_missing = .false.
+      call compute(line, this, options, ranks, hold, error)
+      call end_ranks(ranks)
+      if (ranks%is_first .and. options%shards == 1) then
+         if (.not. allocated(error)) call finish(line%has('--quiet'), this, hold, tables, is_missing, error)
+         call end_scratch(hold)
+         if (is_missing) call compute(line, this, options, alone, hold, error)         ! another run has removed them
+         if (is_missing .and. .not. allocated(error)) call finish(line%has('--quiet'), this, hold, tables, is_missing, error)
+      end if
+      call end_scratch(hold)
+   end subroutine run_designs
+
+   !> Runs the designs that are missing. All ranks.
+   subroutine compute(line, this, options, ranks, hold, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_t), intent(inout) :: this
+      type(run_options_t), intent(in) :: options
+      type(ranks_t), intent(inout) :: ranks
+      type(scratch_t), intent(inout) :: hold               !! of the folder of the chunks
       type(error_t), allocatable, intent(out) :: error
       type(run_state_t) :: state
       real(wp) :: told
       logical :: is_quiet
 
-      is_quiet = line%has('--quiet')
-      call open_parts(this%study, this%plan, this%out, error)
+      is_quiet = line%has('--quiet') .or. .not. ranks%is_first
+      if (ranks%is_first) call open_parts(this%study, this%plan, this%out, hold, error)
+      call agree(ranks, error)
       if (allocated(error)) return
-      call watch_for_stop()
+      if (.not. ranks%is_first) then                       ! the same study? Rank 0 keeps the folder
+         call open_parts(this%study, this%plan, this%out, hold, error)
+         call end_scratch(hold)
+      end if
+      call agree(ranks, error)
+      if (allocated(error)) return
       told = seconds()
-      call run_chunks(this%study, this%plan, this%deck, this%out, options, this%designer, state, show_state, error)
+      call run_chunks(this%study, this%plan, this%deck, this%out, options, this%designer, ranks, state, show_state, error)
       if (is_terminal(2) .and. .not. is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
-      if (state%before > 0 .and. .not. allocated(error)) call print_note(is_quiet, str(state%before)//' of '// &
-         plural(state%wanted, 'design was', 'designs were')//' done before')
-      if (state%is_stopped .and. .not. allocated(error)) call fail(error, exit_convergence, 'stopped: '//str(state%done)// &
-         ' of '//plural(state%wanted, 'design is', 'designs are')//' done and kept; the same command goes on from there')
       if (allocated(error)) return
-      if (options%shards > 1) then
+      if (state%before > 0) call print_note(is_quiet, str(state%before)//' of '// &
+         plural(state%wanted, 'design was', 'designs were')//' done before')
+      if (state%is_stopped) then
+         call fail(error, exit_convergence, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
+            'designs are')//' done and kept; the same command goes on from there')
+         if (ranks%count == 1) return
+         call print_note(is_quiet, error%message)          ! a launcher that was stopped may not let this process end in order
+         error%message = 'the study is not complete'
+      else if (options%shards > 1) then
          call print_note(is_quiet, 'shard '//str(options%shard)//' of '//str(options%shards)//' is done: '// &
             plural(state%wanted, 'design', 'designs')//'; when all are, elastokin merge '//line%files%line(1))
-         return
       end if
-      call finish(is_quiet, this, tables, error)
 
    contains
 
@@ -240,7 +244,7 @@ contains
          end if
       end subroutine show_state
 
-   end subroutine run_designs
+   end subroutine compute
 
    !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'
    function state_text(state) result(text)
@@ -290,13 +294,16 @@ contains
    end subroutine print_status
 
    !> Writes the tables, removes the chunks, and counts the designs that failed.
-   subroutine finish(is_quiet, this, tables, error)
+   subroutine finish(is_quiet, this, hold, tables, is_missing, error)
       logical, intent(in) :: is_quiet
       type(opened_t), intent(in) :: this
+      type(scratch_t), intent(inout) :: hold             !! of the folder of the chunks; ended if the tables were written
       type(message_list_t), intent(inout) :: tables
+      logical, intent(out) :: is_missing                 !! a chunk is missing: no table was written
       type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
       type(study_counts_t) :: counts
       character(:), allocatable :: list, name
+      logical :: is_removed
       integer :: k, failed
 
       call remove_stale(this%out)
@@ -306,8 +313,11 @@ contains
       else
          call write_tables(this%study, this%plan, this%out, counts, error)
       end if
+      is_missing = counts%is_missing
       if (allocated(error)) return
-      call remove_parts(this%study, this%plan, this%out)
+      call remove_parts(this%study, this%plan, this%out, hold, is_removed)
+      if (.not. is_removed) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
+         '; it removes that folder')
       name = store_name(this%study)
       if (.not. this%has_store) name = responses_name(this%study)
       if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
@@ -349,7 +359,8 @@ contains
       else
          if (this%study%kind /= step_size_kind) call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, &
             message_list_t(), line%has('--quiet'), undrawn)
-         if (.not. allocated(undrawn)) call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
+         if (.not. allocated(undrawn)) call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, &
+            this%out, undrawn)
       end if
       if (allocated(undrawn)) then
          if (allocated(error)) call print_error(undrawn%message)

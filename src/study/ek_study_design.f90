@@ -91,7 +91,7 @@ contains
       allocate (designer%case_of(size(study%responses)))
       do k = 1, size(study%responses)
          if (study%responses(k)%case /= '' .and. .not. any(designer%case_names == study%responses(k)%case)) &
-            designer%case_names = [designer%case_names, [character(name_length) :: study%responses(k)%case]]
+            designer%case_names = [character(name_length) :: designer%case_names, study%responses(k)%case]
          designer%case_of(k) = 1
          if (study%responses(k)%case /= '') &
             designer%case_of(k) = findloc(designer%case_names == study%responses(k)%case, .true., dim=1)

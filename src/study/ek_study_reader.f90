@@ -265,12 +265,9 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(in) :: study
       type(study_factor_t), intent(in) :: this
-      logical :: is_reversed
 
       if (study%kind == list_kind) return        ! its values are in the list
-      is_reversed = .false.                      ! what is not given is not a number, and not compared
-      if (is_given(this%lower) .and. is_given(this%upper)) is_reversed = .not. this%lower < this%upper
-      if (is_reversed) then
+      if (is_reversed(this%lower, this%upper)) then
          call complain(reading, 'upper', 'upper must be above lower, found '//str(this%lower)//' to '//str(this%upper))
       else if (is_given(this%tolerance) .and. is_given(this%deviation)) then
          call complain(reading, 'deviation', 'give tolerance or deviation, not both')
@@ -284,6 +281,14 @@ contains
          call complain(reading, '', 'needs lower and upper, or tolerance, or values, or from, to and count')
       end if
    end subroutine check_range
+
+   !> Whether both ends of a range are given, and not in ascending order.
+   pure logical function is_reversed(lower, upper)
+      real(wp), intent(in) :: lower, upper
+
+      is_reversed = .false.
+      if (is_given(lower) .and. is_given(upper)) is_reversed = lower >= upper
+   end function is_reversed
 
    !> &correlation
    subroutine take_correlation(reading, study)

@@ -1,7 +1,8 @@
-!> Runs the designs of a study in chunks, by several threads, and keeps what is finished.
+!> Runs the designs of a study in chunks, by several threads of one or several processes, and keeps what is finished.
 !>
 !> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
 !> study that was stopped, or killed at any moment, goes on where it was. Which thread computes a chunk has no influence on it.
+!> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only.
 module ek_study_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
@@ -9,10 +10,11 @@ module ek_study_run
    use ek_clock, only: seconds
    use ek_interrupt, only: is_stop_asked
    use ek_file, only: make_folder, join_path, read_whole, write_whole, file_exists, remove_file
-   use ek_writer, only: remove_stale, remove_empty_folder
+   use ek_writer, only: remove_stale, remove_empty_folder, is_in_use, scratch_t, begin_scratch, end_scratch
    use ek_deck, only: deck_t
    use ek_study, only: study_t
    use ek_study_design, only: designer_t, solve_design
+   use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
    implicit none(type, external)
@@ -33,7 +35,7 @@ module ek_study_run
    type :: run_state_t
       integer :: wanted = 0                       !! designs of this run
       integer :: before = 0                       !! of these, done before it began
-      integer :: done = 0                         !! and by now
+      integer :: done = 0                         !! and by now, by all ranks
       integer :: failed = 0                       !! of those computed now
       real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
       logical :: is_stopped = .false.             !! by a signal, or at the time limit
@@ -52,7 +54,6 @@ module ek_study_run
    type :: shared_t
       character(:), allocatable :: folder         !! of the chunks
       integer, allocatable :: pending(:)          !! numbers of the chunks that are missing
-      integer :: next = 0                         !! place in `pending` of the chunk handed out last
       real(wp) :: longest = 0.0_wp                !! time of a chunk [s]
       type(run_state_t) :: state
       type(error_t), allocatable :: error         !! of the first chunk that could not be written
@@ -69,16 +70,24 @@ contains
    end function parts_folder
 
    !> Opens the folder of the chunks. One that holds another study is refused.
-   subroutine open_parts(study, plan, out, error)
+   subroutine open_parts(study, plan, out, hold, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
+      type(scratch_t), intent(inout) :: hold               !! while it lasts, no other run removes the chunks
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       character(:), allocatable :: folder, text
+      integer :: attempt
 
       folder = parts_folder(study, out)
-      call make_folder(folder, error)
+      do attempt = 1, 3                                    ! a run that ends just now may remove the empty folder
+         call make_folder(folder, error)
+         if (allocated(error)) return
+         call begin_scratch(join_path(folder, ''), hold, error)
+         if (.not. allocated(error)) exit
+      end do
       if (allocated(error)) return
+      call remove_stale(folder)
       if (file_exists(join_path(folder, identity_name))) then
          call read_whole(join_path(folder, identity_name), text, error)
          if (allocated(error)) return
@@ -111,48 +120,70 @@ contains
       done = shared%state%before
    end subroutine count_parts
 
-   !> Removes the chunks, after the tables were written from them.
-   subroutine remove_parts(study, plan, out)
+   !> Removes the chunks, after the tables were written from them, unless another run needs them.
+   subroutine remove_parts(study, plan, out, hold, is_removed)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
+      type(scratch_t), intent(inout) :: hold               !! of this run; ended
+      logical, intent(out) :: is_removed
       character(:), allocatable :: folder
       integer :: k
 
       folder = parts_folder(study, out)
+      call end_scratch(hold)
+      is_removed = .not. is_in_use(folder)
+      if (.not. is_removed) return
       do k = 1, plan%chunks
          call remove_file(join_path(folder, chunk_name(k)))
       end do
       call remove_file(join_path(folder, identity_name))
-      call remove_stale(folder)
       call remove_empty_folder(folder)
    end subroutine remove_parts
 
-   !> Computes the chunks that are missing, or as many as there is time for.
-   subroutine run_chunks(study, plan, deck, out, options, designer, state, report, error)
+   !> Computes the chunks that are missing, or as many as there is time for. All ranks: their state is that of all.
+   subroutine run_chunks(study, plan, deck, out, options, designer, ranks, state, report, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
       type(run_options_t), intent(in) :: options
       type(designer_t), intent(in) :: designer             !! with the design of the deck
+      type(ranks_t), intent(inout) :: ranks                !! their counters zero
       type(run_state_t), intent(out) :: state
       procedure(report_procedure) :: report
       type(error_t), allocatable, intent(out) :: error     !! exit_file: a chunk could not be written
       type(shared_t) :: shared
-      integer :: threads
+      integer :: threads, stops
 
       shared%folder = parts_folder(study, out)
-      call list_pending(plan, options, shared)
+      if (ranks%is_first) call list_pending(plan, options, shared)
+      call share(ranks, shared%pending)
       shared%state%begun = seconds()
       shared%state%now = shared%state%begun
       threads = max(1, min(options%jobs, size(shared%pending)))
+      if (.not. ranks%has_threads) threads = 1
       !$omp parallel num_threads(threads) default(shared)
-      call work(study, plan, deck, options, designer, shared, report)
+      call work(study, plan, deck, options, designer, ranks, shared, report)
       !$omp end parallel
-      state = shared%state
       if (allocated(shared%error)) call move_alloc(shared%error, error)
+      call agree(ranks, error)
+      call count_all(ranks, shared%state)
+      call count_up(ranks, stopped_counter, 0, stops)
+      state = shared%state
+      state%is_stopped = stops > 0 .and. state%done < state%wanted
    end subroutine run_chunks
+
+   !> What all ranks have done by now.
+   subroutine count_all(ranks, state)
+      type(ranks_t), intent(inout) :: ranks
+      type(run_state_t), intent(inout) :: state
+      integer :: designs
+
+      call count_up(ranks, done_counter, 0, designs)
+      state%done = state%before + designs
+      call count_up(ranks, failed_counter, 0, state%failed)
+   end subroutine count_all
 
    !> The chunks of this run whose files are missing, damaged or of another study.
    subroutine list_pending(plan, options, shared)
@@ -177,12 +208,13 @@ contains
    end subroutine list_pending
 
    !> One thread: takes chunks until there is none left.
-   subroutine work(study, plan, deck, options, designer, shared, report)
+   subroutine work(study, plan, deck, options, designer, ranks, shared, report)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       type(deck_t), intent(in) :: deck
       type(run_options_t), intent(in) :: options
       type(designer_t), intent(in) :: designer
+      type(ranks_t), intent(inout) :: ranks
       type(shared_t), intent(inout) :: shared
       procedure(report_procedure) :: report
       type(designer_t), allocatable :: mine
@@ -197,7 +229,7 @@ contains
       !$omp end critical (ek_words)
       do
          !$omp critical (ek_words)
-         call take_chunk(options, shared, number)
+         call take_chunk(options, ranks, shared, number)
          !$omp end critical (ek_words)
          if (number == 0) exit
          begun = seconds()
@@ -207,44 +239,55 @@ contains
             call solve_design(study, deck, mine, k, chunk)
             is_whole = .not. is_stop_asked()
             if (.not. is_whole) exit
+            if (ranks%count == 1) cycle
+            !$omp critical (ek_words)
+            call help_others(ranks)
+            !$omp end critical (ek_words)
          end do
          !$omp critical (ek_words)
-         call put_chunk(plan, number, chunk, is_whole, seconds() - begun, shared, report)
+         call put_chunk(plan, number, chunk, is_whole, seconds() - begun, ranks, shared, report)
          !$omp end critical (ek_words)
       end do
    end subroutine work
 
    !> The next chunk; 0 if there is none, or no time for it.
-   subroutine take_chunk(options, shared, number)
+   subroutine take_chunk(options, ranks, shared, number)
       type(run_options_t), intent(in) :: options
+      type(ranks_t), intent(inout) :: ranks
       type(shared_t), intent(inout) :: shared
       integer, intent(out) :: number
       real(wp), parameter :: reserve = 1.5_wp        ! a chunk may take this much longer than the longest so far
       real(wp) :: passed
+      logical :: must_stop
+      integer :: before, stops
 
       number = 0
-      if (allocated(shared%error) .or. shared%next >= size(shared%pending)) return
+      if (allocated(shared%error)) return
       passed = seconds() - shared%state%begun
-      if (is_stop_asked()) shared%state%is_stopped = .true.
-      if (passed + reserve*shared%longest > options%time_limit) shared%state%is_stopped = .true.
-      if (shared%state%is_stopped) return
-      shared%next = shared%next + 1
-      number = shared%pending(shared%next)
+      must_stop = is_stop_asked() .or. passed + reserve*shared%longest > options%time_limit
+      if (must_stop) then
+         call count_up(ranks, stopped_counter, 1, stops)
+         return
+      end if
+      call count_up(ranks, ticket_counter, 1, before)
+      if (before < size(shared%pending)) number = shared%pending(before + 1)
    end subroutine take_chunk
 
    !> Keeps a finished chunk.
-   subroutine put_chunk(plan, number, chunk, is_whole, time, shared, report)
+   subroutine put_chunk(plan, number, chunk, is_whole, time, ranks, shared, report)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number
       type(chunk_t), intent(in) :: chunk
       logical, intent(in) :: is_whole
-      real(wp), intent(in) :: time
+      real(wp), intent(in) :: time                   !! s
+      type(ranks_t), intent(inout) :: ranks
       type(shared_t), intent(inout) :: shared
       procedure(report_procedure) :: report
       type(error_t), allocatable :: error
+      integer :: before
 
       if (.not. is_whole) then
-         shared%state%is_stopped = .true.
+         call count_up(ranks, stopped_counter, 1, before)
          return
       end if
       call write_chunk(chunk, join_path(shared%folder, chunk_name(number)), plan%identity, error)
@@ -253,8 +296,9 @@ contains
          return
       end if
       shared%longest = max(shared%longest, time)
-      shared%state%done = shared%state%done + size(chunk%status)
-      shared%state%failed = shared%state%failed + count(chunk%status /= 0)
+      call count_up(ranks, done_counter, size(chunk%status), before)
+      call count_up(ranks, failed_counter, count(chunk%status /= 0), before)
+      call count_all(ranks, shared%state)
       shared%state%now = seconds()
       call report(shared%state)
    end subroutine put_chunk

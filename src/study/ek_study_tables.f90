@@ -26,6 +26,7 @@ module ek_study_tables
    type :: study_counts_t
       integer :: designs(0:design_invalid) = 0                !! per status
       integer :: within = 0                                  !! designs that keep all limits of the responses
+      logical :: is_missing = .false.                        !! a chunk is missing or damaged: no table was written
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
       integer :: states = 0                                  !! most of any design
       integer :: reason = 0                                  !! length of the longest reason
@@ -70,6 +71,7 @@ contains
          if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: 'factor', study%columns]))
          do k = 1, plan%chunks
             call load_chunk(study, plan, out, k, chunk, error)
+            counts%is_missing = allocated(error)
             if (allocated(error)) exit
             call count_chunk(study, chunk, counts)
             call add_rows(study, chunk, rows)
@@ -94,6 +96,7 @@ contains
 
       do k = 1, plan%chunks
          call load_chunk(study, plan, out, k, chunk, error)
+         counts%is_missing = allocated(error)
          if (allocated(error)) return
          call count_chunk(study, chunk, counts)
       end do
@@ -169,7 +172,6 @@ contains
       type(study_t), intent(in) :: study
       type(chunk_t), intent(in) :: chunk
       type(writer_t), intent(inout) :: rows
-      character(:), allocatable :: line
       real(wp), allocatable :: values(:)
       integer :: k, n, block
 
@@ -182,9 +184,17 @@ contains
          if (block > 0 .and. chunk%first + k > 2) then
             if (mod(int(chunk%first) + k - 2, block) == 0) call rows%add(new_line('a'))
          end if
-         line = csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)])
-         call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
+         call add_line(csv_row(values, [.true., spread(.false., 1, n - 1), spread(.true., 1, size(values) - n)]))
       end do
+
+   contains
+
+      !> The numbers of a design, then its reason.
+      subroutine add_line(line)
+         character(*), intent(in) :: line            !! with its end
+         call rows%add(line(:len(line) - 1)//','//quoted_field(reason_of(chunk, k))//new_line('a'))
+      end subroutine add_line
+
    end subroutine add_rows
 
    !> The columns behind the responses.

@@ -8,6 +8,8 @@ module ek_small_study
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks
+   use ek_ranks, only: ranks_t
+   use ek_writer, only: scratch_t, end_scratch
    use ek_study_tables, only: study_counts_t, write_tables, responses_name, curves_name
    use ek_scratch, only: scratch
    implicit none(type, external)
@@ -46,6 +48,8 @@ contains
       type(designer_t) :: designer
       type(study_plan_t) :: plan
       type(run_options_t) :: options
+      type(ranks_t) :: ranks
+      type(scratch_t) :: hold
       type(run_state_t) :: state
       character(:), allocatable :: folder
 
@@ -57,9 +61,10 @@ contains
       call make_folder(folder, error)
       if (.not. allocated(error)) call new_designer(study, deck, '', designer, error)
       if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error)
-      if (.not. allocated(error)) call open_parts(study, plan, folder, error)
-      if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, options, designer, state, be_silent, error)
+      if (.not. allocated(error)) call open_parts(study, plan, folder, hold, error)
+      if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, options, designer, ranks, state, be_silent, error)
       if (.not. allocated(error)) call write_tables(study, plan, folder, counts, error)
+      call end_scratch(hold)
       if (.not. allocated(error)) &
          call read_csv(join_path(folder, responses_name(study)), responses, error, has_text=.true.)
       if (.not. allocated(error) .and. plan%columns > 0) &

@@ -1,0 +1,212 @@
+!> The processes (ranks) that compute one study together, started by mpirun or srun; without such a launcher, one.
+!>
+!> MPI is called only if the environment shows a launcher, so that a usual run neither starts nor waits for it. The ranks share
+!> counters, which lie in the memory of rank 0: the work is handed out by tickets, to whoever asks next. The procedures may be
+!> called by one thread at a time; those that say `all ranks` return when every rank has called them.
+module ek_ranks
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: str
+#ifdef EK_MPI
+   use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
+   use mpi_f08, only: MPI_Init_thread, MPI_Finalize, MPI_Comm_rank, MPI_Comm_size, MPI_Bcast, MPI_Allreduce, MPI_Barrier, &
+      MPI_Iprobe, MPI_Win, MPI_Win_allocate, MPI_Win_free, MPI_Win_lock, MPI_Win_unlock, MPI_Fetch_and_op, MPI_Status, &
+      MPI_COMM_WORLD, MPI_INFO_NULL, MPI_IN_PLACE, MPI_THREAD_SERIALIZED, MPI_INTEGER, MPI_CHARACTER, MPI_MIN, MPI_SUM, &
+      MPI_LOCK_SHARED, MPI_LOCK_EXCLUSIVE, MPI_ADDRESS_KIND, MPI_ANY_SOURCE, MPI_ANY_TAG
+#endif
+   implicit none(type, external)
+   private
+   public :: ranks_t, start_ranks, end_ranks, count_up, share, agree, help_others
+   public :: ticket_counter, done_counter, failed_counter, stopped_counter
+
+   ! what is counted over all ranks
+   integer, parameter :: ticket_counter = 1, done_counter = 2, failed_counter = 3, stopped_counter = 4, counters = 4
+
+   !> This process among those of the study.
+   type :: ranks_t
+      integer :: rank = 0, count = 1              !! 0 … count − 1
+      logical :: is_first = .true.                !! rank 0: it prints, and writes the tables
+      logical :: has_threads = .true.             !! each rank may have several threads
+      integer, private :: values(counters) = 0    !! of one rank
+      logical, private :: is_started = .false.    !! MPI was called
+#ifdef EK_MPI
+      type(MPI_Win), private :: window            !! the counters, in the memory of rank 0
+#endif
+   end type ranks_t
+
+contains
+
+   !> All ranks: begin. A launcher whose processes do not find each other is an error, as each would compute the whole study.
+   subroutine start_ranks(ranks, error)
+      type(ranks_t), intent(out) :: ranks
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      integer :: launched
+      logical :: is_launched
+
+      call look_for_launcher(is_launched, launched)
+      if (.not. is_launched) return
+#ifdef EK_MPI
+      call start_mpi(ranks)
+      if (ranks%count == 1 .and. launched > 1) then
+         call fail(error, exit_usage, 'started as one of '//str(launched)// &
+            ' processes, but they do not find each other: mpirun or srun belongs to another MPI than the one with which '// &
+            'this program was compiled')
+      end if
+#else
+      if (launched > 1) call fail(error, exit_usage, 'started as one of '//str(launched)// &
+         ' processes, but this program was compiled without MPI; use --jobs, or --shard and elastokin merge')
+#endif
+   end subroutine start_ranks
+
+   !> Whether mpirun or srun started this process, and as one of how many (1 if that is not known).
+   subroutine look_for_launcher(is_launched, launched)
+      logical, intent(out) :: is_launched
+      integer, intent(out) :: launched
+      character(*), parameter :: names(*) = [character(20) :: 'OMPI_COMM_WORLD_SIZE', 'PMI_SIZE', 'PMI_RANK', 'PMIX_RANK']
+      character(20) :: text
+      integer :: k, length, status, number
+
+      is_launched = .false.
+      launched = 1
+      do k = 1, size(names)
+         call get_environment_variable(trim(names(k)), text, length, status)
+         if (status /= 0 .or. length == 0) cycle
+         is_launched = .true.
+         if (index(names(k), 'SIZE') == 0) cycle
+         read (text, *, iostat=status) number
+         if (status == 0) launched = max(launched, number)
+      end do
+   end subroutine look_for_launcher
+
+   !> The value of a counter before it is increased; `by` may be 0.
+   subroutine count_up(ranks, counter, by, before)
+      type(ranks_t), intent(inout) :: ranks
+      integer, intent(in) :: counter              !! one of *_counter
+      integer, intent(in) :: by
+      integer, intent(out) :: before
+
+#ifdef EK_MPI
+      if (ranks%is_started) then
+         call count_there(ranks%window, counter, by, before)
+         return
+      end if
+#endif
+      before = ranks%values(counter)
+      ranks%values(counter) = before + by
+   end subroutine count_up
+
+   !> Lets the tickets of others through, where the network cannot read the memory of rank 0 by itself. Called now and then.
+   subroutine help_others(ranks)
+      type(ranks_t), intent(in) :: ranks
+#ifdef EK_MPI
+      type(MPI_Status) :: status
+      logical :: is_there
+#endif
+      if (.not. ranks%is_started .or. .not. ranks%is_first) return
+#ifdef EK_MPI
+      call MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, is_there, status)
+#endif
+   end subroutine help_others
+
+   !> All ranks: take the list of rank 0.
+   subroutine share(ranks, list)
+      type(ranks_t), intent(in) :: ranks
+      integer, allocatable, intent(inout) :: list(:)
+      integer :: length
+
+      length = 0
+      if (allocated(list)) length = size(list)
+      if (.not. ranks%is_started) return
+#ifdef EK_MPI
+      call MPI_Bcast(length, 1, MPI_INTEGER, 0, MPI_COMM_WORLD)
+      if (.not. ranks%is_first) then
+         if (allocated(list)) deallocate (list)
+         allocate (list(length))
+      end if
+      call MPI_Bcast(list, length, MPI_INTEGER, 0, MPI_COMM_WORLD)
+#endif
+   end subroutine share
+
+   !> All ranks: if one of them has an error, all have it afterwards (that of the lowest rank).
+   subroutine agree(ranks, error)
+      type(ranks_t), intent(in) :: ranks
+      type(error_t), allocatable, intent(inout) :: error
+      character(1000) :: text
+      integer :: lowest, numbers(2)
+
+      numbers(:) = 0
+      text = ''
+      if (allocated(error)) then
+         numbers(:) = [error%code, min(len(error%message), len(text))]
+         text = error%message
+      end if
+      lowest = merge(ranks%rank, ranks%count, allocated(error))
+      if (.not. ranks%is_started) return
+#ifdef EK_MPI
+      call MPI_Allreduce(MPI_IN_PLACE, lowest, 1, MPI_INTEGER, MPI_MIN, MPI_COMM_WORLD)
+      if (lowest == ranks%count) return
+      call MPI_Bcast(numbers, 2, MPI_INTEGER, lowest, MPI_COMM_WORLD)
+      call MPI_Bcast(text, len(text), MPI_CHARACTER, lowest, MPI_COMM_WORLD)
+#endif
+      if (lowest == ranks%rank) return
+      if (allocated(error)) deallocate (error)
+      call fail(error, numbers(1), 'rank '//str(lowest)//': '//text(:numbers(2)))
+   end subroutine agree
+
+   !> All ranks: end MPI. Each process then goes on alone; a second call has no effect.
+   subroutine end_ranks(ranks)
+      type(ranks_t), intent(inout) :: ranks
+
+      if (.not. ranks%is_started) return
+#ifdef EK_MPI
+      call MPI_Win_free(ranks%window)
+      call MPI_Finalize()
+#endif
+      ranks%is_started = .false.
+   end subroutine end_ranks
+
+#ifdef EK_MPI
+
+   !> All ranks: begin MPI, with all counters zero.
+   subroutine start_mpi(ranks)
+      type(ranks_t), intent(inout) :: ranks
+      integer, pointer :: values(:)
+      integer(MPI_ADDRESS_KIND) :: bytes
+      integer :: level
+      type(c_ptr) :: address
+
+      call MPI_Init_thread(MPI_THREAD_SERIALIZED, level)
+      ranks%is_started = .true.
+      ranks%has_threads = level >= MPI_THREAD_SERIALIZED
+      call MPI_Comm_rank(MPI_COMM_WORLD, ranks%rank)
+      call MPI_Comm_size(MPI_COMM_WORLD, ranks%count)
+      ranks%is_first = ranks%rank == 0
+      bytes = counters*storage_size(1)/8
+      call MPI_Win_allocate(merge(bytes, 0_MPI_ADDRESS_KIND, ranks%is_first), storage_size(1)/8, MPI_INFO_NULL, MPI_COMM_WORLD, &
+         address, ranks%window)
+      if (ranks%is_first) then
+         call c_f_pointer(address, values, [counters])
+         call MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, ranks%window)
+         values(:) = 0
+         call MPI_Win_unlock(0, ranks%window)
+      end if
+      call MPI_Barrier(MPI_COMM_WORLD)
+   end subroutine start_mpi
+
+   !> Increases a counter in the memory of rank 0.
+   subroutine count_there(window, counter, by, before)
+      type(MPI_Win), intent(in) :: window
+      integer, intent(in) :: counter, by
+      integer, intent(out) :: before
+      integer, asynchronous :: step, old
+
+      step = by
+      old = 0
+      call MPI_Win_lock(MPI_LOCK_SHARED, 0, 0, window)
+      call MPI_Fetch_and_op(step, old, MPI_INTEGER, 0, int(counter - 1, MPI_ADDRESS_KIND), MPI_SUM, window)
+      call MPI_Win_unlock(0, window)
+      before = old
+   end subroutine count_there
+
+#endif
+
+end module ek_ranks
