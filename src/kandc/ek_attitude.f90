@@ -1,4 +1,4 @@
-!> The attitude of a wheel from the pose of its carrier: toe, camber, steer axis, displacements, and the vertical force of the ground.
+!> The attitude of a wheel from the pose of its carrier: toe, camber, steer axis, displacements; the vertical force of the ground.
 !>
 !> Frame x rearward, y right, z up; side = −1 left, +1 right. All in SI and radians.
 !>

@@ -57,7 +57,7 @@ module ek_element
    type :: element_t
       integer :: kind = axial_spring
       logical :: is_balanced = .true.       !! spring: balance may change its preload
-      type(measure_t) :: measure            !! its bodies and points; the length, angle or other measure on which it acts; 0: bushing
+      type(measure_t) :: measure            !! its bodies and points; the length, angle or other measure it acts on; 0: bushing
       real(wp) :: preload = 0.0_wp          !! compression at design [N], moment on body j about the axis [N m]
       type(law_t) :: law                    !! of the measure; the preload is subtracted [N, N m]
       type(bushing_t) :: bushing            !! the six components of a bushing
