@@ -9,17 +9,17 @@ module ek_study_design
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
    use ek_text, only: str, quoted
    use ek_deck, only: deck_t, set_value
-   use ek_parameter, only: find_parameters
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, column_index, name_length
-   use ek_study, only: study_t, by_delta, by_scale, not_given
+   use ek_study, only: study_t, not_given
    use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
+   use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
    implicit none(type, external)
    private
-   public :: designer_t, begin_designer, new_designer, solve_design, label_of, shortest
+   public :: designer_t, begin_designer, new_designer, solve_design
 
    !> What one thread keeps from design to design.
    type :: designer_t
@@ -53,8 +53,9 @@ contains
       if (allocated(error)) return
       allocate (designer%paths(size(study%factors)))
       do k = 1, size(study%factors)
-         call find_paths(study, k, designer)
+         call find_paths(study%factors(k), designer%worker%design, designer%paths(k))
       end do
+      call check_planes(study, designer%worker%design, designer%paths, error)
    end subroutine begin_designer
 
    !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
@@ -113,56 +114,6 @@ contains
       end do
       designer%options(case)%columns = wanted
    end subroutine list_columns
-
-   !> Every path must lead to something in the deck that takes a number.
-   subroutine check_paths(study, deck, error)
-      type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
-      type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: given = '--set '
-      type(deck_t) :: changed
-      type(error_t), allocatable :: fault
-      type(message_list_t) :: mistakes
-      integer :: f, k
-
-      do f = 1, size(study%factors)
-         associate (factor => study%factors(f))
-            do k = 1, size(factor%paths)
-               changed = deck
-               call set_value(changed, trim(factor%paths(k)), setting_of(factor%change, 1.0_wp), fault)
-               if (.not. allocated(fault)) cycle
-               ! a mistake of the study, not of the command line
-               if (index(fault%message, given) == 1) fault%message = factor%where//': factor '//quoted(factor%name)//': '// &
-                  fault%message(len(given) + 1:)
-               call mistakes%add(fault%message)
-            end do
-         end associate
-      end do
-      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
-   end subroutine check_paths
-
-   !> The numbers of the deck to which the paths of a factor lead; none if one of them is no number of the design space.
-   subroutine find_paths(study, f, designer)
-      type(study_t), intent(in) :: study
-      integer, intent(in) :: f
-      type(designer_t), intent(inout) :: designer
-      type(factor_paths_t) :: one
-      integer :: k
-
-      associate (factor => study%factors(f), paths => designer%paths(f), design => designer%worker%design)
-         paths%change = factor%change
-         allocate (paths%found(0))
-         do k = 1, size(factor%paths)
-            call find_parameters(design%parameters, design%records, trim(factor%paths(k)), one%found)
-            if (size(one%found) == 0) then
-               deallocate (paths%found)
-               allocate (paths%found(0))
-               return
-            end if
-            paths%found = [paths%found, one%found]
-         end do
-      end associate
-   end subroutine find_paths
 
    !> Checks that all columns named by the study are in the tables of the first design and that its responses can be read.
    subroutine check_columns(study, home, designer, error)
@@ -361,33 +312,6 @@ contains
       call add_reason(chunk, k, words%text())
    end subroutine explain
 
-   !> The setting of a factor, as --set takes it behind the path and =: 5, +5 or *5.
-   function setting_of(change, value) result(text)
-      integer, intent(in) :: change
-      real(wp), intent(in) :: value
-      character(:), allocatable :: text
-
-      text = shortest(value)
-      if (change == by_delta) text = '+'//text
-      if (change == by_scale) text = '*'//text
-   end function setting_of
-
-   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that make a design from the deck.
-   function label_of(study, values) result(label)
-      type(study_t), intent(in) :: study
-      real(wp), intent(in) :: values(:)
-      character(:), allocatable :: label
-      integer :: f, j
-
-      label = ''
-      do f = 1, size(values)
-         do j = 1, size(study%factors(f)%paths)
-            label = label//' '//trim(study%factors(f)%paths(j))//'='//setting_of(study%factors(f)%change, values(f))
-         end do
-      end do
-      label = label(2:)
-   end function label_of
-
    !> Replaces every occurrence of a text by another.
    pure subroutine replace(text, old, new)
       character(:), allocatable, intent(inout) :: text
@@ -403,19 +327,5 @@ contains
          first = at + len(new)
       end do
    end subroutine replace
-
-   !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
-   function shortest(value) result(text)
-      real(wp), intent(in) :: value
-      character(:), allocatable :: text
-      real(wp) :: again
-      integer :: digits, status
-
-      do digits = 9, 17
-         text = str(value, digits)
-         read (text, *, iostat=status) again
-         if (status == 0 .and. abs(again - value) <= 0.0_wp) return
-      end do
-   end function shortest
 
 end module ek_study_design

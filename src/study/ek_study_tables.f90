@@ -11,7 +11,7 @@ module ek_study_tables
    use ek_writer, only: writer_t, begin_file
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
-   use ek_study_design, only: label_of
+   use ek_factor_paths, only: label_of
    use ek_study_plan, only: study_plan_t
    use ek_study_run, only: parts_folder
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, design_invalid
