@@ -224,6 +224,7 @@ contains
       type(sheet_t) :: sheet
       character(:), allocatable :: line
       real(wp) :: width, room, ends(2)
+      logical :: has_scatter
       integer :: r, k
 
       sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
@@ -248,7 +249,8 @@ contains
          associate (summary => study%summaries(r), response => study%responses(r))
             call begin_panel(sheet, r, '', response%label, 'designs')
             call sheet%text%line('unset arrow; unset label 3; unset label 4; unset label 5')
-            do k = 1, 3
+            has_scatter = summary%highest > summary%lowest
+            do k = merge(1, 2, has_scatter), merge(3, 2, has_scatter)
                call add_mark(sheet, k, summary%percentiles(2*k - 1), '')
                line = merge(' 5 %', '50 %', k == 1)
                if (k == 3) line = '95 %'
@@ -262,7 +264,7 @@ contains
             ! room for the limits, unless they are far away
             ends = [summary%lowest, summary%highest]
             room = ends(2) - ends(1)
-            if (.not. room > 0.0_wp) room = room_of_constant(ends(1))
+            if (.not. has_scatter) room = room_of_constant(ends(1))
             if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
@@ -277,7 +279,7 @@ contains
    !> The part of the axis that shows a response without scatter.
    pure real(wp) function room_of_constant(value)
       real(wp), intent(in) :: value
-      room_of_constant = max(abs(value), 1.0e-6_wp)
+      room_of_constant = merge(abs(value), 1.0_wp, abs(value) > 1.0e-9_wp)
    end function room_of_constant
 
    !> A vertical line across a panel: dark, or red if it is dashed.
