@@ -10,12 +10,13 @@ module ek_opened_study
    use ek_study_each, only: expand_factors
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
-   use ek_store, only: store_texts_t, keep_texts
+   use ek_study_tables, only: responses_name
+   use ek_store, only: store_texts_t, keep_texts, store_name
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
    implicit none(type, external)
    private
-   public :: opened_study_t, open_study, plan_study
+   public :: opened_study_t, open_study, plan_study, results_name
 
    !> A study that was read, with its folders.
    type :: opened_study_t
@@ -57,6 +58,14 @@ contains
       this%texts%swept = this%designer%results(1)%case%place_name
       this%texts%swept_unit = this%designer%results(1)%case%unit_name
    end subroutine plan_study
+
+   !> The file of the results: the store, or the table of the designs.
+   function results_name(this) result(name)
+      type(opened_study_t), intent(in) :: this
+      character(:), allocatable :: name
+      name = responses_name(this%study)
+      if (this%has_store) name = store_name(this%study)
+   end function results_name
 
    !> --samples: a trial of a large study.
    subroutine set_samples(samples, study, error)

@@ -3,16 +3,16 @@
 module ek_study_command
    use ek_error, only: error_t, fail, exit_usage, exit_convergence, message_list_t
    use ek_text, only: str, plural
-   use ek_file, only: make_folder
+   use ek_file, only: make_folder, join_path, file_exists
    use ek_interrupt, only: watch_for_stop
    use ek_writer, only: scratch_t, end_scratch
    use ek_study, only: step_size_kind
    use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
-   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts
+   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder
    use ek_store, only: choose_store
    use ek_command_line, only: command_line_t
    use ek_study_options, only: read_options
-   use ek_opened_study, only: opened_study_t, open_study, plan_study
+   use ek_opened_study, only: opened_study_t, open_study, plan_study, results_name
    use ek_study_progress, only: show_state, end_state, print_status
    use ek_study_outcome, only: write_results, write_step_size, show_results
    use ek_console, only: print_note
@@ -76,6 +76,7 @@ contains
       type(opened_study_t) :: this
       type(message_list_t) :: tables
       type(scratch_t) :: hold
+      character(:), allocatable :: results
       logical :: is_missing
       integer :: done
 
@@ -86,6 +87,14 @@ contains
       if (.not. allocated(error)) call choose_store(this%study, this%plan, this%has_store, error)
       if (allocated(error)) return
       call count_parts(this%study, this%plan, this%out, done)
+      results = join_path(this%out, results_name(this))
+      if (done == 0 .and. this%plan%designs > 0) then
+         if (file_exists(results)) then
+            call fail(error, exit_convergence, 'merge: nothing is to be merged: there is '//results// &
+               ', and no finished design in '//parts_folder(this%study, this%out))
+            return
+         end if
+      end if
       if (done < this%plan%designs) then
          call fail(error, exit_convergence, 'merge: '//str(this%plan%designs - done)//' of '//plural(this%plan%designs, &
             'design is', 'designs are')//' missing in '//this%out//'; run the shards that did not end (a run computes only '// &

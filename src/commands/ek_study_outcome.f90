@@ -8,12 +8,12 @@ module ek_study_outcome
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, step_size_kind
    use ek_study_run, only: remove_parts, parts_folder, this_machine, other_machine
-   use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
-   use ek_store, only: write_store, store_name
+   use ek_study_tables, only: study_counts_t, write_tables, count_designs, curves_name, has_limits
+   use ek_store, only: write_store
    use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
-   use ek_opened_study, only: opened_study_t
+   use ek_opened_study, only: opened_study_t, results_name
    use ek_plot, only: draw_study
    use ek_console, only: print_note, print_warning, print_error, print_path
    implicit none(type, external)
@@ -48,8 +48,7 @@ contains
          '; it removes that folder')
       if (user == other_machine) call print_note(is_quiet, parts_folder(this%study, this%out)//' is kept: a run on another '// &
          'machine is at work in it, or died there within a day; remove it if there is none')
-      name = store_name(this%study)
-      if (.not. this%has_store) name = responses_name(this%study)
+      name = results_name(this)
       if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
       call tables%add(name)
       if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
