@@ -25,7 +25,7 @@ cat >"$work/study.nml" <<END
 &response name = 'camber', column = 'camber_deg' /
 END
 sed "s/samples = 2000/samples = 1990/" "$work/study.nml" >"$work/other.nml"
-few=(--set case.vertical_sweep.increments=40)
+few=(--set case.vertical_sweep.increments=40 --no-plots)      # the table alone is compared
 
 study() { "$program" study "$work/study.nml" "${few[@]}" --out "$@"; } # study FOLDER [OPTION...]
 merge() { "$program" merge "$work/study.nml" "${few[@]}" --out "$1"; }
