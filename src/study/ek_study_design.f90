@@ -13,6 +13,8 @@ module ek_study_design
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, column_index, name_length
+   use ek_quantity, only: head_with_unit
+   use ek_factor_unit, only: factor_unit, unit_ending
    use ek_study, only: study_t, by_delta, by_scale, not_given
    use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
@@ -32,7 +34,8 @@ module ek_study_design
       integer, allocatable :: case_of(:)                   !! of each response
       integer :: increments = 0                            !! of all cases; 0: those of the deck
       integer :: states = 0                                !! of the first case, in the first design
-      character(name_length), allocatable :: units(:)      !! of the responses, '' if unknown
+      character(name_length), allocatable :: units(:)      !! of the factors, '' if they have none: 'N/mm'
+      character(name_length), allocatable :: heads(:)      !! of the columns of the factors: 'rate_n_per_mm'
    end type designer_t
 
 contains
@@ -51,9 +54,11 @@ contains
       if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
       call make_worker(deck, designer%case_names, designer%worker, error, designer%increments)
       if (allocated(error)) return
-      allocate (designer%paths(size(study%factors)))
+      allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
       do k = 1, size(study%factors)
          call find_paths(study, k, designer)
+         designer%units(k) = factor_unit(designer%worker%design, designer%paths(k))
+         designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
       end do
    end subroutine begin_designer
 
