@@ -18,7 +18,6 @@ module ek_study_results
    use ek_study_tables, only: responses_name, curves_name, has_limits
    use ek_sample_statistics, only: ascending_order, percentile
    use ek_study_data, only: study_data_t, study_axis_t, percents
-   use ek_deck_fragment, only: factor_unit
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    use ek_study_findings, only: summarise, find_effects, find_extremes
    implicit none(type, external)
@@ -93,7 +92,8 @@ contains
       do k = 1, size(study%factors)
          associate (axis => data%factors(k), factor => study%factors(k))
             axis%name = factor%name
-            unit = factor_unit(designer, k)
+            axis%head = trim(designer%heads(k))
+            unit = trim(designer%units(k))
             if (factor%change == by_scale) unit = '× deck'
             axis%label = factor%name
             if (factor%change == by_delta) axis%label = 'Δ '//factor%name
@@ -146,7 +146,7 @@ contains
          if (size(names) /= 1 + k + m + merge(3, 2, has_limits(study))) call wrong()
       end if
       if (.not. allocated(error)) then
-         if (any(names(2:k + 1) /= [character(64) :: (data%factors(d)%name, d=1, k)])) call wrong()
+         if (any(names(2:k + 1) /= [character(64) :: (data%factors(d)%head, d=1, k)])) call wrong()
       end if
       if (.not. allocated(error)) then
          do d = 1, m

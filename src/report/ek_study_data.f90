@@ -15,6 +15,7 @@ module ek_study_data
    !> A factor, a response or a column of the curves.
    type :: study_axis_t
       character(:), allocatable :: name
+      character(:), allocatable :: head                !! of the column of a factor
       character(:), allocatable :: label               !! name with unit
       character(:), allocatable :: note                !! path of a factor; what a response is
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response

@@ -63,7 +63,7 @@ contains
          if (k > size(rows)) return
          ! the rate of a spring on a &measure is a moment per angle if this is an angle
          if (path == ' spring.rate ' .or. path == ' spring.preload ') then
-            if (is_given(design%records(this%record), 'measure', 1)) return
+            if (is_given(design%records(this%record), 'measure')) return
          end if
          unit = written(trim(rows(k)%unit))
       end associate

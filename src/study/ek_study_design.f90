@@ -9,19 +9,19 @@ module ek_study_design
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
    use ek_text, only: str, quoted
    use ek_deck, only: deck_t, set_value
-   use ek_parameter, only: find_parameters
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, column_index, name_length
    use ek_quantity, only: head_with_unit
-   use ek_factor_unit, only: factor_unit, unit_ending
-   use ek_study, only: study_t, by_delta, by_scale, not_given
+   use ek_study, only: study_t, not_given
    use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
+   use ek_factor_unit, only: factor_unit, unit_ending
+   use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
    implicit none(type, external)
    private
-   public :: designer_t, begin_designer, new_designer, solve_design, label_of, shortest
+   public :: designer_t, begin_designer, new_designer, solve_design
 
    !> What one thread keeps from design to design.
    type :: designer_t
@@ -56,10 +56,11 @@ contains
       if (allocated(error)) return
       allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
       do k = 1, size(study%factors)
-         call find_paths(study, k, designer)
+         call find_paths(study%factors(k), designer%worker%design, designer%paths(k))
          designer%units(k) = factor_unit(designer%worker%design, designer%paths(k))
          designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
       end do
+      call check_planes(study, designer%worker%design, designer%paths, error)
    end subroutine begin_designer
 
    !> Reads the deck, and checks all paths, columns and responses against it. The design of the deck itself must be sound.
@@ -119,56 +120,6 @@ contains
       designer%options(case)%columns = wanted
    end subroutine list_columns
 
-   !> Every path must lead to something in the deck that takes a number.
-   subroutine check_paths(study, deck, error)
-      type(study_t), intent(in) :: study
-      type(deck_t), intent(in) :: deck
-      type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: given = '--set '
-      type(deck_t) :: changed
-      type(error_t), allocatable :: fault
-      type(message_list_t) :: mistakes
-      integer :: f, k
-
-      do f = 1, size(study%factors)
-         associate (factor => study%factors(f))
-            do k = 1, size(factor%paths)
-               changed = deck
-               call set_value(changed, trim(factor%paths(k)), setting_of(factor%change, 1.0_wp), fault)
-               if (.not. allocated(fault)) cycle
-               ! a mistake of the study, not of the command line
-               if (index(fault%message, given) == 1) fault%message = factor%where//': factor '//quoted(factor%name)//': '// &
-                  fault%message(len(given) + 1:)
-               call mistakes%add(fault%message)
-            end do
-         end associate
-      end do
-      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
-   end subroutine check_paths
-
-   !> The numbers of the deck to which the paths of a factor lead; none if one of them is no number of the design space.
-   subroutine find_paths(study, f, designer)
-      type(study_t), intent(in) :: study
-      integer, intent(in) :: f
-      type(designer_t), intent(inout) :: designer
-      type(factor_paths_t) :: one
-      integer :: k
-
-      associate (factor => study%factors(f), paths => designer%paths(f), design => designer%worker%design)
-         paths%change = factor%change
-         allocate (paths%found(0))
-         do k = 1, size(factor%paths)
-            call find_parameters(design%parameters, design%records, trim(factor%paths(k)), one%found)
-            if (size(one%found) == 0) then
-               deallocate (paths%found)
-               allocate (paths%found(0))
-               return
-            end if
-            paths%found = [paths%found, one%found]
-         end do
-      end associate
-   end subroutine find_paths
-
    !> Checks that all columns named by the study are in the tables of the first design and that its responses can be read.
    subroutine check_columns(study, home, designer, error)
       type(study_t), intent(in) :: study
@@ -178,7 +129,7 @@ contains
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: heads(:)    ! all columns of the results
       character(:), allocatable :: message
-      integer :: j, k
+      integer :: k
 
       associate (first => designer%results(1))
          call sweep_columns(first%suspension, first%case, heads)
@@ -193,15 +144,46 @@ contains
             call sweep_columns(result%suspension, result%case, heads)
             call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home)
             if (message /= '') call mistakes%add(message)
+         end associate
+      end do
+      call check_heads(study, designer, mistakes)
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine check_columns
+
+   !> No two columns of the table of responses may have the same name.
+   subroutine check_heads(study, designer, mistakes)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(message_list_t), intent(inout) :: mistakes
+      integer :: j, k
+
+      do k = 1, size(study%factors)
+         do j = 1, k - 1
+            if (designer%heads(j) == designer%heads(k)) call add(study%factors(k)%where//': factor '// &
+               quoted(study%factors(k)%name), trim(designer%heads(k)), 'factor '//quoted(study%factors(j)%name))
+         end do
+      end do
+      do k = 1, size(designer%readings)
+         associate (this => designer%readings(k))
+            do j = 1, size(study%factors)
+               if (designer%heads(j) == this%head) call add(this%asked%where//': response '//quoted(this%asked%name), this%head, &
+                  'factor '//quoted(study%factors(j)%name))
+            end do
             do j = 1, k - 1
-               if (readings(j)%head == readings(k)%head) call mistakes%add(readings(k)%asked%where//': response '// &
-                  quoted(readings(k)%asked%name)//': its column would have the name '//quoted(readings(k)%head)// &
-                  ', like that of response '//quoted(readings(j)%asked%name)//'; rename one')
+               if (designer%readings(j)%head == this%head) call add(this%asked%where//': response '//quoted(this%asked%name), &
+                  this%head, 'response '//quoted(designer%readings(j)%asked%name))
             end do
          end associate
       end do
-      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
-   end subroutine check_columns
+
+   contains
+
+      subroutine add(who, head, other)
+         character(*), intent(in) :: who, head, other
+         call mistakes%add(who//': its column would have the name '//quoted(head)//', like that of '//other//'; rename one')
+      end subroutine add
+
+   end subroutine check_heads
 
    !> Solves design k of a chunk, whose factors the chunk has, and fills its row.
    subroutine solve_design(study, deck, designer, k, chunk)
@@ -366,33 +348,6 @@ contains
       call add_reason(chunk, k, words%text())
    end subroutine explain
 
-   !> The setting of a factor, as --set takes it behind the path and =: 5, +5 or *5.
-   function setting_of(change, value) result(text)
-      integer, intent(in) :: change
-      real(wp), intent(in) :: value
-      character(:), allocatable :: text
-
-      text = shortest(value)
-      if (change == by_delta) text = '+'//text
-      if (change == by_scale) text = '*'//text
-   end function setting_of
-
-   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that make a design from the deck.
-   function label_of(study, values) result(label)
-      type(study_t), intent(in) :: study
-      real(wp), intent(in) :: values(:)
-      character(:), allocatable :: label
-      integer :: f, j
-
-      label = ''
-      do f = 1, size(values)
-         do j = 1, size(study%factors(f)%paths)
-            label = label//' '//trim(study%factors(f)%paths(j))//'='//setting_of(study%factors(f)%change, values(f))
-         end do
-      end do
-      label = label(2:)
-   end function label_of
-
    !> Replaces every occurrence of a text by another.
    pure subroutine replace(text, old, new)
       character(:), allocatable, intent(inout) :: text
@@ -408,19 +363,5 @@ contains
          first = at + len(new)
       end do
    end subroutine replace
-
-   !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
-   function shortest(value) result(text)
-      real(wp), intent(in) :: value
-      character(:), allocatable :: text
-      real(wp) :: again
-      integer :: digits, status
-
-      do digits = 9, 17
-         text = str(value, digits)
-         read (text, *, iostat=status) again
-         if (status == 0 .and. abs(again - value) <= 0.0_wp) return
-      end do
-   end function shortest
 
 end module ek_study_design

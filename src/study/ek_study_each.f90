@@ -3,12 +3,12 @@ module ek_study_each
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
    use ek_text, only: str, quoted, is_like
-   use ek_record, only: record_t, element, own_name, single, right_side
+   use ek_record, only: element, own_name, right_side
    use ek_deck, only: deck_t
-   use ek_group, only: group_names, point_group
-   use ek_parameter, only: parameter_t, choice_t, path_t, find_parameters, split_path, parameter_path
+   use ek_parameter, only: choice_t, path_t, find_parameters, split_path, parameter_path
    use ek_reader, only: design_t, read_design
    use ek_study, only: study_t, study_factor_t, by_scale
+   use ek_factor_paths, only: is_held_in_plane
    implicit none(type, external)
    private
    public :: expand_factors
@@ -16,7 +16,7 @@ module ek_study_each
 contains
 
    !> Replaces such factors. Left out are numbers that the deck omits, zeros that would be scaled, and the distance of a point of a
-   !> mirrored deck from the centre plane in which it lies. The two sides of a mirrored axle are one factor, unless the path has the
+   !> mirrored deck from the centre plane in which it lies (unless `shared` names it). The two sides of a mirrored axle are one factor, unless the path has the
    !> side in its name.
    subroutine expand_factors(study, deck, error)
       type(study_t), intent(inout) :: study
@@ -69,7 +69,8 @@ contains
             record => design%records(design%parameters%list(found(k)%number)%record))
             is_both = is_like(own_name(record), path%name)
             if (is_both .and. record%side == right_side .and. parameter%tied > 0) cycle      ! with that of the left side
-            if (.not. is_useful(design, parameter, record, x, given%change)) cycle
+            if (.not. parameter%is_given .or. (given%change == by_scale .and. .not. abs(x) > 0.0_wp)) cycle
+            if (is_held_in_plane(design, found(k)%number)) cycle
             one = given
             one%is_each = .false.
             deallocate (one%paths)
@@ -81,19 +82,6 @@ contains
          end associate
       end do
    end subroutine add_each
-
-   !> Whether a number is worth a factor.
-   pure logical function is_useful(design, parameter, record, x, change)
-      type(design_t), intent(in) :: design
-      type(parameter_t), intent(in) :: parameter
-      type(record_t), intent(in) :: record
-      real(wp), intent(in) :: x
-      integer, intent(in) :: change
-
-      is_useful = parameter%is_given .and. (change /= by_scale .or. abs(x) > 0.0_wp)
-      if (record%group == group_names(point_group) .and. parameter%at == 2 .and. record%side == single .and. &
-         .not. abs(x) > 0.0_wp) is_useful = is_useful .and. all(design%records%side == single)
-   end function is_useful
 
    !> 'point.left_ball.z' → 'point.ball.z'
    pure function without_side(path, name, own) result(text)

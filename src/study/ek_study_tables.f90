@@ -11,7 +11,7 @@ module ek_study_tables
    use ek_writer, only: writer_t, begin_file
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
-   use ek_study_design, only: label_of
+   use ek_factor_paths, only: label_of
    use ek_study_plan, only: study_plan_t
    use ek_study_run, only: parts_folder
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, design_invalid
@@ -145,13 +145,8 @@ contains
       character(*), intent(in) :: last(:)         !! columns behind the factors
       character(:), allocatable :: text
       type(table_t) :: table
-      character(name_length) :: names(size(study%factors))
-      integer :: f
 
-      do f = 1, size(names)
-         names(f) = study%factors(f)%name
-      end do
-      table = new_table([character(name_length) :: 'design', names, last], 0)
+      table = new_table([character(name_length) :: 'design', plan%factor_heads, last], 0)
       call table%header%add('study '//study%name//', kind '//trim(kind_names(study%kind))//', '// &
          plural(plan%designs, 'design', 'designs')//seed_of(study))
       call table%header%add('elastokin '//version//', deck checksum '//plan%deck_sum//', study '//plan%identity)

@@ -1,0 +1,166 @@
+!> The paths of the factors of a study: the numbers of the deck to which they lead, what is wrong with them, and the settings
+!> (as for --set) that make a design.
+module ek_factor_paths
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_deck
+   use ek_text, only: str, quoted, lower
+   use ek_record, only: element, own_name, single
+   use ek_group, only: group_names, point_group
+   use ek_deck, only: deck_t, set_value
+   use ek_parameter, only: find_parameters
+   use ek_reader, only: design_t
+   use ek_sampler_kind, only: list_kind
+   use ek_study, only: study_t, study_factor_t, by_delta, by_scale
+   use ek_worker, only: factor_paths_t
+   implicit none(type, external)
+   private
+   public :: check_paths, check_planes, find_paths, is_held_in_plane, setting_of, label_of, shortest
+
+   real(wp), parameter :: plane = 1.0e-9_wp       !! m; a point closer to y = 0 exists once on a mirrored axle
+   integer, parameter :: max_named = 4            !! points named in a message
+
+contains
+
+   !> Every path must lead to something in the deck that takes a number.
+   subroutine check_paths(study, deck, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: given = '--set '
+      type(deck_t) :: changed
+      type(error_t), allocatable :: fault
+      type(message_list_t) :: mistakes
+      integer :: f, k
+
+      do f = 1, size(study%factors)
+         associate (factor => study%factors(f))
+            do k = 1, size(factor%paths)
+               changed = deck
+               call set_value(changed, trim(factor%paths(k)), setting_of(factor%change, 1.0_wp), fault)
+               if (.not. allocated(fault)) cycle
+               ! a mistake of the study, not of the command line
+               if (index(fault%message, given) == 1) fault%message = factor%where//': factor '//quoted(factor%name)//': '// &
+                  fault%message(len(given) + 1:)
+               call mistakes%add(fault%message)
+            end do
+         end associate
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine check_paths
+
+   !> Refuses factors that move a point out of the centre plane of a mirrored deck: every design would be invalid, as a point off the
+   !> plane exists on both sides. A factor that multiplies leaves the point where it is; the rows of a list may have zeros.
+   subroutine check_planes(study, design, paths, error)
+      type(study_t), intent(in) :: study
+      type(design_t), intent(in) :: design
+      type(factor_paths_t), intent(in) :: paths(:)         !! of the factors
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck
+      type(message_list_t) :: mistakes
+      character(:), allocatable :: names
+      integer :: f, j, points
+
+      if (study%kind == list_kind) return
+      do f = 1, size(paths)
+         if (paths(f)%change == by_scale) cycle
+         names = ''
+         points = 0
+         do j = 1, size(paths(f)%found)
+            if (.not. is_held_in_plane(design, paths(f)%found(j)%number)) cycle
+            points = points + 1
+            if (points > max_named) cycle
+            names = names//', '//quoted(own_name(design%records(design%parameters%list(paths(f)%found(j)%number)%record)))
+         end do
+         if (points == 0) cycle
+         if (points > max_named) names = names//' and '//str(points - max_named)//' more'
+         call mistakes%add(study%factors(f)%where//': factor '//quoted(study%factors(f)%name)//': its paths include y of '// &
+            names(3:)//', in the centre plane of a deck with &mirror, where y must remain 0; use paths without it '// &
+            '(each = .true. leaves it out), or list it in shared of &mirror if it is to move sideways')
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine check_planes
+
+   !> Whether a number is y of a point in the centre plane of a mirrored deck that `shared` does not name.
+   pure logical function is_held_in_plane(design, number)
+      type(design_t), intent(in) :: design
+      integer, intent(in) :: number               !! of the parameter
+      integer :: k, j
+
+      is_held_in_plane = .false.
+      associate (parameter => design%parameters%list(number), record => design%records(design%parameters%list(number)%record))
+         if (record%group /= group_names(point_group) .or. parameter%at /= 2 .or. record%side /= single) return
+         if (abs(design%parameters%x(number)) >= plane .or. all(design%records%side == single)) return
+         do k = 1, size(design%records)
+            if (design%records(k)%group /= 'mirror') cycle
+            j = 1
+            do while (element(design%records(k), 'shared', j) /= '')
+               if (lower(element(design%records(k), 'shared', j)) == lower(element(record, 'name', 1))) return
+               j = j + 1
+            end do
+         end do
+      end associate
+      is_held_in_plane = .true.
+   end function is_held_in_plane
+
+   !> The numbers of the deck to which the paths of a factor lead; none if one of them is no number of the design space.
+   subroutine find_paths(factor, design, paths)
+      type(study_factor_t), intent(in) :: factor
+      type(design_t), intent(in) :: design
+      type(factor_paths_t), intent(out) :: paths
+      type(factor_paths_t) :: one
+      integer :: k
+
+      paths%change = factor%change
+      allocate (paths%found(0))
+      do k = 1, size(factor%paths)
+         call find_parameters(design%parameters, design%records, trim(factor%paths(k)), one%found)
+         if (size(one%found) == 0) then
+            deallocate (paths%found)
+            allocate (paths%found(0))
+            return
+         end if
+         paths%found = [paths%found, one%found]
+      end do
+   end subroutine find_paths
+
+   !> The setting of a factor, as --set takes it behind the path and =: 5, +5 or *5.
+   function setting_of(change, value) result(text)
+      integer, intent(in) :: change
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+
+      text = shortest(value)
+      if (change == by_delta) text = '+'//text
+      if (change == by_scale) text = '*'//text
+   end function setting_of
+
+   !> 'spring.coil.rate=30 bushing.top_mount.kt(1)=*1.5': the settings that make a design from the deck.
+   function label_of(study, values) result(label)
+      type(study_t), intent(in) :: study
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: label
+      integer :: f, j
+
+      label = ''
+      do f = 1, size(values)
+         do j = 1, size(study%factors(f)%paths)
+            label = label//' '//trim(study%factors(f)%paths(j))//'='//setting_of(study%factors(f)%change, values(f))
+         end do
+      end do
+      label = label(2:)
+   end function label_of
+
+   !> The shortest text of nine or more digits that reads back as the same number: -5, 0.1, 1E-05.
+   function shortest(value) result(text)
+      real(wp), intent(in) :: value
+      character(:), allocatable :: text
+      real(wp) :: again
+      integer :: digits, status
+
+      do digits = 9, 17
+         text = str(value, digits)
+         read (text, *, iostat=status) again
+         if (status == 0 .and. abs(again - value) <= 0.0_wp) return
+      end do
+   end function shortest
+
+end module ek_factor_paths
