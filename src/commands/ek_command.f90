@@ -96,6 +96,7 @@ module ek_command
       option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado sobol morris line map fan family'//indent// &
       'histogram scatter parallel convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
+      option_t('plot', '--samples N', 'as the study ran'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &

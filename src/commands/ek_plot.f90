@@ -2,17 +2,16 @@
 module ek_plot
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: quoted
-   use ek_file, only: make_folder, join_path, folder_name, write_whole
+   use ek_file, only: make_folder, join_path, read_whole, write_whole, file_exists, remove_file
    use ek_deck, only: deck_t
    use ek_drawing, only: run_gnuplot
    use ek_study, only: study_t, step_size_kind
-   use ek_study_reader, only: read_study
    use ek_study_data, only: study_data_t
-   use ek_study_figures, only: rules, applies, script_of, figure_name
+   use ek_study_figures, only: figure_rule_t, rules, applies, script_of, figure_name
    use ek_study_page, only: study_page, page_name
    use ek_study_results, only: read_results_of
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: read_changed
+   use ek_opened_study, only: opened_study_t, open_study
    use ek_console, only: print_note, print_path
    implicit none(type, external)
    private
@@ -24,22 +23,29 @@ contains
    subroutine run_plot_command(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      type(study_t) :: study
-      type(deck_t) :: deck
-      character(:), allocatable :: home, out
+      type(opened_study_t) :: this
 
-      home = folder_name(line%files%line(1))
-      out = line%value('--out', join_path(home, 'out'))
       call check_kinds(line%values('--kind'), error)
-      if (.not. allocated(error)) call read_study(line%files%line(1), study, error)
-      if (.not. allocated(error)) then
-         if (study%kind == step_size_kind) call fail(error, exit_usage, &
-            'plot: a study of kind ''step_size'' has only the figures of its plot script')
+      if (.not. allocated(error)) call check_file(line%files%line(1), error)
+      if (.not. allocated(error)) call open_study(line, this, error)
+      if (allocated(error)) return
+      if (this%study%kind == step_size_kind) then
+         call fail(error, exit_usage, 'plot: a study of kind ''step_size'' has only the figures of its plot script')
+         return
       end if
-      if (.not. allocated(error)) call read_changed(join_path(home, study%deck), line%values('--set'), deck, error)
-      if (.not. allocated(error)) call draw_study(study, deck, join_path(home, ''), out, line%values('--kind'), &
-         line%has('--quiet'), error)
+      call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, line%values('--kind'), line%has('--quiet'), error)
    end subroutine run_plot_command
+
+   !> The results alone do not say what is to be drawn.
+   subroutine check_file(path, error)
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: ending
+
+      ending = path(index(path, '.', back=.true.) + 1:)
+      if (ending == 'nc' .or. ending == 'csv') call fail(error, exit_usage, 'plot: '//quoted(path)// &
+         ' has results; give the study that they are of, and their folder with --out: elastokin plot STUDY.nml --out DIR')
+   end subroutine check_file
 
    !> Every name after --kind is that of a figure.
    subroutine check_kinds(kinds, error)
@@ -80,8 +86,11 @@ contains
       call make_folder(folder, error)
       if (allocated(error)) return
       do k = 1, size(rules)
-         if (.not. applies(rules(k), data) .or. .not. is_asked(trim(rules(k)%name))) cycle
          name = figure_name(rules(k), data)
+         if (.not. applies(rules(k), data) .or. .not. is_asked(trim(rules(k)%name))) then
+            call remove_old(rules(k), name)
+            cycle
+         end if
          call write_whole(join_path(folder, name//'.gp'), script_of(rules(k), data), error, can_be_redrawn=.true.)
          if (allocated(error)) return
          call scripts%add(name//'.gp')
@@ -105,6 +114,27 @@ contains
       if (allocated(undrawn)) call move_alloc(undrawn, error)
 
    contains
+
+      !> Removes a figure that is not drawn now, unless it is of these results: its script, which contains its data, is that of now.
+      subroutine remove_old(rule, name)
+         type(figure_rule_t), intent(in) :: rule
+         character(*), intent(in) :: name
+         type(error_t), allocatable :: unread
+         character(:), allocatable :: script
+         logical :: is_current
+
+         is_current = applies(rule, data)
+         if (is_current) is_current = file_exists(join_path(folder, name//'.gp'))
+         if (is_current) then
+            call read_whole(join_path(folder, name//'.gp'), script, unread)
+            is_current = .not. allocated(unread)
+            if (is_current) is_current = script == script_of(rule, data)
+         end if
+         if (is_current) return
+         call remove_file(join_path(folder, name//'.gp'))
+         call remove_file(join_path(folder, name//'.png'))
+         call remove_file(join_path(folder, name//'.svg'))
+      end subroutine remove_old
 
       logical function is_asked(name)
          character(*), intent(in) :: name

@@ -39,6 +39,7 @@ contains
       end if
       text = line%value('--time-limit')
       if (text /= '') call read_time(text, options%time_limit, error)
+      options%is_quiet = line%has('--quiet')
    end subroutine read_options
 
    !> '90' (seconds), '30:00' or '1:30:00'.

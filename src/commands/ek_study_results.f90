@@ -1,8 +1,8 @@
 !> The results of a finished study for its figures and its page: the tables are read line by line.
 !>
-!> Of a table of many designs all factors and responses are kept (8 bytes each), of the curves those of 5,000 designs at most.
+!> Of a table of many designs all factors and responses are kept (8 bytes each), of the curves those of 5,000 designs at most. A
+!> store in NetCDF is written as tables into a scratch folder first (ek_store).
 module ek_study_results
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_file
    use ek_text, only: str, plural
@@ -16,15 +16,16 @@ module ek_study_results
    use ek_study_design, only: designer_t, begin_designer
    use ek_study_plan, only: plan_sampler
    use ek_study_tables, only: responses_name, curves_name, has_limits
-   use ek_sample_statistics, only: ascending_order, percentile
    use ek_study_data, only: study_data_t, study_axis_t, percents
+   use ek_store, only: wants_store, read_store, store_name
+   use ek_writer, only: scratch_t, begin_scratch, end_scratch
+   use ek_study_curves, only: read_curves, curve_step
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    use ek_study_findings, only: summarise, find_effects, find_extremes
    implicit none(type, external)
    private
    public :: read_results_of
 
-   integer, parameter :: most_curves = 5000          !! designs whose curves are kept
    integer, parameter :: most_reasons = 12           !! kinds of failures
 
    !> Failures with the same message, apart from the numbers in it.
@@ -46,13 +47,10 @@ contains
       type(designer_t) :: designer
       type(sampler_settings_t) :: settings
       type(sampler_t) :: sampler
+      type(scratch_t) :: scratch
+      character(:), allocatable :: folder
       integer :: r
 
-      if (.not. file_exists(join_path(out, responses_name(study)))) then
-         call fail(error, exit_file, 'there is no '//join_path(out, responses_name(study))// &
-            ': the study is not finished, or its results are in another folder (--out)')
-         return
-      end if
       call begin_designer(study, deck, designer, error)
       if (.not. allocated(error)) call plan_sampler(study, home, designer, settings, sampler, error)
       if (allocated(error)) return
@@ -63,13 +61,18 @@ contains
       data%case = trim(designer%worker%cases(1)%case%name)
       data%designs = int(designs_of(sampler))
       call name_axes(study, designer, data)
-      call read_rows(study, deck_checksum(deck), join_path(out, responses_name(study)), data, error)
-      if (allocated(error)) return
+      call find_tables(study, out, data%designs, scratch, folder, error)
+      if (.not. allocated(error)) call read_rows(study, deck_checksum(deck), join_path(folder, responses_name(study)), data, error)
+      if (allocated(error)) then
+         call end_scratch(scratch)
+         return
+      end if
       if (size(data%columns) > 0) then
-         call read_curves(join_path(out, curves_name(study)), data, error)
+         call read_curves(join_path(folder, curves_name(study)), data, error)
       else
          allocate (data%drawn(0), data%sweep(0), data%curves(0, 0, 0), data%bands(size(percents), 0, 0))
       end if
+      call end_scratch(scratch)
       if (allocated(error)) return
       allocate (data%summaries(size(data%responses)), data%effects(size(data%responses)), data%extremes(0))
       do r = 1, size(data%responses)
@@ -78,6 +81,30 @@ contains
          call find_extremes(study, designer, data, r)
       end do
    end subroutine read_results_of
+
+   !> The folder of the tables: that of the results, or a scratch folder with the tables of the store.
+   subroutine find_tables(study, out, designs, scratch, folder, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: out
+      integer, intent(in) :: designs
+      type(scratch_t), intent(inout) :: scratch
+      character(:), allocatable, intent(out) :: folder
+      type(error_t), allocatable, intent(out) :: error     !! exit_file
+      logical :: has_tables, has_store
+
+      has_tables = file_exists(join_path(out, responses_name(study)))
+      has_store = file_exists(join_path(out, store_name(study)))
+      folder = out
+      if (.not. has_tables .and. .not. has_store) then
+         call fail(error, exit_file, 'there is no '//join_path(out, responses_name(study))//' and no '//store_name(study)// &
+            ': the study is not finished, or its results are in another folder (--out)')
+      else if (has_store .and. (wants_store(study, designs) .or. .not. has_tables)) then
+         call begin_scratch(join_path(out, ''), scratch, error)
+         if (allocated(error)) return
+         folder = scratch%path
+         call read_store(study, out, curve_step(designs), folder, error)
+      end if
+   end subroutine find_tables
 
    !> Names and labels of factors, responses and columns.
    subroutine name_axes(study, designer, data)
@@ -237,142 +264,5 @@ contains
             ': '//reasons(k)%words)
       end do
    end subroutine list_reasons
-
-   !> The curves of every n-th design, and their bands.
-   subroutine read_curves(path, data, error)
-      character(*), intent(in) :: path
-      type(study_data_t), intent(inout) :: data
-      type(error_t), allocatable, intent(out) :: error
-      type(lines_t) :: lines
-      character(64), allocatable :: names(:)
-      real(wp), allocatable :: values(:), rows(:, :), grown(:, :)
-      integer :: k, c, status, used, every, rest, last
-
-      call open_table(path, '', lines, names, error)
-      k = size(data%factors)
-      c = size(data%columns)
-      if (.not. allocated(error) .and. size(names) /= k + c + 2) call fail(error, exit_file, path// &
-         ': this is not the table of curves of the study; run the study again')
-      if (.not. allocated(error)) then
-         every = (data%designs + most_curves - 1)/most_curves
-         allocate (values(k + c + 2), rows(c + 2, 1024))
-         used = 0
-         do
-            call next_line(lines, status)
-            if (status /= 0) exit
-            if (every > 1) then
-               call take_numbers(lines%content(:lines%used), values(:1), rest)
-               if (mod(nint(values(1)) - 1, every) /= 0) cycle
-            end if
-            call take_numbers(lines%content(:lines%used), values, rest)
-            used = used + 1
-            if (used > size(rows, 2)) then
-               last = size(rows, 2)
-               allocate (grown(c + 2, 2*last))
-               grown(:, :last) = rows
-               call move_alloc(grown, rows)
-            end if
-            rows(:, used) = [values(1), values(k + 2:)]
-         end do
-         call sort_curves(rows(:, :used), data)
-         call find_bands(data)
-         call name_sweep(data)
-      end if
-      call close_table(lines)
-   end subroutine read_curves
-
-   !> Puts the states of each design at the swept values of the design that has most of them.
-   subroutine sort_curves(rows, data)
-      real(wp), intent(in) :: rows(:, :)             !! (design, swept value, columns; state)
-      type(study_data_t), intent(inout) :: data
-      integer, allocatable :: begins(:)
-      real(wp) :: near
-      integer :: k, j, d, longest
-
-      allocate (begins(0))
-      d = 0
-      do k = 1, size(rows, 2)
-         if (nint(rows(1, k)) == d) cycle
-         d = nint(rows(1, k))
-         begins = [begins, k]
-      end do
-      begins = [begins, size(rows, 2) + 1]
-      allocate (data%drawn(size(begins) - 1))
-      longest = 1
-      do d = 1, size(data%drawn)
-         data%drawn(d) = nint(rows(1, begins(d)))
-         if (begins(d + 1) - begins(d) > begins(longest + 1) - begins(longest)) longest = d
-      end do
-      if (size(data%drawn) == 0) then
-         allocate (data%sweep(0), data%curves(size(data%columns), 0, 0))
-         return
-      end if
-      allocate (data%sweep(begins(longest + 1) - begins(longest)))
-      data%sweep(:) = rows(2, begins(longest):begins(longest + 1) - 1)
-      allocate (data%curves(size(data%columns), size(data%sweep), size(data%drawn)))
-      data%curves = ieee_value(1.0_wp, ieee_quiet_nan)
-      near = 1.0e-9_wp*(maxval(data%sweep) - minval(data%sweep))
-      do d = 1, size(data%drawn)
-         do k = begins(d), begins(d + 1) - 1
-            j = k - begins(d) + 1
-            if (abs(data%sweep(min(j, size(data%sweep))) - rows(2, k)) > near) &
-               j = minloc(abs(data%sweep - rows(2, k)), dim=1)
-            if (abs(data%sweep(j) - rows(2, k)) <= near) data%curves(:, j, d) = rows(3:, k)
-         end do
-      end do
-   end subroutine sort_curves
-
-   !> Percentiles at each state over the designs that have it.
-   subroutine find_bands(data)
-      type(study_data_t), intent(inout) :: data
-      real(wp), allocatable :: values(:)
-      integer, allocatable :: order(:)
-      integer :: c, j, p
-
-      allocate (data%bands(size(percents), size(data%columns), size(data%sweep)))
-      data%bands = ieee_value(1.0_wp, ieee_quiet_nan)
-      do j = 1, size(data%sweep)
-         do c = 1, size(data%columns)
-            values = pack(data%curves(c, j, :), ieee_is_finite(data%curves(c, j, :)))
-            if (size(values) == 0) cycle
-            allocate (order(size(values)))
-            call ascending_order(values, order)
-            values(:) = values(order)
-            deallocate (order)
-            do p = 1, size(percents)
-               data%bands(p, c, j) = percentile(values, 0.01_wp*percents(p))
-            end do
-         end do
-      end do
-   end subroutine find_bands
-
-   !> The label of the swept value. If it is a column of the curves, it is called so, and the column is not drawn over itself.
-   subroutine name_sweep(data)
-      type(study_data_t), intent(inout) :: data
-      logical :: is_drawn(size(data%columns))
-      real(wp) :: near
-      integer :: c, j, d
-
-      data%swept = 'swept value of '//data%case
-      if (size(data%sweep) == 0) return
-      near = 1.0e-6_wp*(maxval(data%sweep) - minval(data%sweep))
-      is_drawn = .true.
-      do c = 1, size(data%columns)
-         do d = 1, size(data%drawn)
-            do j = 1, size(data%sweep)
-               if (.not. ieee_is_finite(data%curves(c, j, d))) cycle
-               if (abs(data%curves(c, j, d) - data%sweep(j)) > near) exit
-            end do
-            if (j <= size(data%sweep)) exit
-         end do
-         is_drawn(c) = d <= size(data%drawn)
-         if (.not. is_drawn(c)) data%swept = data%columns(c)%label
-         if (.not. is_drawn(c) .and. data%columns(c)%note /= '') data%swept = data%swept//'    ('//data%columns(c)%note//')'
-      end do
-      if (all(is_drawn) .or. .not. any(is_drawn)) return
-      data%curves = data%curves(pack([(c, c=1, size(is_drawn))], is_drawn), :, :)
-      data%bands = data%bands(:, pack([(c, c=1, size(is_drawn))], is_drawn), :)
-      data%columns = pack(data%columns, is_drawn)
-   end subroutine name_sweep
 
 end module ek_study_results

@@ -1,5 +1,5 @@
-!> elastokin-netcdf PARTS OUT.nc: writes the store of a study from the folder of its chunks. elastokin runs it when all designs are
-!> done. It is a program of its own because the NetCDF libraries would make every start of elastokin longer by 6 ms.
+!> elastokin-netcdf PARTS OUT.nc: writes the store of a study from the folder of its chunks; elastokin runs it when all designs are
+!> done. elastokin-netcdf --csv STORE.nc FOLDER [N]: writes the tables of a store as CSV (the curves of every N-th design). It is a program of its own because the NetCDF libraries would make every start of elastokin longer by 6 ms.
 program elastokin_netcdf
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use, intrinsic :: iso_c_binding, only: c_int
@@ -9,14 +9,25 @@ program elastokin_netcdf
    use ek_version, only: version
    use ek_store_description, only: store_t, read_description, description_name
    use ek_netcdf_store, only: write_store_file
+   use ek_netcdf_tables, only: write_store_tables
    implicit none(type, external)
    type(store_t) :: store
    type(error_t), allocatable :: error
+   character(:), allocatable :: text
+   integer :: every, status
 
    if (argument(1) == '--version') then
       write (output_unit, '(a)') 'elastokin-netcdf '//version
+   else if (argument(1) == '--csv' .and. (command_argument_count() == 3 .or. command_argument_count() == 4)) then
+      every = 1
+      status = 0
+      text = argument(4)
+      if (len(text) > 0) read (text, *, iostat=status) every
+      if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be a whole number, 1 or more')
+      if (.not. allocated(error)) call write_store_tables(argument(2), argument(3), every, error)
    else if (command_argument_count() /= 2) then
-      call fail(error, exit_usage, 'expected: elastokin-netcdf PARTS_FOLDER OUT.nc; elastokin study runs it')
+      call fail(error, exit_usage, 'expected: elastokin-netcdf PARTS_FOLDER OUT.nc (elastokin study runs it), or '// &
+         'elastokin-netcdf --csv STORE.nc FOLDER [N]')
    else
       call read_description(join_path(argument(1), description_name), store, error)
       if (.not. allocated(error)) call write_store_file(store, argument(1), argument(2), error)

@@ -37,7 +37,7 @@ function(ek_add_netcdf)
   endif()
   message(STATUS "NetCDF: found, elastokin-netcdf writes the results of large studies")
   set(here ${CMAKE_CURRENT_SOURCE_DIR}/netcdf)
-  add_executable(elastokin-netcdf ${here}/main.f90 ${here}/ek_netcdf_store.f90)
+  add_executable(elastokin-netcdf ${here}/main.f90 ${here}/ek_netcdf_store.f90 ${here}/ek_netcdf_tables.f90)
   set_target_properties(elastokin-netcdf PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
     Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/netcdf)

@@ -179,14 +179,14 @@ contains
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data
-      integer, allocatable :: order(:)
+      integer :: order(min(most_bars, size(study%factors)))
       integer :: r, k
 
       sheet = new_bars(study, name, 'One factor at a time', subtitle// &
          '; blue: the smallest value of the factor, orange: the largest'//cut(study))
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
-            order = ranked(effect%highest - effect%lowest, most_bars)
+            order(:) = ranked(effect%highest - effect%lowest, most_bars)
             call begin_data(sheet, 'bars'//str(r))
             do k = 1, size(order)
                call add_numbers(sheet, [real(k, wp), effect%nominal, effect%at_low(order(k)), effect%at_high(order(k)), &
@@ -222,14 +222,14 @@ contains
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data
-      integer, allocatable :: order(:)
+      integer :: order(min(most_bars, size(study%factors)))
       integer :: r, k
 
       sheet = new_bars(study, name, 'Sobol indices: share of the variance', subtitle// &
          '; blue: the factor alone, orange: with its interactions; lines: 95 % confidence'//cut(study))
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
-            order = ranked(effect%total, most_bars)
+            order(:) = ranked(effect%total, most_bars)
             call begin_data(sheet, 'bars'//str(r))
             do k = 1, size(order)
                call add_numbers(sheet, [real(k, wp), effect%first(order(k)), effect%first_error(order(k)), &
@@ -265,7 +265,7 @@ contains
       character(:), allocatable :: data
       character(24) :: half
       real(wp) :: range(2)
-      integer, allocatable :: order(:)
+      integer :: order(size(study%factors))
       integer :: r, k
 
       sheet = new_sheet(name, 'Morris: size and spread of the effects', subtitle// &
@@ -273,7 +273,7 @@ contains
       sheet%left = 115
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
-            order = ranked(effect%mean_size, size(study%factors))
+            order(:) = ranked(effect%mean_size, size(study%factors))
             call begin_data(sheet, 'points'//str(r))
             do k = 1, size(order)
                if (k <= named_points) call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))], &

@@ -3,7 +3,7 @@
 !> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures or ek_effect_figures.
 module ek_study_figures
    use ek_text, only: plural
-   use ek_study_data, only: study_data_t
+   use ek_study_data, only: study_data_t, has_indices
    use ek_sample_figures, only: family_script, fan_script, scatter_script, parallel_script, histogram_script, convergence_script
    use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
    implicit none(type, external)
@@ -26,7 +26,7 @@ module ek_study_figures
 
    type(figure_rule_t), parameter :: rules(*) = [ &
       figure_rule_t('tornado', 'Tornado: one factor at a time', 'one_at_a_time', .false., .true., 1, no_end, 2), &
-      figure_rule_t('sobol', 'Sobol indices', 'saltelli', .false., .true., 1, no_end, 6), &
+      figure_rule_t('sobol', 'Sobol indices', 'saltelli list', .false., .true., 1, no_end, 6), &
       figure_rule_t('morris', 'Morris'' elementary effects', 'morris', .false., .true., 1, no_end, 4), &
       figure_rule_t('line', 'Responses over the factor', 'grid', .false., .true., 1, 1, 2), &
       figure_rule_t('map', 'Contours over two factors', 'grid', .false., .true., 2, 2, 4), &
@@ -49,6 +49,7 @@ contains
       if (rule%needs_responses) applies = applies .and. any(study%summaries%used > 0)
       applies = applies .and. size(study%factors) >= rule%least_factors .and. size(study%factors) <= rule%most_factors .and. &
          study%designs >= rule%least_designs
+      if (applies .and. rule%name == 'sobol') applies = has_indices(study)
       if (applies .and. rule%name == 'map') applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. &
          maxval(study%x(2, :)) > minval(study%x(2, :))
    end function applies

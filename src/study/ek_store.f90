@@ -19,7 +19,7 @@ module ek_store
       curve_role, whole_kind, real_kind
    implicit none(type, external)
    private
-   public :: store_texts_t, keep_texts, choose_store, write_store, store_name
+   public :: store_texts_t, keep_texts, wants_store, choose_store, write_store, read_store, store_name
 
    integer, parameter :: many_designs = 10000     !! more than these are stored in NetCDF if the study does not say
    integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
@@ -55,6 +55,13 @@ contains
       name = study%name//'.nc'
    end function store_name
 
+   !> Whether a study has its results in a store if there is the helper: it says so, or it says nothing and has many designs.
+   pure logical function wants_store(study, designs)
+      type(study_t), intent(in) :: study
+      integer, intent(in) :: designs
+      wants_store = study%format == 'netcdf' .or. (study%format == '' .and. designs > many_designs)
+   end function wants_store
+
    !> Whether the results go into a store: if the study says so; if it says nothing, for many designs where the helper is there.
    subroutine choose_store(study, plan, is_wanted, error)
       type(study_t), intent(in) :: study
@@ -63,15 +70,19 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_file: the study wants a store, and there is no helper
       logical :: has_helper
 
-      is_wanted = study%format == 'netcdf' .or. (study%format == '' .and. plan%designs > many_designs)
+      is_wanted = wants_store(study, plan%designs)
       if (.not. is_wanted) return
-      has_helper = program_folder() /= ''
-      if (has_helper) has_helper = program_exists(helper())
+      has_helper = helper_exists()
       if (study%format == 'netcdf' .and. .not. has_helper) call fail(error, exit_file, study%where//': format = ''netcdf'' '// &
          'needs the program '//helper_name//' beside elastokin ('//program_folder()//'), and it is not there; install '// &
          'NetCDF-Fortran (Debian, Ubuntu: libnetcdff-dev) and build elastokin again, or write format = ''csv''')
       is_wanted = has_helper
    end subroutine choose_store
+
+   logical function helper_exists()
+      helper_exists = program_folder() /= ''
+      if (helper_exists) helper_exists = program_exists(helper())
+   end function helper_exists
 
    function helper() result(path)
       character(:), allocatable :: path
@@ -88,6 +99,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(scratch_t) :: scratch
       type(store_t) :: store
+      type(message_list_t) :: words
       character(:), allocatable :: parts, trouble
 
       parts = parts_folder(study, out)
@@ -95,7 +107,9 @@ contains
       call write_description(store, join_path(parts, description_name), error)
       if (.not. allocated(error)) call begin_scratch(out, scratch, error)
       if (allocated(error)) return
-      call run_helper(parts, scratch%path, store_name(study), trouble)
+      call words%add(parts)
+      call words%add(join_path(scratch%path, store_name(study)))
+      call run_helper(words, scratch%path, trouble)
       if (len(trouble) > 0) then
          call fail(error, exit_file, helper_name//' could not write '//join_path(out, store_name(study))//': '//trouble// &
             '; the designs are kept: the same command writes it, with format = ''csv'' in the study as CSV')
@@ -106,20 +120,46 @@ contains
       call remove_file(join_path(parts, description_name))
    end subroutine write_store
 
+   !> Writes the tables of a store as CSV into a folder, with the curves of every n-th design.
+   subroutine read_store(study, out, every, folder, error)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: out                      !! folder of the store
+      integer, intent(in) :: every
+      character(*), intent(in) :: folder
+      type(error_t), allocatable, intent(out) :: error     !! exit_file
+      type(message_list_t) :: words
+      character(:), allocatable :: trouble
+
+      if (.not. helper_exists()) then
+         call fail(error, exit_file, join_path(out, store_name(study))//' can be read only with the program '//helper_name// &
+            ' beside elastokin ('//program_folder()//'), and it is not there; install NetCDF-Fortran (Debian, Ubuntu: '// &
+            'libnetcdff-dev) and build elastokin again, or run the study with format = ''csv''')
+         return
+      end if
+      call words%add('--csv')
+      call words%add(join_path(out, store_name(study)))
+      call words%add(folder)
+      call words%add(str(every))
+      call run_helper(words, folder, trouble)
+      if (len(trouble) > 0) call fail(error, exit_file, helper_name//': '//trouble)
+   end subroutine read_store
+
    !> Runs the helper. HDF5 need not lock a file that nobody else knows, and some network disks refuse the lock.
-   subroutine run_helper(parts, folder, name, trouble)
-      character(*), intent(in) :: parts, folder, name      !! name: of the store in the folder
-      character(:), allocatable, intent(out) :: trouble    !! '' if it is written
+   subroutine run_helper(arguments, folder, trouble)
+      type(message_list_t), intent(in) :: arguments
+      character(*), intent(in) :: folder                   !! for its messages
+      character(:), allocatable, intent(out) :: trouble    !! '' if all is written
       type(message_list_t) :: words
       type(error_t), allocatable :: unread, full
       character(:), allocatable :: log
-      integer :: status
+      integer :: status, k
 
       call words%add('env')
       call words%add('HDF5_USE_FILE_LOCKING=FALSE')
       call words%add(helper())
-      call words%add(parts)
-      call words%add(join_path(folder, name))
+      do k = 1, arguments%count()
+         call words%add(arguments%line(k))
+      end do
       call run_program(words, '.', join_path(folder, log_name), time_limit, status, trouble)
       if (len(trouble) > 0 .or. status == 0) return
       call read_whole(join_path(folder, log_name), log, unread)

@@ -29,6 +29,7 @@ module ek_study_run
       integer :: jobs = 1                         !! threads
       integer :: shard = 1, shards = 1            !! this run computes the chunks shard, shard + shards, …
       real(wp) :: time_limit = huge(1.0_wp)       !! s
+      logical :: is_quiet = .false.
    end type run_options_t
 
    !> How far a run is.
@@ -39,6 +40,8 @@ module ek_study_run
       integer :: failed = 0                       !! of those computed now
       real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
       logical :: is_stopped = .false.             !! by a signal, or at the time limit
+      logical :: is_quiet = .false.               !! for the procedure that reports, as is
+      real(wp) :: reported = 0.0_wp               !! s, when it last printed
    end type run_state_t
 
    abstract interface
@@ -46,7 +49,7 @@ module ek_study_run
       subroutine report_procedure(state)
          import :: run_state_t
          implicit none(type, external)
-         type(run_state_t), intent(in) :: state
+         type(run_state_t), intent(inout) :: state
       end subroutine report_procedure
    end interface
 
@@ -161,6 +164,8 @@ contains
       call share(ranks, shared%pending)
       shared%state%begun = seconds()
       shared%state%now = shared%state%begun
+      shared%state%reported = shared%state%begun
+      shared%state%is_quiet = options%is_quiet .or. .not. ranks%is_first
       threads = max(1, min(options%jobs, size(shared%pending)))
       if (.not. ranks%has_threads) threads = 1
       !$omp parallel num_threads(threads) default(shared)

@@ -18,7 +18,7 @@ module ek_study_tables
    use ek_store_description, only: keeps
    implicit none(type, external)
    private
-   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
+   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, quoted_field
 
    integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
 
@@ -34,18 +34,27 @@ module ek_study_tables
 
 contains
 
+   !> The names of the two tables of a study: of designs (1) and of states (2).
+   pure function tables_of(study_name, number) result(name)
+      character(*), intent(in) :: study_name
+      integer, intent(in) :: number
+      character(:), allocatable :: name
+      name = study_name//'_curves.csv'
+      if (number == 1) name = study_name//'_responses.csv'
+   end function tables_of
+
    !> The name of the table of designs.
    pure function responses_name(study) result(name)
       type(study_t), intent(in) :: study
       character(:), allocatable :: name
-      name = study%name//'_responses.csv'
+      name = tables_of(study%name, 1)
    end function responses_name
 
    !> That of the states.
    pure function curves_name(study) result(name)
       type(study_t), intent(in) :: study
       character(:), allocatable :: name
-      name = study%name//'_curves.csv'
+      name = tables_of(study%name, 2)
    end function curves_name
 
    !> Writes both tables as CSV: the whole files, or none.

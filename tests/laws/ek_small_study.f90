@@ -72,7 +72,7 @@ contains
    end subroutine run_small
 
    subroutine be_silent(state)
-      type(run_state_t), intent(in) :: state
+      type(run_state_t), intent(inout) :: state
       if (state%done < 0) error stop
    end subroutine be_silent
 

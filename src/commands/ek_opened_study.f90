@@ -1,0 +1,76 @@
+!> A study as a command opens it: the file, its deck with the settings of the command line, and the plan of its designs.
+module ek_opened_study
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: quoted
+   use ek_file, only: join_path, folder_name
+   use ek_deck, only: deck_t
+   use ek_sampler_kind, only: sampler_kinds
+   use ek_study, only: study_t, step_size_kind, kind_names
+   use ek_study_reader, only: read_study
+   use ek_study_each, only: expand_factors
+   use ek_study_design, only: designer_t, new_designer
+   use ek_study_plan, only: study_plan_t, new_plan
+   use ek_store, only: store_texts_t, keep_texts
+   use ek_command_line, only: command_line_t
+   use ek_load_deck, only: read_changed
+   implicit none(type, external)
+   private
+   public :: opened_study_t, open_study, plan_study
+
+   !> A study that was read, with its folders.
+   type :: opened_study_t
+      type(study_t) :: study                         !! factors with each = .true. are replaced
+      type(deck_t) :: deck
+      character(:), allocatable :: home, out         !! folder of the study; of its results
+      type(designer_t) :: designer
+      type(study_plan_t) :: plan
+      logical :: has_store = .false.                 !! the results go into a NetCDF file
+      type(store_texts_t) :: texts
+   end type opened_study_t
+
+contains
+
+   !> Reads the study and its deck; nothing is solved.
+   subroutine open_study(line, this, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_study_t), intent(out) :: this
+      type(error_t), allocatable, intent(out) :: error
+
+      this%home = folder_name(line%files%line(1))
+      this%out = line%value('--out', join_path(this%home, 'out'))
+      call read_study(line%files%line(1), this%study, error)
+      if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
+      if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
+      if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_factors(this%study, this%deck, error)
+      if (.not. allocated(error)) call keep_texts(line%files%line(1), &
+         join_path(this%home, this%study%deck), line%values('--set'), this%texts)
+   end subroutine open_study
+
+   !> The design of the deck, against which the study is checked, and the plan.
+   subroutine plan_study(this, error)
+      type(opened_study_t), intent(inout) :: this
+      type(error_t), allocatable, intent(out) :: error
+
+      call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
+      if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
+      if (allocated(error)) return
+      this%texts%swept = this%designer%results(1)%case%place_name
+      this%texts%swept_unit = this%designer%results(1)%case%unit_name
+   end subroutine plan_study
+
+   !> --samples: a trial of a large study.
+   subroutine set_samples(samples, study, error)
+      integer, intent(in) :: samples
+      type(study_t), intent(inout) :: study
+      type(error_t), allocatable, intent(out) :: error
+
+      if (study%kind < step_size_kind) then
+         if (sampler_kinds(study%kind)%has_size) then
+            study%settings%size = samples
+            return
+         end if
+      end if
+      call fail(error, exit_usage, '--samples: a study of kind '//quoted(trim(kind_names(study%kind)))//' has no samples')
+   end subroutine set_samples
+
+end module ek_opened_study

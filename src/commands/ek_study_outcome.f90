@@ -1,0 +1,130 @@
+!> What a study leaves behind: its tables or its store, the message about designs that failed, and its figures.
+module ek_study_outcome
+   use ek_error, only: error_t, fail, exit_convergence, message_list_t
+   use ek_text, only: str, plural
+   use ek_file, only: join_path, file_exists, program_exists
+   use ek_deck, only: deck_t
+   use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t
+   use ek_drawing, only: run_plot_script
+   use ek_study, only: study_t, step_size_kind
+   use ek_study_run, only: remove_parts, parts_folder
+   use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
+   use ek_store, only: write_store, store_name
+   use ek_chunk, only: status_names, design_invalid
+   use ek_step_size, only: step_size_text
+   use ek_command_line, only: command_line_t
+   use ek_opened_study, only: opened_study_t
+   use ek_plot, only: draw_study
+   use ek_console, only: print_note, print_warning, print_error, print_path
+   implicit none(type, external)
+   private
+   public :: write_results, write_step_size, show_results
+
+contains
+
+   !> Writes the tables, removes the chunks, and counts the designs that failed.
+   subroutine write_results(is_quiet, this, hold, tables, is_missing, error)
+      logical, intent(in) :: is_quiet
+      type(opened_study_t), intent(in) :: this
+      type(scratch_t), intent(inout) :: hold             !! of the folder of the chunks; ended if the tables were written
+      type(message_list_t), intent(inout) :: tables
+      logical, intent(out) :: is_missing                 !! a chunk is missing: no table was written
+      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
+      type(study_counts_t) :: counts
+      character(:), allocatable :: list, name
+      logical :: is_removed
+      integer :: k, failed
+
+      call remove_stale(this%out)
+      if (this%has_store) then
+         call count_designs(this%study, this%plan, this%out, counts, error)
+         if (.not. allocated(error)) call write_store(this%study, this%plan, this%out, this%texts, counts, error)
+      else
+         call write_tables(this%study, this%plan, this%out, counts, error)
+      end if
+      is_missing = counts%is_missing
+      if (allocated(error)) return
+      call remove_parts(this%study, this%plan, this%out, hold, is_removed)
+      if (.not. is_removed) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
+         '; it removes that folder')
+      name = store_name(this%study)
+      if (.not. this%has_store) name = responses_name(this%study)
+      if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
+      call tables%add(name)
+      if (has_limits(this%study)) call print_note(is_quiet, str(counts%within)//' of '//plural(this%plan%designs, &
+         'design keeps', 'designs keep')//' all limits')
+      failed = sum(counts%designs(1:))
+      if (failed == 0) return
+      list = ''
+      do k = 1, design_invalid
+         if (counts%designs(k) > 0) list = list//', '//str(counts%designs(k))//' '//trim(status_names(k))
+      end do
+      do k = 1, counts%reasons%count()
+         call print_warning(counts%reasons%line(k))
+      end do
+      call fail(error, exit_convergence, plural(failed, 'design', 'designs')//' of '//str(this%plan%designs)//' failed ('// &
+         list(3:)//'; columns status and reason of '//name//'); the others were written')
+   end subroutine write_results
+
+   !> out/<study>.csv
+   subroutine write_step_size(study, deck, out, tables, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: out
+      type(message_list_t), intent(inout) :: tables      !! names of the tables written
+      type(error_t), allocatable, intent(out) :: error
+      type(writer_t) :: writer
+      character(:), allocatable :: text
+
+      call begin_file(writer, join_path(out, study%name//'.csv'), error, is_part=.true.)
+      if (.not. allocated(error)) call step_size_text(study, deck, text, error, writer)
+      if (.not. allocated(error)) call writer%finish(error)
+      call writer%abandon()                              ! no effect on a finished table
+      if (.not. allocated(error)) call tables%add(study%name//'.csv')
+   end subroutine write_step_size
+
+   !> Prints the paths of the tables and draws the figures.
+   subroutine show_results(line, this, tables, error)
+      type(command_line_t), intent(in) :: line
+      type(opened_study_t), intent(in) :: this
+      type(message_list_t), intent(in) :: tables
+      type(error_t), allocatable, intent(inout) :: error
+      type(error_t), allocatable :: unprinted, undrawn
+      integer :: k
+
+      if (tables%count() == 0) return
+      do k = 1, tables%count()
+         call print_path(join_path(this%out, tables%line(k)), unprinted)
+      end do
+      if (line%has('--no-plots')) then
+         if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+         return
+      end if
+      if (this%study%kind /= step_size_kind) call draw_study(this%study, this%deck, join_path(this%home, ''), this%out, &
+         message_list_t(), line%has('--quiet'), undrawn)
+      if (.not. allocated(undrawn) .and. .not. this%has_store) &          ! the script reads CSV
+         call draw(line%has('--quiet'), join_path(this%home, this%study%plot), tables, this%out, undrawn)
+      if (allocated(undrawn)) then
+         if (allocated(error)) call print_error(undrawn%message)
+         if (.not. allocated(error)) call move_alloc(undrawn, error)
+      end if
+      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+   end subroutine show_results
+
+   !> Runs the study's plot script over the tables.
+   subroutine draw(is_quiet, script, tables, out, error)
+      logical, intent(in) :: is_quiet
+      character(*), intent(in) :: script, out
+      type(message_list_t), intent(in) :: tables
+      type(error_t), allocatable, intent(out) :: error
+
+      if (.not. file_exists(script)) return
+      if (.not. program_exists('gnuplot')) then
+         call print_note(is_quiet, 'gnuplot is not installed: no figures (later: gnuplot '//script//')')
+         return
+      end if
+      call run_plot_script(script, tables, out, error)
+      if (.not. allocated(error)) call print_note(is_quiet, 'figures in '//out)
+   end subroutine draw
+
+end module ek_study_outcome

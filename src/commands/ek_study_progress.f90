@@ -1,0 +1,86 @@
+!> How far a study is: a line on the terminal that overwrites itself, a line a minute in a log, and --status.
+module ek_study_progress
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_text, only: str, plural
+   use ek_file, only: join_path, file_exists, is_terminal, write_standard_error
+   use ek_study_run, only: run_state_t, count_parts
+   use ek_study_tables, only: responses_name
+   use ek_store, only: choose_store, store_name
+   use ek_opened_study, only: opened_study_t
+   use ek_console, only: print_note, print_text
+   implicit none(type, external)
+   private
+   public :: show_state, end_state, print_status
+
+   real(wp), parameter :: pause = 60.0_wp            !! s, between two lines of a log
+
+contains
+
+   !> On a terminal a line that overwrites itself, else a line a minute.
+   subroutine show_state(state)
+      type(run_state_t), intent(inout) :: state
+
+      if (state%is_quiet) return
+      if (is_terminal(2)) then
+         call write_standard_error(achar(13)//'  '//state_text(state)//'   ')
+      else if (state%now - state%reported > pause) then
+         state%reported = state%now
+         call print_note(state%is_quiet, state_text(state))
+      end if
+   end subroutine show_state
+
+   !> Clears that line.
+   subroutine end_state(state)
+      type(run_state_t), intent(in) :: state
+      if (is_terminal(2) .and. .not. state%is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
+   end subroutine end_state
+
+   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'
+   function state_text(state) result(text)
+      type(run_state_t), intent(in) :: state
+      character(:), allocatable :: text
+      real(wp) :: rate
+
+      rate = (state%done - state%before)/max(state%now - state%begun, 1.0e-6_wp)
+      text = str(state%done)//' of '//plural(state%wanted, 'design', 'designs')//', '//str(rate, 3)//'/s, '// &
+         time_text((state%wanted - state%done)/max(rate, 1.0e-9_wp))//' left, '//str(state%failed)//' failed'
+   end function state_text
+
+   !> '45 s', '12 min', '3.5 h'
+   function time_text(time) result(text)
+      real(wp), intent(in) :: time                   !! s
+      character(:), allocatable :: text
+
+      if (time < 120.0_wp) then
+         text = str(nint(time))//' s'
+      else if (time < 7200.0_wp) then
+         text = str(nint(time/60.0_wp))//' min'
+      else
+         text = str(time/3600.0_wp, 3)//' h'
+      end if
+   end function time_text
+
+   !> How far a study is, that another process may be running.
+   subroutine print_status(this, error)
+      type(opened_study_t), intent(in) :: this
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: name
+      logical :: has_table, has_store
+      integer :: done
+
+      call count_parts(this%study, this%plan, this%out, done)
+      call choose_store(this%study, this%plan, has_store, error)
+      name = responses_name(this%study)
+      if (has_store) name = store_name(this%study)
+      if (allocated(error)) return
+      has_table = file_exists(join_path(this%out, name))
+      if (done == 0 .and. has_table) then
+         call print_text('study '//this%study%name//': complete, '//join_path(this%out, name)//new_line('a'), error)
+      else
+         call print_text('study '//this%study%name//': '//str(done)//' of '//plural(this%plan%designs, 'design', 'designs')// &
+            ' done'//new_line('a'), error)
+      end if
+   end subroutine print_status
+
+end module ek_study_progress
