@@ -7,7 +7,7 @@
 !>
 !> A temporary file is named `.elastokin-<machine>-<random>.tmp`. Its process holds a lock on it until the process ends. An
 !> unlocked file of this machine therefore belongs to a dead run, and `remove_stale` removes it. Locks of other machines
-!> may be invisible here: their files count as dead when nothing was written to them for a day.
+!> may be invisible here: their files count as dead when nothing was written to them for a day (`renew_scratch` of a long run).
 !>
 !> Files that can be redrawn (pictures, scripts of charts) are renamed atomically too, but without waiting for the disk:
 !> writing the many pictures of a report to the disk would take longer than drawing them. After a power cut they may be empty.
@@ -26,8 +26,8 @@ module ek_writer
       try_lock, random_tag, machine_tag, system_reason, error_number, folder_exists, write_bytes, already_there, not_for_this_kind
    implicit none(type, external)
    private
-   public :: writer_t, begin_file, move_file, remove_stale, remove_empty_folder, is_in_use
-   public :: scratch_t, begin_scratch, end_scratch
+   public :: writer_t, begin_file, move_file, remove_stale, remove_empty_folder, find_users
+   public :: scratch_t, begin_scratch, renew_scratch, end_scratch
 
    character(*), parameter :: front = '.elastokin-', tail = '.tmp', part_tail = '.part'
    integer, parameter :: tag_length = 8 + 1 + 16            !! <machine>-<random>
@@ -276,6 +276,16 @@ contains
       call fail(error, exit_file, "cannot create a folder in '"//folder//"': "//system_reason())
    end subroutine begin_scratch
 
+   !> Shows other machines that its run lives.
+   subroutine renew_scratch(scratch)
+      type(scratch_t), intent(in) :: scratch
+      integer :: ignored
+
+      if (.not. c_associated(scratch%lock)) return
+      ignored = c_mkdir(scratch%path//'/alive'//c_null_char, mine_alone)
+      ignored = c_rmdir(scratch%path//'/alive'//c_null_char)
+   end subroutine renew_scratch
+
    !> Removes a scratch folder and its content.
    subroutine end_scratch(scratch)
       type(scratch_t), intent(inout) :: scratch
@@ -314,19 +324,22 @@ contains
       call remove_tagged(folder_of(folder//'/'), front, tail)
    end subroutine remove_stale
 
-   !> Whether a run that lives has a temporary file or folder in this folder.
-   logical function is_in_use(folder)
+   !> Whether a run that lives has a temporary file or folder in this folder; is_here: a run on this machine.
+   subroutine find_users(folder, is_in_use, is_here)
       character(*), intent(in) :: folder
+      logical, intent(out) :: is_in_use, is_here
       type(message_list_t) :: names
       integer :: k
 
       call remove_stale(folder)
       call folder_names(folder, names)
       is_in_use = .false.
+      is_here = .false.
       do k = 1, names%count()
          if (index(names%line(k), front) == 1) is_in_use = .true.
+         if (index(names%line(k), front//machine_tag()) == 1) is_here = .true.
       end do
-   end function is_in_use
+   end subroutine find_users
 
    !> Removes what dead runs left under the names <begin><machine>-<random><end>.
    subroutine remove_tagged(folder, begin, end)

@@ -144,7 +144,7 @@ contains
       end if
       call agree(ranks, error)
       if (allocated(error)) return
-      call run_chunks(this%study, this%plan, this%deck, this%out, options, this%designer, ranks, state, show_state, error)
+      call run_chunks(this%study, this%plan, this%deck, this%out, hold, options, this%designer, ranks, state, show_state, error)
       call end_state(state)
       if (allocated(error)) return
       if (state%before > 0) call print_note(is_quiet, str(state%before)//' of '// &

@@ -7,7 +7,7 @@ module ek_study_outcome
    use ek_writer, only: writer_t, begin_file, remove_stale, scratch_t
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, step_size_kind
-   use ek_study_run, only: remove_parts, parts_folder
+   use ek_study_run, only: remove_parts, parts_folder, this_machine, other_machine
    use ek_study_tables, only: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits
    use ek_store, only: write_store, store_name
    use ek_chunk, only: status_names, design_invalid
@@ -32,8 +32,7 @@ contains
       type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
       type(study_counts_t) :: counts
       character(:), allocatable :: list, name
-      logical :: is_removed
-      integer :: k, failed
+      integer :: user, k, failed
 
       call remove_stale(this%out)
       if (this%has_store) then
@@ -44,9 +43,11 @@ contains
       end if
       is_missing = counts%is_missing
       if (allocated(error)) return
-      call remove_parts(this%study, this%plan, this%out, hold, is_removed)
-      if (.not. is_removed) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
+      call remove_parts(this%study, this%plan, this%out, hold, user)
+      if (user == this_machine) call print_note(is_quiet, 'another run is at work in '//parts_folder(this%study, this%out)// &
          '; it removes that folder')
+      if (user == other_machine) call print_note(is_quiet, parts_folder(this%study, this%out)//' is kept: a run on another '// &
+         'machine is at work in it, or died there within a day; remove it if there is none')
       name = store_name(this%study)
       if (.not. this%has_store) name = responses_name(this%study)
       if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))

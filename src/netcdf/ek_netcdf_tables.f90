@@ -24,7 +24,6 @@ module ek_netcdf_tables
 
    !> The open store.
    type :: store_file_t
-      character(:), allocatable :: path
       integer :: id = 0, fault = nf90_noerr       !! the first fault
       integer :: designs = 0, states = 0
       integer :: within = 0, status = 0, reason = 0, reason_length = 0
@@ -43,7 +42,6 @@ contains
       type(writer_t) :: rows, curves
       character(:), allocatable :: name
 
-      file%path = path
       call note(file, nf90_open(path, nf90_nowrite, file%id))
       if (file%fault == nf90_noerr) call survey(file)
       call get_text(file, nf90_global, 'study', name)
@@ -76,7 +74,7 @@ contains
       type(error_t), allocatable, intent(inout) :: error
 
       if (allocated(error) .or. file%fault == nf90_noerr) return
-      call fail(error, exit_file, "cannot read '"//file%path//"' as the store of a study: "//trim(nf90_strerror(file%fault)))
+      call fail(error, exit_file, 'it is not the store of a study, or damaged: '//trim(nf90_strerror(file%fault)))
    end subroutine check
 
    !> Dimensions and variables.

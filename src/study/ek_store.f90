@@ -141,7 +141,8 @@ contains
       call words%add(folder)
       call words%add(str(every))
       call run_helper(words, folder, trouble)
-      if (len(trouble) > 0) call fail(error, exit_file, helper_name//': '//trouble)
+      if (len(trouble) > 0) call fail(error, exit_file, helper_name//' could not read '//join_path(out, store_name(study))//': '// &
+         trouble)
    end subroutine read_store
 
    !> Runs the helper. HDF5 need not lock a file that nobody else knows, and some network disks refuse the lock.

@@ -2,7 +2,9 @@
 !>
 !> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
 !> study that was stopped, or killed at any moment, goes on where it was. Which thread computes a chunk has no influence on it.
-!> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only.
+!> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only. The
+!> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
+!> renewed for a day is that of a dead run.
 module ek_study_run
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
@@ -10,7 +12,8 @@ module ek_study_run
    use ek_clock, only: seconds
    use ek_interrupt, only: is_stop_asked
    use ek_file, only: make_folder, join_path, read_whole, write_whole, file_exists, remove_file
-   use ek_writer, only: remove_stale, remove_empty_folder, is_in_use, scratch_t, begin_scratch, end_scratch
+   use ek_writer, only: remove_stale, remove_empty_folder, find_users, scratch_t, begin_scratch, &
+      renew_scratch, end_scratch
    use ek_deck, only: deck_t
    use ek_study, only: study_t
    use ek_study_design, only: designer_t, solve_design
@@ -20,8 +23,11 @@ module ek_study_run
    implicit none(type, external)
    private
    public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, remove_parts
+   public :: nobody, this_machine, other_machine
 
    character(*), parameter :: identity_name = 'study.txt'
+   integer, parameter :: nobody = 0, this_machine = 1, other_machine = 2      !! who still needs the chunks
+   real(wp), parameter :: an_hour = 3600.0_wp     !! s
    character(*), parameter :: line_end = new_line('a')
 
    !> How a study is run.
@@ -57,6 +63,8 @@ module ek_study_run
    type :: shared_t
       character(:), allocatable :: folder         !! of the chunks
       integer, allocatable :: pending(:)          !! numbers of the chunks that are missing
+      type(scratch_t) :: hold                     !! of this run
+      real(wp) :: renewed = 0.0_wp                !! when it was renewed [s]
       real(wp) :: longest = 0.0_wp                !! time of a chunk [s]
       type(run_state_t) :: state
       type(error_t), allocatable :: error         !! of the first chunk that could not be written
@@ -124,19 +132,21 @@ contains
    end subroutine count_parts
 
    !> Removes the chunks, after the tables were written from them, unless another run needs them.
-   subroutine remove_parts(study, plan, out, hold, is_removed)
+   subroutine remove_parts(study, plan, out, hold, user)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       character(*), intent(in) :: out
       type(scratch_t), intent(inout) :: hold               !! of this run; ended
-      logical, intent(out) :: is_removed
+      integer, intent(out) :: user                         !! nobody: they are removed; this_machine, other_machine
       character(:), allocatable :: folder
+      logical :: is_in_use, is_here
       integer :: k
 
       folder = parts_folder(study, out)
       call end_scratch(hold)
-      is_removed = .not. is_in_use(folder)
-      if (.not. is_removed) return
+      call find_users(folder, is_in_use, is_here)
+      user = merge(this_machine, merge(other_machine, nobody, is_in_use), is_here)
+      if (is_in_use) return
       do k = 1, plan%chunks
          call remove_file(join_path(folder, chunk_name(k)))
       end do
@@ -145,11 +155,12 @@ contains
    end subroutine remove_parts
 
    !> Computes the chunks that are missing, or as many as there is time for. All ranks: their state is that of all.
-   subroutine run_chunks(study, plan, deck, out, options, designer, ranks, state, report, error)
+   subroutine run_chunks(study, plan, deck, out, hold, options, designer, ranks, state, report, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: out
+      type(scratch_t), intent(in) :: hold                  !! of open_parts; ended on ranks but the first
       type(run_options_t), intent(in) :: options
       type(designer_t), intent(in) :: designer             !! with the design of the deck
       type(ranks_t), intent(inout) :: ranks                !! their counters zero
@@ -160,11 +171,13 @@ contains
       integer :: threads, stops
 
       shared%folder = parts_folder(study, out)
+      shared%hold = hold
       if (ranks%is_first) call list_pending(plan, options, shared)
       call share(ranks, shared%pending)
       shared%state%begun = seconds()
       shared%state%now = shared%state%begun
       shared%state%reported = shared%state%begun
+      shared%renewed = shared%state%begun
       shared%state%is_quiet = options%is_quiet .or. .not. ranks%is_first
       threads = max(1, min(options%jobs, size(shared%pending)))
       if (.not. ranks%has_threads) threads = 1
@@ -305,6 +318,10 @@ contains
       call count_up(ranks, failed_counter, count(chunk%status /= 0), before)
       call count_all(ranks, shared%state)
       shared%state%now = seconds()
+      if (shared%state%now - shared%renewed > an_hour) then
+         call renew_scratch(shared%hold)
+         shared%renewed = shared%state%now
+      end if
       call report(shared%state)
    end subroutine put_chunk
 

@@ -314,24 +314,83 @@ leavings_of_dead_runs() {
 }
 study_that_is_killed() {
   cat >study.nml <<END
-&study name = 'grid', deck = '$mcpherson', kind = 'sweep', case = 'vertical_sweep', columns = 'toe_deg', plot = 'none.gp' /
+&study name = 'grid', deck = '$mcpherson', kind = 'sweep', case = 'vertical_sweep', columns = 'toe_deg', plot = 'none.gp', chunk = 20 /
 &factor path = 'bushing.lca_front.kt(1)', name = 'kf', from = 500, to = 8000, count = 200 /
 &factor path = 'bushing.lca_rear.kt(1)', name = 'kr', from = 500, to = 4000, count = 200 /
 &response name = 'toe', column = 'toe_deg', of = 'span' /
 END
-  "$program" study study.nml --out out >out.txt 2>said.txt &
-  local k part
-  for k in $(seq 50); do
-    part=$(find out -name 'grid_responses.csv.*.part' -size +1k 2>/dev/null)
-    [ -n "$part" ] && break
+  "$program" study study.nml --out out --jobs 1 >out.txt 2>said.txt &
+  local k chunks=0
+  for k in $(seq 100); do
+    chunks=$(find out -name 'chunk_*.bin' 2>/dev/null | wc -l)
+    [ "$chunks" -ge 2 ] && break
     sleep 0.1
   done
   kill -TERM $! || { cat said.txt; return 1; }
-  wait $! 2>/dev/null
-  [ -n "$part" ] && [ "$(grep -c '^[0-9]' "$part")" -ge 5 ] && [ "$(tail -c 1 "$part" | od -An -tu1 | tr -d ' ')" = 10 ] &&
-    gone out/grid_responses.csv || return 1
+  wait $!
+  [ $? -eq 4 ] && [ "$chunks" -ge 2 ] && says 'designs are done and kept' && gone out/grid_responses.csv || { cat said.txt; return 1; }
   sed -i 's/count = 200/count = 4/' study.nml
-  run 0 "$program" study study.nml --out out && [ -s out/grid_responses.csv ] && [ -z "$(find out -name '*.part')" ]
+  run 5 "$program" study study.nml --out out && says 'holds designs of another study' || return 1
+  run 0 "$program" study study.nml --out other --no-plots && [ -s other/grid_responses.csv ] && clean other
+}
+a_study() { # a_study FORMAT: 600 designs of 21 states
+  cat >study.nml <<END
+&study name = 's', kind = 'monte_carlo', samples = 600, chunk = 20, deck = '$tiny', case = 'sweep', increments = 20, plot = 'none.gp',
+       columns = 'wheel_travel_mm', 'camber_deg', format = '$1' /
+&factor name = 'rate', path = 'spring.coil.rate', lower = 20, upper = 40 /
+&response name = 'travel', column = 'wheel_travel_mm', at = 100.0 /
+END
+}
+# The chunks fit on the disk, what is made of them does not: nothing is lost, and with more room nothing is computed again
+study_whose_tables_fill_the_disk() {
+  local format file status
+  for format in csv netcdf; do
+    [ $format = netcdf ] && [ ! -x "$program-netcdf" ] && continue
+    a_study $format
+    run 0 "$program" study study.nml --no-plots --out wanted || return 1
+    file=wanted/s_responses.csv
+    [ $format = netcdf ] && file=wanted/s.nc
+    in_tmpfs size=420k "\"\$1\" study study.nml --no-plots --out disk/out >out.txt 2>said.txt; [ \$? -eq 5 ] || { cat said.txt; exit 1; }
+      grep -q 'No space left on device' said.txt && [ \"\$(ls -A disk/out)\" = s.parts ] || { cat said.txt; ls -A disk/out; exit 1; }
+      mount -o remount,size=9m disk && \"\$1\" study study.nml --no-plots --out disk/out >out.txt 2>said.txt || { cat said.txt; exit 1; }
+      grep -q '^600 of 600 designs were done before' said.txt && cmp disk/out/$(basename "$file") $file && [ ! -e disk/out/s.parts ]"
+    status=$?
+    [ $status -eq 9 ] && { not_here 'no disk of its own may be mounted'; return; }
+    [ $status -eq 0 ] || return 1
+  done
+}
+# The disk has room for the results, and none for figures and page
+study_whose_figures_fill_the_disk() {
+  a_study csv
+  run 0 "$program" study study.nml --no-plots --out wanted || return 1
+  in_tmpfs size=1300k "\"\$1\" study study.nml --out disk/out >out.txt 2>said.txt; [ \$? -eq 5 ] || { cat said.txt; exit 1; }
+    grep -q 'No space left on device\|gnuplot could not draw' said.txt && cmp disk/out/s_curves.csv wanted/s_curves.csv &&
+    cmp disk/out/s_responses.csv wanted/s_responses.csv && mount -o remount,size=20m disk &&
+    \"\$1\" plot study.nml --out disk/out >out.txt 2>said.txt && [ -s disk/out/s.html ] && [ -s disk/out/figures/s_fan.svg ] &&
+    [ -z \"\$(find disk -name '.elastokin-*')\" ]"
+  local status=$?
+  [ $status -eq 9 ] && { not_here 'no disk of its own may be mounted'; return; }
+  [ $status -eq 0 ] || { cat said.txt; return 1; }
+}
+study_in_shared_memory() {
+  [ -w /dev/shm ] || { not_here 'no /dev/shm'; return; }
+  local out
+  out=$(mktemp -d /dev/shm/elastokin_attack_XXXXXX)
+  a_study csv
+  run 0 "$program" study study.nml --no-plots --out wanted && run 0 "$program" study study.nml --no-plots --out "$out" &&
+    same "$out/s_curves.csv" wanted/s_curves.csv && clean "$out"
+  local status=$?
+  rm -rf "$out"
+  return $status
+}
+# One after the other, and both at once: the second is refused while the first is unfinished
+two_studies_of_one_name() {
+  a_study csv
+  sed 's/samples = 600/samples = 500/' study.nml >other.nml
+  run 0 "$program" study study.nml --out out --shard 1/2 && run 5 "$program" study other.nml --out out &&
+    says 'holds designs of another study, deck, or version of this program; remove that folder' || return 1
+  run 0 "$program" study study.nml --out out --no-plots && [ "$(grep -c '^[0-9]' out/s_responses.csv)" -eq 600 ] &&
+    run 0 "$program" study other.nml --out out --no-plots && [ "$(grep -c '^[0-9]' out/s_responses.csv)" -eq 500 ] && clean out
 }
 case_called_like_a_target() {
   { cat "$tiny"; echo "&case name = 'sweep_target', load = 'vertical', from = -1.0, to = 1.0 /"; } |
@@ -360,11 +419,11 @@ little_address_space() { # the library for linear algebra would ask for memory f
 memory_for_forty_thousand_designs() {
   local values
   values=$(seq -s, 1 200)
-  { echo "&study name = 'grid', kind = 'sweep', deck = '$tiny', case = 'sweep', columns = 'wheel_travel_mm', 'camber_deg' /"
+  { echo "&study name = 'grid', kind = 'sweep', deck = '$tiny', case = 'sweep', columns = 'wheel_travel_mm', 'camber_deg', format = 'csv' /"
     echo "&factor name = 'rate', path = 'spring.coil.rate', values = $values /"
     echo "&factor name = 'preload', path = 'spring.coil.preload', values = $values /"; } >grid.nml
-  run 5 bash -c "ulimit -v 300000; exec '$program' study grid.nml --out out" &&
-    says 'not enough memory: a study of 40000 designs needs' && clean out
+  run 0 bash -c "ulimit -v 300000; exec '$program' study grid.nml --set case.sweep.increments=2 --no-plots --out out" && clean out &&
+    [ "$(grep -c '^[0-9]' out/grid_responses.csv)" -eq 40000 ]
 }
 memory_for_a_million_states() {
   { cat "$tiny"; echo "&case name = 'long', load = 'vertical', from = -100.0, to = 100.0, increments = 1000000 /"; } >long.nml
@@ -397,7 +456,8 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   bomb_of_includes endless_include gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
-  reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed case_called_like_a_target
+  reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed
+  study_whose_tables_fill_the_disk study_whose_figures_fill_the_disk study_in_shared_memory two_studies_of_one_name case_called_like_a_target
   same_bytes_again little_address_space memory_for_a_million_states memory_for_forty_thousand_designs no_further_process
   no_process_for_gnuplot few_open_files)
 [ $# -gt 0 ] || set -- "${all[@]}"

@@ -62,7 +62,8 @@ contains
       if (.not. allocated(error)) call new_designer(study, deck, '', designer, error)
       if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error)
       if (.not. allocated(error)) call open_parts(study, plan, folder, hold, error)
-      if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, options, designer, ranks, state, be_silent, error)
+      if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, hold, options, designer, ranks, state, &
+         be_silent, error)
       if (.not. allocated(error)) call write_tables(study, plan, folder, counts, error)
       call end_scratch(hold)
       if (.not. allocated(error)) &
