@@ -14,7 +14,7 @@ module ek_study_survey
 
    integer(i8), parameter :: least_time = 20        !! s; file times are whole seconds
 
-   !> What the folder of the chunks tells.
+   !> What is found in the folder of the chunks.
    type :: survey_t
       integer :: done = 0, failed = 0                !! designs; of these, those that failed
       logical :: is_at_work = .false.                !! a run has the folder
