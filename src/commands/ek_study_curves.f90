@@ -135,7 +135,6 @@ contains
       real(wp) :: near
       integer :: c, j, d
 
-      data%swept = 'swept value of '//data%case
       if (size(data%sweep) == 0) return
       near = 1.0e-6_wp*(maxval(data%sweep) - minval(data%sweep))
       is_drawn = .true.

@@ -9,6 +9,7 @@ module ek_study_results
    use ek_file, only: join_path, file_exists
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_deck, only: deck_t, deck_checksum
+   use ek_rig, only: rig_t, rig_of
    use ek_study, only: study_t, by_delta, by_scale
    use ek_sampler, only: sampler_t, designs_of
    use ek_sampler_kind, only: sampler_kinds
@@ -111,7 +112,7 @@ contains
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
       type(study_data_t), intent(inout) :: data
-      type(quantity_t) :: quantity
+      type(rig_t) :: rig
       character(:), allocatable :: unit
       integer :: k, j
 
@@ -142,17 +143,33 @@ contains
          end associate
       end do
       do k = 1, size(study%columns)
-         quantity = quantity_named(trim(study%columns(k)))
-         associate (axis => data%columns(k))
-            axis%name = trim(study%columns(k))
-            axis%label = trim(quantity%title)
-            axis%note = trim(quantity%sign)
-            if (axis%label == '') axis%label = axis%name
-            if (unit_of(axis%name) /= '' .and. axis%label /= axis%name) &
-               axis%label = axis%label//' ['//unit_text(unit_of(axis%name))//']'
-         end associate
+         call name_column(trim(study%columns(k)), data%columns(k))
       end do
+      rig = rig_of(designer%worker%suspension, designer%worker%cases(1)%case)
+      data%swept = rig%place_name
+      if (rig%unit /= '-') data%swept = data%swept//' ['//rig%unit//']'
    end subroutine name_axes
+
+   !> Label and sign of a column: 'Toe, left wheel [deg]'.
+   subroutine name_column(column, axis)
+      character(*), intent(in) :: column
+      type(study_axis_t), intent(inout) :: axis
+      type(quantity_t) :: quantity
+      character(:), allocatable :: side
+
+      axis%name = column
+      side = ''
+      if (index(column, 'left_') == 1) side = 'left'
+      if (index(column, 'right_') == 1) side = 'right'
+      quantity = quantity_named(column)
+      if (side /= '' .and. quantity%title == column) quantity = quantity_named(column(len(side) + 2:))
+      if (side /= '' .and. quantity%title == column(min(len(column), len(side) + 2):)) quantity%title = column
+      axis%label = trim(quantity%title)
+      axis%note = trim(quantity%sign)
+      if (axis%label == '') axis%label = column
+      if (side /= '' .and. axis%label /= column) axis%label = axis%label//', '//side//' wheel'
+      if (unit_of(column) /= '' .and. axis%label /= column) axis%label = axis%label//' ['//unit_text(unit_of(column))//']'
+   end subroutine name_column
 
    !> The table of responses.
    subroutine read_rows(study, deck_sum, path, data, error)

@@ -3,7 +3,8 @@ module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_label_places, only: label_place_t, place_labels
+   use ek_study_data, only: study_data_t, study_axis_t, most_panels, range_of_values, is_geometric, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
    implicit none(type, external)
    private
@@ -26,7 +27,7 @@ contains
 
       sheet = new_sheet(name, 'Responses over two factors', subtitle, min(size(study%responses), most_panels))
       sheet%right = 105
-      sheet%left = 118
+      sheet%left = 130
       sheet%bottom = 92
       if (sheet%panels == 1) sheet%width = 900
       do r = 1, sheet%panels
@@ -51,7 +52,7 @@ contains
          ! the lines of equal response are computed first, as a table
          call sheet%text%line('set contour base; set cntrparam levels auto 8; unset surface; set table $lines'//nl// &
             'splot '//data//' using 1:2:3 with lines'//nl//'unset table; unset contour; set surface; set view map')
-         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset 0.4, 0; set cbrange '//bounds(study%y(r, :)))
+         call sheet%text%line('set xlabel offset 0, 0.7; set ylabel offset -1, 0; set cbrange '//bounds(study%y(r, :)))
          call sheet%text%line('set pm3d map interpolate 4, 4')
          call sheet%text%line('splot '//data//' using 1:2:3 with pm3d notitle, \'//nl// &
             "      $lines using 1:2:(0) with lines linecolor rgb '#FFFFFF' linewidth 1.2 notitle, \"//nl// &
@@ -263,45 +264,69 @@ contains
       character(:), allocatable :: text
       type(sheet_t) :: sheet
       character(:), allocatable :: data
-      character(24) :: half
-      real(wp) :: range(2)
+      real(wp) :: range(2), ends(2, most_panels)
       integer :: order(size(study%factors))
       integer :: r, k
 
       sheet = new_sheet(name, 'Morris: size and spread of the effects', subtitle// &
-         '; effect: change of the response over the full range of the factor', min(size(study%responses), most_panels))
+         '; effect: change of the response over the full range of the factor; dotted: σ = μ*', &
+         min(size(study%responses), most_panels))
       sheet%left = 115
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
             order(:) = ranked(effect%mean_size, size(study%factors))
+            range = range_of_values(effect%mean_size)
+            ends(:, r) = [max(1.08_wp*range(2), 1.0e-12_wp), maxval([0.01_wp*range(2), &
+               1.3_wp*maxval(effect%deviation, mask=ieee_is_finite(effect%deviation)), 1.0e-12_wp])]
             call begin_data(sheet, 'points'//str(r))
             do k = 1, size(order)
-               if (k <= named_points) call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))], &
-                  study%factors(order(k))%name)
-               if (k > named_points) call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))], ' ')
+               call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))])
             end do
             call end_data(sheet)
+            call add_names(sheet, r, [(study%factors(order(k)), k=1, min(named_points, size(order)))], &
+               effect%mean_size(order), effect%deviation(order), ends(:, r))
          end associate
       end do
       call begin_panels(sheet)
       do r = 1, sheet%panels
-         range = range_of_values(study%effects(r)%mean_size)
          call begin_panel(sheet, r, study%responses(r)%label, 'μ*, mean size of the effect', 'σ, spread of the effect')
-         range(1) = maxval([0.05_wp*range(2), 1.2_wp*maxval(study%effects(r)%deviation, &
-            mask=ieee_is_finite(study%effects(r)%deviation)), 1.0e-12_wp])
-         data = '$points'//str(r)
-         half = str(0.55_wp*range(2), 7)
-         call sheet%text%line('set ytics '//tic_step([0.0_wp, range(1)])//'; set xtics '//tic_step([0.0_wp, range(2)])// &
-            '; set xrange [0:'// &
-            str(max(1.08_wp*range(2), 1.0e-12_wp), 6)//']; set yrange [0:'// &
-            str(range(1), 6)//']')
+         data = '$names'//str(r)
+         call sheet%text%line('set ytics '//tic_step([0.0_wp, ends(2, r)])//'; set xtics '//tic_step([0.0_wp, ends(1, r)])// &
+            '; set xrange [0:'//str(ends(1, r), 6)//']; set yrange [0:'//str(ends(2, r), 6)//']')
          call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
-            '     '//data//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
-            '     '//data//' using ($1 < '//trim(half)//' ? $1 : NaN):2:3 with labels left offset 0.9, 0.25 notitle, \'//nl// &
-            '     '//data//' using ($1 < '//trim(half)//' ? NaN : $1):2:3 with labels right offset -0.9, 0.25 notitle')
+            '     '//data//" using 1:2:3:4 with vectors nohead linewidth 0.8 linecolor rgb '#B0B0B0' notitle, \"//nl// &
+            '     $points'//str(r)//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
+            '     '//data//' using ($5 > 0 ? NaN : $1 + $3):($2 + $4):6 with labels left offset 0.2, 0 notitle, \'//nl// &
+            '     '//data//' using ($5 > 0 ? $1 + $3 : NaN):($2 + $4):6 with labels right offset -0.2, 0 notitle')
       end do
       call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq')
       text = end_panels(sheet)
    end function morris_script
+
+   !> The data of the names of points: the point, the way to its name, and whether the name ends there.
+   subroutine add_names(sheet, panel, factors, x, y, ends)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: panel
+      type(study_axis_t), intent(in) :: factors(:)   !! of the first points
+      real(wp), intent(in) :: x(:), y(:), ends(2)    !! of all points; ends of the axes
+      type(label_place_t) :: places(size(factors))
+      real(wp) :: widths(size(factors)), cell, to(2)
+      integer :: k, n
+
+      n = size(factors)
+      cell = real(sheet%width, wp)/sheet%columns - sheet%left - sheet%right
+      do k = 1, n
+         widths(k) = 0.64_wp*sheet%letters*len(factors(k)%name)/cell
+      end do
+      call place_labels(x(:n)/ends(1), y(:n)/ends(2), widths, 1.3_wp*sheet%letters/(sheet%height - sheet%top - sheet%bottom), &
+         places)
+      call begin_data(sheet, 'names'//str(panel))
+      do k = 1, n
+         to = [places(k)%x*ends(1), places(k)%y*ends(2)]
+         call add_numbers(sheet, [x(k), y(k), to(1) - x(k), to(2) - y(k), merge(1.0_wp, 0.0_wp, places(k)%is_left)], &
+            factors(k)%name)
+      end do
+      call end_data(sheet)
+   end subroutine add_names
 
 end module ek_effect_figures

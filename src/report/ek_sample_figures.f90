@@ -5,8 +5,8 @@ module ek_sample_figures
    use ek_text, only: str
    use ek_gnuplot_text, only: gnuplot_text
    use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
-      full_height, blues
+   use ek_study_sheet, only: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, &
+      end_panels, full_height, blues
    implicit none(type, external)
    private
    public :: family_script, fan_script, scatter_script, parallel_script, histogram_script, convergence_script
@@ -50,6 +50,7 @@ contains
       every = (size(study%drawn) + most_curves - 1)/most_curves
       sheet = new_sheet(name, 'The curves of all designs', '', min(size(study%columns), most_panels))
       if (size(study%drawn)*every < study%designs .or. every > 1) sheet%title = 'The curves of some designs'
+      sheet%has_scale = .true.
       sheet%subtitle = subtitle// &
          thinned(every*max(1, study%designs/max(1, size(study%drawn))), study%designs)// &
          cut(sheet%panels, size(study%columns), 'columns')
@@ -163,8 +164,8 @@ contains
       sheet%width = max(900, min(1700, 120 + 270*size(factors)))
       sheet%letters = 12
       sheet%left = 84
-      sheet%right = 14
-      sheet%bottom = 60
+      sheet%right = 20
+      sheet%bottom = 76
       call begin_data(sheet, 'rows')
       do d = 1, study%designs, every
          call add_numbers(sheet, [study%x(factors, d), study%y(:rows, d)])
@@ -183,7 +184,7 @@ contains
             title = 'r = –'
             if (ieee_is_finite(study%effects(r)%correlation(factors(f)))) &
                title = 'r = '//str(real(nint(100*study%effects(r)%correlation(factors(f))), wp)/100, 2)
-            call begin_panel(sheet, number, title, x_label, y_label)
+            call begin_panel(sheet, number, title, x_label, y_label, most=19)
             call sheet%text%line('set xtics '//tic_step(study%x(factors(f), :))//'; set ytics '//tic_step(study%y(r, :))//nl// &
                'plot $rows using '//str(f)//':'// &
                str(size(factors) + r)//" with points pointtype 7 pointsize 0.35 linecolor rgb '#600072B2' notitle")
@@ -238,7 +239,8 @@ contains
       sheet = new_sheet(name, 'Factors and responses of each design', subtitle// &
          '; one line per design'//thinned(every, study%designs)// &
          cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
-         height=560)
+         height=600)
+      sheet%has_scale = .true.
       sheet%right = 95
       sheet%left = 95
       sheet%bottom = 24
@@ -262,18 +264,18 @@ contains
       call end_data(sheet)
       call begin_panels(sheet)
       call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
-      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.16]')
+      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.25]')
       call add_scale(sheet, study%responses(1)%label, study%y(1, :))
       do k = 1, n
          place = ' at first '//str(k)//', first '
          call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
             ", first 1 nohead front linewidth 1.5 linecolor rgb '#404040'")
          if (k <= size(factors)) then
-            call sheet%text%line('set label '//str(10 + k)//' '//gnuplot_text(study%factors(factors(k))%label)//place// &
-               trim(merge('1.13', '1.09', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
+            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%factors(factors(k))%label, 18)//place// &
+               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
          else
-            call sheet%text%line('set label '//str(10 + k)//' '//gnuplot_text(study%responses(k - size(factors))%label)//place// &
-               trim(merge('1.13', '1.09', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
+            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%responses(k - size(factors))%label, 18)//place// &
+               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
          end if
          call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
             "-0.045 center textcolor rgb '#606060'")
@@ -369,6 +371,7 @@ contains
          '; band: 95 % confidence if the designs were drawn at random'// &
          cut(min(size(study%responses), most_panels), size(study%responses), 'responses'), &
          min(size(study%responses), most_panels))
+      sheet%right = 48
       do r = 1, sheet%panels
          associate (summary => study%summaries(r))
             call begin_data(sheet, 'mean'//str(r))

@@ -9,7 +9,8 @@ module ek_study_sheet
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    implicit none(type, external)
    private
-   public :: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height, blues
+   public :: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height
+   public :: blues
 
    character(*), parameter :: nl = new_line('a')
    !> Of a colour scale: viridis without its lightest end.
@@ -24,6 +25,7 @@ module ek_study_sheet
       integer :: height = 420                     !! of a row of panels
       integer :: left = 110, right = 30, bottom = 80, top = 34      !! margins of a panel, pixels
       integer :: letters = 15                     !! size of the font
+      logical :: has_scale = .false.              !! a scale of colours stands at the right of title and subtitle
       type(buffer_t) :: text
    end type sheet_t
 
@@ -107,10 +109,42 @@ contains
       small = str(1.0_wp - 60.0_wp/full_height(sheet), 5)
       call sheet%text%line('set label 1 '//gnuplot_text(sheet%title)//' at screen 0.02, screen '//heading// &
          " font 'sans-serif:Bold,20' textcolor rgb '#202020'")
-      call sheet%text%line('set label 2 '//gnuplot_text(sheet%subtitle)//' at screen 0.02, screen '//small// &
+      call sheet%text%line('set label 2 '//subtitle_of(sheet)//' at screen 0.02, screen '//small// &
          " font 'sans-serif,14' textcolor rgb '#606060'")
       call sheet%text%line('set multiplot')
    end subroutine begin_panels
+
+   !> The subtitle as a gnuplot expression: in two lines if it would run into the scale of colours or out of the picture.
+   pure function subtitle_of(sheet) result(expression)
+      type(sheet_t), intent(in) :: sheet
+      character(:), allocatable :: expression
+      real(wp), parameter :: letter = 9.4_wp         ! width of a letter of size 14, pixels
+      integer :: most, at
+
+      most = int(sheet%width*merge(0.7_wp, 0.96_wp, sheet%has_scale)/letter)
+      at = 0
+      if (len(sheet%subtitle) > most) at = index(sheet%subtitle(:most), '; ', back=.true.)
+      expression = gnuplot_text(sheet%subtitle)
+      if (at > 0) expression = gnuplot_text(sheet%subtitle(:at))//'."\n".'//gnuplot_text(sheet%subtitle(at + 2:))
+   end function subtitle_of
+
+   !> A label as a gnuplot expression: in two lines, parted at a blank or '_' near the middle, if it has more letters than fit.
+   pure function two_lines(label, most) result(expression)
+      character(*), intent(in) :: label
+      integer, intent(in) :: most
+      character(:), allocatable :: expression
+      integer :: k, at
+
+      expression = gnuplot_text(label)
+      if (len(label) <= most) return
+      at = 0
+      do k = 2, len(label) - 1
+         if (scan(label(k:k), '_ ') == 0) cycle
+         if (at == 0 .or. abs(2*k - len(label)) < abs(2*at - len(label))) at = k
+      end do
+      if (at == 0) return
+      expression = gnuplot_text(trim(label(:at)))//'."\n".'//gnuplot_text(label(at + 1:))
+   end function two_lines
 
    !> Height of the whole picture, pixels.
    pure integer function full_height(sheet)
@@ -119,10 +153,11 @@ contains
    end function full_height
 
    !> Places the next panel, by rows from the top, and gives it title and axis labels.
-   pure subroutine begin_panel(sheet, number, title, x_label, y_label)
+   pure subroutine begin_panel(sheet, number, title, x_label, y_label, most)
       type(sheet_t), intent(inout) :: sheet
       integer, intent(in) :: number
       character(*), intent(in) :: title, x_label, y_label
+      integer, intent(in), optional :: most       !! letters of the x label per line
       integer :: column, row
       real(wp) :: left, right, top, bottom, cell, high
 
@@ -139,7 +174,8 @@ contains
          '; set bmargin at screen '//str(bottom, 5)//'; set tmargin at screen '//str(top, 5))
       call sheet%text%line('set title '//gnuplot_text(title)//" offset 0, -0.4 font 'sans-serif:Bold,"//str(sheet%letters)// &
          "' textcolor rgb '#202020'")
-      call sheet%text%line('set xlabel '//gnuplot_text(x_label)//" offset 0, 0.3 textcolor rgb '#404040'")
+      if (present(most)) call sheet%text%line('set xlabel '//two_lines(x_label, most)//" offset 0, 0.3 textcolor rgb '#404040'")
+      if (.not. present(most)) call sheet%text%line('set xlabel '//gnuplot_text(x_label)//" offset 0, 0.3 textcolor rgb '#404040'")
       call sheet%text%line('set ylabel '//gnuplot_text(y_label)//" offset 0.6, 0 textcolor rgb '#404040'")
    end subroutine begin_panel
 
