@@ -203,6 +203,7 @@ contains
             value = study%x(2, carpet%design(1, i))
          end if
          if (.not. ieee_is_finite(at(2))) cycle
+         if (.not. ieee_is_finite(inside(2))) inside(2) = at(2)
          call add_numbers(sheet, [at, merge(1.0_wp, -1.0_wp, inside(2) < at(2))], short(value))
       end do
       call end_data(sheet)
