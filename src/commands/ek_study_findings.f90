@@ -140,19 +140,26 @@ contains
       type(study_data_t), intent(inout) :: data
       integer, intent(in) :: r
       real(wp), allocatable :: margin(:)
+      logical, allocatable :: is_known(:)
       logical :: is_judged
+      integer :: d
 
       associate (y => data%y(r, :), axis => data%responses(r))
-         if (.not. any(ieee_is_finite(y))) return
+         allocate (is_known(size(y)))
+         is_known(:) = ieee_is_finite(y)
+         if (.not. any(is_known)) return
          is_judged = axis%lower > -huge(1.0_wp) .or. axis%upper < huge(1.0_wp)
-         allocate (margin(size(y)))
-         margin(:) = -y
-         if (is_judged) margin(:) = min(y - axis%lower, axis%upper - y)
-         if (axis%upper >= huge(1.0_wp) .and. is_judged) margin(:) = y - axis%lower
-         if (axis%lower <= -huge(1.0_wp) .and. is_judged) margin(:) = axis%upper - y
+         allocate (margin(size(y)), source=0.0_wp)
+         do d = 1, size(y)
+            if (.not. is_known(d)) cycle                   ! a comparison would trap in debug builds
+            margin(d) = -y(d)
+            if (is_judged) margin(d) = huge(1.0_wp)
+            if (axis%lower > -huge(1.0_wp)) margin(d) = y(d) - axis%lower
+            if (axis%upper < huge(1.0_wp)) margin(d) = min(margin(d), axis%upper - y(d))
+         end do
          is_judged = is_judged .or. study%responses(r)%of == 'rms'
-         call add(maxloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('best    ', 'smallest', is_judged)))
-         call add(minloc(margin, dim=1, mask=ieee_is_finite(y)), trim(merge('worst   ', 'largest ', is_judged)))
+         call add(maxloc(margin, dim=1, mask=is_known), trim(merge('best    ', 'smallest', is_judged)))
+         call add(minloc(margin, dim=1, mask=is_known), trim(merge('worst   ', 'largest ', is_judged)))
       end associate
 
    contains

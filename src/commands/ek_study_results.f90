@@ -137,6 +137,7 @@ contains
             axis%name = response%name
             axis%label = response%name
             axis%note = response%of//' of '//response%column
+            if (response%of == 'value' .or. response%of == 'slope') axis%note = axis%note//' at '//str(response%at)
             if (response%case /= '') axis%note = axis%note//', case '//response%case
             axis%lower = response%lower
             axis%upper = response%upper

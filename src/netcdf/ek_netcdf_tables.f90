@@ -43,6 +43,7 @@ contains
       character(:), allocatable :: name
 
       call note(file, nf90_open(path, nf90_nowrite, file%id))
+      allocate (file%factors(0), file%responses(0), file%curves(0), file%heads(0))
       if (file%fault == nf90_noerr) call survey(file)
       call get_text(file, nf90_global, 'study', name)
       call check(file, error)
@@ -85,7 +86,6 @@ contains
       integer :: design, state, reason, variables, dimensions, dimids(8), k
       logical :: is_curve
 
-      allocate (file%factors(0), file%responses(0), file%curves(0), file%heads(0))
       call note(file, nf90_inq_dimid(file%id, 'design', design))
       if (file%fault == nf90_noerr) call note(file, nf90_inquire_dimension(file%id, design, len=file%designs))
       state = 0

@@ -1,19 +1,19 @@
-!> Figures of the designs of a study as a sample: families and bands of curves, scatter, parallel coordinates, histograms, means.
+!> Figures of the designs of a study as a sample: families and bands of curves, scatter, histograms, means.
 module ek_sample_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_gnuplot_text, only: gnuplot_text
    use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
-   use ek_study_sheet, only: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, &
-      end_panels, full_height, blues
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
+      full_height, blues
    implicit none(type, external)
    private
-   public :: family_script, fan_script, scatter_script, parallel_script, histogram_script, convergence_script
+   public :: family_script, fan_script, scatter_script, histogram_script, convergence_script
+   public :: most_columns, thinned, cut, add_scale, leading_factors
 
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_curves = 300           !! of a family
-   integer, parameter :: most_lines = 300            !! of parallel coordinates
    integer, parameter :: most_points = 20000         !! of a scatter matrix, all panels together
    integer, parameter :: most_rows = 6, most_columns = 7     !! of a scatter matrix: responses, factors
 
@@ -218,76 +218,6 @@ contains
       factors = pack([(f, f=1, size(size_of))], is_used)
    end function leading_factors
 
-   !> Parallel coordinates: a line per design across factors and responses, coloured by the first response.
-   function parallel_script(study, name, subtitle) result(text)
-      type(study_data_t), intent(in) :: study
-      character(*), intent(in) :: name, subtitle
-      character(:), allocatable :: text
-      type(sheet_t) :: sheet
-      integer, allocatable :: factors(:)
-      real(wp), allocatable :: values(:, :), low(:), span(:)
-      real(wp) :: range(2)
-      character(:), allocatable :: place
-      integer :: k, d, n, every
-
-      allocate (factors(min(most_columns, size(study%factors))))
-      factors(:) = leading_factors(study, most_columns)
-      n = size(factors) + min(size(study%responses), 4)
-      values = reshape([study%x(factors, :)], [size(factors), study%designs])
-      allocate (low(n), span(n))
-      every = max(1, (study%designs + most_lines - 1)/most_lines)
-      sheet = new_sheet(name, 'Factors and responses of each design', subtitle// &
-         '; one line per design'//thinned(every, study%designs)// &
-         cut(size(factors), size(study%factors), 'factors')//cut(n - size(factors), size(study%responses), 'responses'), 1, &
-         height=600)
-      sheet%has_scale = .true.
-      sheet%right = 95
-      sheet%left = 95
-      sheet%bottom = 24
-      sheet%letters = merge(12, 14, n > 7)
-      do k = 1, n
-         if (k <= size(factors)) range = range_of_values(values(k, :))
-         if (k > size(factors)) range = range_of_values(study%y(k - size(factors), :))
-         low(k) = range(1)
-         span(k) = max(range(2) - range(1), tiny(1.0_wp))
-      end do
-      call begin_data(sheet, 'lines')
-      do d = 1, study%designs, every
-         if (.not. all(ieee_is_finite(study%y(:n - size(factors), d)))) cycle
-         do k = 1, n
-            if (k <= size(factors)) range(1) = values(k, d)
-            if (k > size(factors)) range(1) = study%y(k - size(factors), d)
-            call add_numbers(sheet, [real(k, wp), (range(1) - low(k))/span(k), study%y(1, d)])
-         end do
-         call sheet%text%line('')
-      end do
-      call end_data(sheet)
-      call begin_panels(sheet)
-      call sheet%text%line(blues//nl//'unset border; unset grid; unset xzeroaxis; unset yzeroaxis; unset ytics; unset xtics')
-      call sheet%text%line('set xrange [0.8:'//str(n + 0.2_wp)//']; set yrange [-0.09:1.25]')
-      call add_scale(sheet, study%responses(1)%label, study%y(1, :))
-      do k = 1, n
-         place = ' at first '//str(k)//', first '
-         call sheet%text%line('set arrow '//str(k)//' from first '//str(k)//', first 0 to first '//str(k)// &
-            ", first 1 nohead front linewidth 1.5 linecolor rgb '#404040'")
-         if (k <= size(factors)) then
-            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%factors(factors(k))%label, 18)//place// &
-               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#202020'")
-         else
-            call sheet%text%line('set label '//str(10 + k)//' '//two_lines(study%responses(k - size(factors))%label, 18)//place// &
-               trim(merge('1.21', '1.12', modulo(k, 2) == 1))//" center textcolor rgb '#A04000'")
-         end if
-         call sheet%text%line('set label '//str(40 + k)//' '//gnuplot_text(str(low(k), 5))//place// &
-            "-0.045 center textcolor rgb '#606060'")
-         call sheet%text%line('set label '//str(70 + k)//' '//gnuplot_text(str(low(k) + span(k), 5))//place// &
-            "1.035 center textcolor rgb '#606060'")
-      end do
-      call begin_panel(sheet, 1, '', '', '')
-      call sheet%text%line("plot $lines using 1:2:3 with lines linewidth 1 linecolor palette notitle")
-      call sheet%text%line('set cbtics autofreq; unset label; unset arrow; set border 3; set xrange [*:*]; set yrange [*:*]')
-      text = end_panels(sheet)
-   end function parallel_script
-
    !> Histogram of each response with its percentiles and limits.
    function histogram_script(study, name, subtitle) result(text)
       type(study_data_t), intent(in) :: study
@@ -296,6 +226,7 @@ contains
       type(sheet_t) :: sheet
       character(:), allocatable :: line
       real(wp) :: width, room, ends(2)
+      logical :: has_scatter
       integer :: r, k
 
       sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
@@ -306,13 +237,12 @@ contains
          associate (summary => study%summaries(r))
             call begin_data(sheet, 'bins'//str(r))
             if (summary%used == 0) call add_numbers(sheet, [0.0_wp, 0.0_wp, 1.0_wp])
-            if (summary%used > 0) then
-               width = (summary%highest - summary%lowest)/size(summary%counts)
-               if (.not. width > 0.0_wp) width = max(abs(summary%lowest), 1.0_wp)*1.0e-6_wp
-               do k = 1, size(summary%counts)
-                  call add_numbers(sheet, [summary%lowest + (k - 0.5_wp)*width, real(summary%counts(k), wp), 0.94_wp*width])
-               end do
-            end if
+            width = (summary%highest - summary%lowest)/size(summary%counts)
+            if (summary%used > 0 .and. .not. width > 0.0_wp) call add_numbers(sheet, [summary%lowest, real(summary%used, wp), &
+               0.02_wp*room_of_constant(summary%lowest)])
+            do k = 1, merge(size(summary%counts), 0, summary%used > 0 .and. width > 0.0_wp)
+               call add_numbers(sheet, [summary%lowest + (k - 0.5_wp)*width, real(summary%counts(k), wp), 0.94_wp*width])
+            end do
             call end_data(sheet)
          end associate
       end do
@@ -322,7 +252,8 @@ contains
          associate (summary => study%summaries(r), response => study%responses(r))
             call begin_panel(sheet, r, '', response%label, 'designs')
             call sheet%text%line('unset arrow; unset label 3; unset label 4; unset label 5')
-            do k = 1, 3
+            has_scatter = summary%highest > summary%lowest
+            do k = merge(1, 2, has_scatter), merge(3, 2, has_scatter)
                call add_mark(sheet, k, summary%percentiles(2*k - 1), '')
                line = merge(' 5 %', '50 %', k == 1)
                if (k == 3) line = '95 %'
@@ -335,7 +266,8 @@ contains
                call add_mark(sheet, 5, response%upper, ' dashtype (8, 6)')
             ! room for the limits, unless they are far away
             ends = [summary%lowest, summary%highest]
-            room = max(ends(2) - ends(1), 1.0e-6_wp*max(abs(ends(1)), 1.0e-6_wp))
+            room = ends(2) - ends(1)
+            if (.not. has_scatter) room = room_of_constant(ends(1))
             if (response%lower < ends(1) .and. response%lower > ends(1) - room) ends(1) = response%lower
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
@@ -346,6 +278,12 @@ contains
       call sheet%text%line('unset arrow; set yrange [*:*]; set xrange [*:*]; set xtics autofreq')
       text = end_panels(sheet)
    end function histogram_script
+
+   !> The part of the axis that shows a response without scatter.
+   pure real(wp) function room_of_constant(value)
+      real(wp), intent(in) :: value
+      room_of_constant = merge(abs(value), 1.0_wp, abs(value) > 1.0e-9_wp)
+   end function room_of_constant
 
    !> A vertical line across a panel: dark, or red if it is dashed.
    subroutine add_mark(sheet, number, x, dash)
