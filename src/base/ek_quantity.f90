@@ -10,7 +10,7 @@ module ek_quantity
    implicit none(type, external)
    private
    public :: name_length, quantity_t, quantity_named, held_name, label_of, without_phase, column_of_stem
-   public :: unit_of, unit_text, unit_size, slope_unit
+   public :: unit_of, unit_text, unit_size, slope_unit, head_with_unit
 
    integer, parameter :: name_length = 192    !! longest column name: two names of a deck (63 letters each) and their endings
 
@@ -322,6 +322,22 @@ contains
       unit = 'per_'//lower
       if (upper /= '') unit = upper//'_'//unit
    end subroutine slope_unit
+
+   !> A heading that ends with a unit: 'seat' and 'mm' make 'seat_mm', which stays as it is.
+   pure function head_with_unit(name, ending) result(head)
+      character(*), intent(in) :: name
+      character(*), intent(in) :: ending             !! as in column names; '': none
+      character(:), allocatable :: head
+      integer :: at
+
+      head = name
+      if (ending == '') return
+      at = len(name) - len(ending)
+      if (at > 0) then
+         if (name(at:) == '_'//ending) return
+      end if
+      head = name//'_'//ending
+   end function head_with_unit
 
    !> The quantity whose column an element of this name could have as well; '' if there is none.
    pure function column_of_stem(stem) result(column)

@@ -7,7 +7,7 @@ module ek_deck_fragment
    use ek_study_design, only: designer_t
    implicit none(type, external)
    private
-   public :: deck_fragment, factor_unit
+   public :: deck_fragment
 
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 60        !! a study of every number of a model would fill the page
@@ -74,34 +74,5 @@ contains
       character(:), allocatable :: text
       text = str(value, 12)
    end function number_text
-
-   !> The unit of a factor: '' if it is not one of lengths and rates.
-   function factor_unit(designer, f) result(unit)
-      type(designer_t), intent(in) :: designer
-      integer, intent(in) :: f
-      character(:), allocatable :: unit
-      character(8) :: names(3)
-      real(wp) :: sizes(3)
-      integer :: k
-
-      unit = ''
-      if (size(designer%paths(f)%found) == 0) return
-      associate (design => designer%worker%design)
-         associate (this => design%parameters%list(designer%paths(f)%found(1)%number))
-            select case (design%records(this%record)%group//'.'//trim(this%key))
-            case ('point.at')
-               names = [character(8) :: 'mm', 'm', '']
-               sizes = [1.0e-3_wp, 1.0_wp, -1.0_wp]
-            case ('bushing.kt', 'spring.rate', 'stop.rate')
-               names = [character(8) :: 'N/mm', 'N/m', 'kN/mm']
-               sizes = [1.0e3_wp, 1.0_wp, 1.0e6_wp]
-            case default
-               return
-            end select
-            k = minloc(abs(sizes - this%unit), dim=1)
-            if (abs(sizes(k) - this%unit) < 1.0e-9_wp*this%unit) unit = trim(names(k))
-         end associate
-      end associate
-   end function factor_unit
 
 end module ek_deck_fragment

@@ -4,10 +4,10 @@ module ek_study_findings
    use ek_kinds, only: wp, i8
    use ek_study, only: study_t
    use ek_sampler, only: sampler_t, changed_factor
-   use ek_sampler_kind, only: one_at_a_time_kind, saltelli_kind, morris_kind
+   use ek_sampler_kind, only: one_at_a_time_kind, list_kind, saltelli_kind, morris_kind
    use ek_study_design, only: designer_t
    use ek_factor_paths, only: label_of
-   use ek_sensitivity, only: sobol_indices_t, sobol_indices, morris_effects_t, morris_effects, tornado_t, tornado
+   use ek_sensitivity, only: sobol_indices_t, sobol_indices, saltelli_block, morris_effects_t, morris_effects, tornado_t, tornado
    use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, rank_correlation
    use ek_study_data, only: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents
    use ek_deck_fragment, only: deck_fragment
@@ -86,7 +86,7 @@ contains
       type(morris_effects_t) :: elementary
       type(tornado_t) :: bars
       logical, allocatable :: is_used(:)
-      integer :: f, k, d, n
+      integer :: f, k, d, n, block
 
       k = size(data%factors)
       n = min(data%designs, most_ranked)
@@ -99,8 +99,11 @@ contains
          end do
       end if
       select case (study%kind)
-      case (saltelli_kind)
-         call sobol_indices(k, data%y(r, :), indices)
+      case (saltelli_kind, list_kind)
+         block = k + 2
+         if (study%kind == list_kind) block = saltelli_block(data%x)
+         if (block == 0) return
+         call sobol_indices(k, data%y(r, :), indices, block)
          effects%first = indices%first
          effects%total = indices%total
          effects%first_error = indices%first_error

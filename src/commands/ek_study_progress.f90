@@ -4,7 +4,8 @@ module ek_study_progress
    use ek_error, only: error_t
    use ek_text, only: str, plural
    use ek_file, only: join_path, file_exists, is_terminal, write_standard_error
-   use ek_study_run, only: run_state_t, count_parts
+   use ek_study_run, only: run_state_t
+   use ek_study_survey, only: survey_t, survey_parts
    use ek_study_tables, only: responses_name
    use ek_store, only: choose_store, store_name
    use ek_opened_study, only: opened_study_t
@@ -36,16 +37,29 @@ contains
       if (is_terminal(2) .and. .not. state%is_quiet) call write_standard_error(achar(13)//repeat(' ', 78)//achar(13))
    end subroutine end_state
 
-   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'
+   !> '1200 of 5000 designs, 850/s, 4 s left, 3 failed'; the rate is that of this run
    function state_text(state) result(text)
       type(run_state_t), intent(in) :: state
       character(:), allocatable :: text
       real(wp) :: rate
 
       rate = (state%done - state%before)/max(state%now - state%begun, 1.0e-6_wp)
-      text = str(state%done)//' of '//plural(state%wanted, 'design', 'designs')//', '//str(rate, 3)//'/s, '// &
-         time_text((state%wanted - state%done)/max(rate, 1.0e-9_wp))//' left, '//str(state%failed)//' failed'
+      text = str(state%done)//' of '//plural(state%wanted, 'design', 'designs')//', '// &
+         rate_text(rate, state%wanted - state%done)//str(state%failed)//' failed'
    end function state_text
+
+   !> '850/s, 4 s left, '; '' without a rate
+   function rate_text(rate, left) result(text)
+      real(wp), intent(in) :: rate                   !! designs per second
+      integer, intent(in) :: left                    !! designs
+      character(:), allocatable :: text
+
+      text = ''
+      if (.not. rate > 0.0_wp) return
+      if (rate < 99.5_wp) text = str(rate, 2)
+      if (.not. rate < 99.5_wp) text = str(nint(rate))
+      text = text//'/s, '//time_text(left/rate)//' left, '
+   end function rate_text
 
    !> '45 s', '12 min', '3.5 h'
    function time_text(time) result(text)
@@ -67,19 +81,23 @@ contains
       type(error_t), allocatable, intent(out) :: error
       character(:), allocatable :: name
       logical :: has_table, has_store
-      integer :: done
+      type(survey_t) :: now
 
-      call count_parts(this%study, this%plan, this%out, done)
+      call survey_parts(this%study, this%plan, this%out, now)
       call choose_store(this%study, this%plan, has_store, error)
       name = responses_name(this%study)
       if (has_store) name = store_name(this%study)
       if (allocated(error)) return
       has_table = file_exists(join_path(this%out, name))
-      if (done == 0 .and. has_table) then
+      if (now%done == 0 .and. has_table) then
          call print_text('study '//this%study%name//': complete, '//join_path(this%out, name)//new_line('a'), error)
       else
-         call print_text('study '//this%study%name//': '//str(done)//' of '//plural(this%plan%designs, 'design', 'designs')// &
-            ' done'//new_line('a'), error)
+         name = 'study '//this%study%name//': '//str(now%done)//' of '//plural(this%plan%designs, 'design', 'designs')// &
+            ' done, '
+         if (now%is_at_work) name = name//rate_text(now%rate, this%plan%designs - now%done)
+         name = name//str(now%failed)//' failed'
+         if (.not. now%is_at_work) name = name//'; no run is at work'
+         call print_text(name//new_line('a'), error)
       end if
    end subroutine print_status
 

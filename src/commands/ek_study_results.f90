@@ -18,7 +18,6 @@ module ek_study_results
    use ek_study_plan, only: plan_sampler
    use ek_study_tables, only: responses_name, curves_name, has_limits
    use ek_study_data, only: study_data_t, study_axis_t, percents
-   use ek_deck_fragment, only: factor_unit
    use ek_store, only: wants_store, read_store, store_name
    use ek_writer, only: scratch_t, begin_scratch, end_scratch
    use ek_study_curves, only: read_curves, curve_step
@@ -121,7 +120,8 @@ contains
       do k = 1, size(study%factors)
          associate (axis => data%factors(k), factor => study%factors(k))
             axis%name = factor%name
-            unit = factor_unit(designer, k)
+            axis%head = trim(designer%heads(k))
+            unit = trim(designer%units(k))
             if (factor%change == by_scale) unit = '× deck'
             axis%label = factor%name
             if (factor%change == by_delta) axis%label = 'Δ '//factor%name
@@ -191,7 +191,7 @@ contains
          if (size(names) /= 1 + k + m + merge(3, 2, has_limits(study))) call wrong()
       end if
       if (.not. allocated(error)) then
-         if (any(names(2:k + 1) /= [character(64) :: (data%factors(d)%name, d=1, k)])) call wrong()
+         if (any(names(2:k + 1) /= [character(64) :: (data%factors(d)%head, d=1, k)])) call wrong()
       end if
       if (.not. allocated(error)) then
          do d = 1, m

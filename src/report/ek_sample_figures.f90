@@ -102,12 +102,14 @@ contains
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
-      character(:), allocatable :: data
+      character(:), allocatable :: data, which
       real(wp) :: base
       integer :: c, j
 
+      which = 'the'
+      if (2*size(study%drawn) <= study%designs) which = str(size(study%drawn))//' of the'
       sheet = new_sheet(name, 'The band of the curves', subtitle// &
-         '; line: median, dark: 25 to 75 %, light: 5 to 95 % of the designs'// &
+         '; line: median, dark: 25 to 75 %, light: 5 to 95 % of '//which//' designs'// &
          cut(min(size(study%columns), most_panels), size(study%columns), 'columns'), min(size(study%columns), most_panels))
       do c = 1, sheet%panels
          call begin_data(sheet, 'band'//str(c))
@@ -231,6 +233,7 @@ contains
          '; lines: 5, 50 and 95 %, dashed: limits'//cut(min(size(study%responses), most_panels), size(study%responses), &
          'responses'), min(size(study%responses), most_panels))
       do r = 1, sheet%panels
+         if (maxval([0, study%summaries(r)%counts]) >= 10000) sheet%left = 130
          associate (summary => study%summaries(r))
             call begin_data(sheet, 'bins'//str(r))
             if (summary%used == 0) call add_numbers(sheet, [0.0_wp, 0.0_wp, 1.0_wp])

@@ -7,7 +7,7 @@ module ek_study_data
    implicit none(type, external)
    private
    public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents, most_panels
-   public :: range_of_values, is_geometric, tic_step
+   public :: range_of_values, is_geometric, tic_step, has_indices
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
    integer, parameter :: most_panels = 9                        !! of one figure; more responses are left out, which it says
@@ -15,6 +15,7 @@ module ek_study_data
    !> A factor, a response or a column of the curves.
    type :: study_axis_t
       character(:), allocatable :: name
+      character(:), allocatable :: head                !! of the column of a factor
       character(:), allocatable :: label               !! name with unit
       character(:), allocatable :: note                !! path of a factor; what a response is
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits of a response
@@ -70,6 +71,14 @@ module ek_study_data
    end type study_data_t
 
 contains
+
+   !> Whether the designs yield Sobol indices: those of a saltelli study, or of a list in such an order.
+   pure logical function has_indices(study)
+      type(study_data_t), intent(in) :: study
+
+      has_indices = .false.
+      if (size(study%effects) > 0) has_indices = allocated(study%effects(1)%first)
+   end function has_indices
 
    !> Smallest and largest finite value; 0 and 1 if there is none.
    pure function range_of_values(values) result(range)

@@ -1,12 +1,13 @@
 !> The figures of a study: which of them apply follows from its kind and its columns, by one table.
 !>
-!> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures or ek_effect_figures.
+!> A new figure: its row in `rules`, its case in `script_of`, and its procedure in ek_sample_figures, ek_effect_figures or a file of its own.
 module ek_study_figures
    use ek_text, only: plural
-   use ek_study_data, only: study_data_t
+   use ek_study_data, only: study_data_t, has_indices
    use ek_sample_figures, only: family_script, fan_script, scatter_script, histogram_script, convergence_script
    use ek_parallel_figure, only: parallel_script
    use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
+   use ek_carpet_figure, only: carpet_script
    implicit none(type, external)
    private
    public :: figure_rule_t, rules, applies, script_of, figure_name
@@ -27,10 +28,11 @@ module ek_study_figures
 
    type(figure_rule_t), parameter :: rules(*) = [ &
       figure_rule_t('tornado', 'Tornado: one factor at a time', 'one_at_a_time', .false., .true., 1, no_end, 2), &
-      figure_rule_t('sobol', 'Sobol indices', 'saltelli', .false., .true., 1, no_end, 6), &
+      figure_rule_t('sobol', 'Sobol indices', 'saltelli list', .false., .true., 1, no_end, 6), &
       figure_rule_t('morris', 'Morris'' elementary effects', 'morris', .false., .true., 1, no_end, 4), &
       figure_rule_t('line', 'Responses over the factor', 'grid', .false., .true., 1, 1, 2), &
       figure_rule_t('map', 'Contours over two factors', 'grid', .false., .true., 2, 2, 4), &
+      figure_rule_t('carpet', 'Carpet over two factors', 'grid', .false., .true., 2, 2, 4), &
       figure_rule_t('fan', 'Band of the curves', samples, .true., .false., 1, no_end, 10), &
       figure_rule_t('family', 'Family of curves', '*', .true., .false., 1, no_end, 2), &
       figure_rule_t('histogram', 'Distribution of the responses', samples, .false., .true., 1, no_end, 10), &
@@ -50,8 +52,9 @@ contains
       if (rule%needs_responses) applies = applies .and. any(study%summaries%used > 0)
       applies = applies .and. size(study%factors) >= rule%least_factors .and. size(study%factors) <= rule%most_factors .and. &
          study%designs >= rule%least_designs
-      if (applies .and. rule%name == 'map') applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. &
-         maxval(study%x(2, :)) > minval(study%x(2, :))
+      if (applies .and. rule%name == 'sobol') applies = has_indices(study)
+      if (applies .and. any([character(11) :: 'map', 'carpet'] == rule%name)) &
+         applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. maxval(study%x(2, :)) > minval(study%x(2, :))
    end function applies
 
    !> '<study>_<figure>', the name of its files.
@@ -82,6 +85,8 @@ contains
          text = line_script(study, name, subtitle)
       case ('map')
          text = map_script(study, name, subtitle)
+      case ('carpet')
+         text = carpet_script(study, name, subtitle)
       case ('fan')
          text = fan_script(study, name, subtitle)
       case ('family')

@@ -5,7 +5,7 @@ module ek_study_page
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
-   use ek_study_data, only: study_data_t, study_axis_t, percents, range_of_values
+   use ek_study_data, only: study_data_t, study_axis_t, percents, range_of_values, has_indices
    use ek_study_figures, only: rules, applies, figure_name
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       end_table, add_picture, page_text, page_number
@@ -181,7 +181,8 @@ contains
       integer :: r, f
 
       select case (study%kind)
-      case ('saltelli')
+      case ('saltelli', 'list')
+         if (.not. has_indices(study)) return
          call begin_section(page, 'indices', 'Sobol indices')
          call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %'])
       case ('morris')
@@ -199,7 +200,7 @@ contains
             call add_cell(page, study%factors(f)%name)
             associate (effect => study%effects(r))
                select case (study%kind)
-               case ('saltelli')
+               case ('saltelli', 'list')
                   call add_cell(page, page_number(effect%first(f)), 'n')
                   call add_cell(page, page_number(effect%first_error(f)), 'n')
                   call add_cell(page, page_number(effect%total(f)), 'n')

@@ -2,13 +2,13 @@
 !> deviation from a given curve.
 !>
 !> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
-!> otherwise those of its two columns; its column name ends with the unit.
+!> otherwise those of its two columns. The column name ends with the unit.
 module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, plural
-   use ek_quantity, only: slope_unit
+   use ek_quantity, only: slope_unit, unit_of, head_with_unit
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_study, only: response_t
    implicit none(type, external)
@@ -19,7 +19,7 @@ module ek_response
    type :: reading_t
       type(response_t) :: asked
       character(:), allocatable :: over      !! slope: the column over which it is taken
-      character(:), allocatable :: head      !! name of its column, with the unit of a slope
+      character(:), allocatable :: head      !! name of its column, with its unit
       real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
       integer :: of = 0                      !! what is read, one of those below
       integer :: at_column = 0, at_over = 0  !! places of the columns in the table of the first design
@@ -73,11 +73,11 @@ contains
       character(name_length), allocatable :: names(:)
       character(:), allocatable :: unit
       real(wp) :: value
-      integer :: at, fault
+      integer :: fault
 
       reading%asked = asked
       reading%over = asked%over
-      reading%head = asked%name
+      reading%head = head_with_unit(asked%name, unit_of(asked%column))
       reading%of = findloc(of_names == asked%of, .true., dim=1)
       names = table%columns
       if (present(heads)) names = heads
@@ -92,8 +92,7 @@ contains
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
          call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
-         at = len(asked%name) - len(unit)
-         if (index(asked%name, '_'//unit, back=.true.) /= max(at, 1)) reading%head = asked%name//'_'//unit
+         reading%head = head_with_unit(asked%name, unit)
       end if
       if (reading%of == an_rms) call read_curve(asked, home, reading%curve, message)
       if (message == '') then

@@ -11,7 +11,7 @@ module ek_sensitivity
    use ek_sample_statistics, only: mean_and_deviation
    implicit none(type, external)
    private
-   public :: sobol_indices_t, sobol_indices, morris_effects_t, morris_effects, tornado_t, tornado
+   public :: sobol_indices_t, sobol_indices, saltelli_block, morris_effects_t, morris_effects, tornado_t, tornado
 
    real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
 
@@ -39,8 +39,8 @@ module ek_sensitivity
 
 contains
 
-   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in its order (for each row
-   !> A, AB₁ … AB_k, B, as SALib without second order writes it). With f_A, f_B, f_i the responses of row r in the blocks
+   !> First-order and total indices from the responses of a Saltelli design: of the sampler, or a list in such an order (see
+   !> saltelli_block). With f_A, f_B, f_i the responses of row r in the blocks
    !> A, B and AB_i (A with factor i from B), less the mean of all, and V the variance of f_A and f_B together:
    !>
    !>     S_i = ⟨f_B (f_i − f_A)⟩ / V           Saltelli et al., Comput. Phys. Commun. 181 (2010) 259–270, table 2 (b)
@@ -50,28 +50,35 @@ contains
    !> C. Stein, Ann. Stat. 9 (1981) 586–596). For Sobol' points, which are more even than random ones, the interval is too wide.
    !>
    !> Equation (D.10) of docs/theory/sampling.md.
-   subroutine sobol_indices(factors, responses, indices)
+   subroutine sobol_indices(factors, responses, indices, block)
       integer, intent(in) :: factors                         !! k
       real(wp), intent(in) :: responses(:)
       type(sobol_indices_t), intent(out) :: indices
+      integer, intent(in), optional :: block                 !! of saltelli_block; default k + 2
       real(wp), allocatable :: f(:, :)                       ! (0: A, i: AB_i, k + 1: B; row)
       real(wp) :: nan
-      integer :: k, i, r, first, last
+      real(wp) :: mean                                       ! of all responses of the rows
+      integer :: k, i, r, rows, first, last
 
       k = factors
-      if (are_checked) call require(mod(size(responses), k + 2) == 0, 'sobol_indices: responses of another design')
+      rows = k + 2
+      if (present(block)) rows = block
+      if (are_checked) call require(rows >= k + 2 .and. mod(size(responses), rows) == 0, &
+         'sobol_indices: responses of another design')
       nan = ieee_value(nan, ieee_quiet_nan)
       allocate (indices%first(k), indices%total(k), indices%first_error(k), indices%total_error(k))
-      allocate (f(0:k + 1, size(responses)/(k + 2)))
+      allocate (f(0:k + 1, size(responses)/rows))
+      mean = 0.0_wp
       do r = 1, size(f, 2)
-         last = r*(k + 2)
-         first = last - k - 1
+         last = r*rows
+         first = last - rows + 1
          if (.not. all(ieee_is_finite(responses(first:last)))) cycle
          indices%used = indices%used + 1
-         f(:, indices%used) = responses(first:last)
+         f(:, indices%used) = [responses(first:first + k), responses(last)]
+         mean = mean + sum(responses(first:last))/rows
       end do
       ! the products of S_i then carry no constant
-      if (indices%used > 0) f(:, :indices%used) = f(:, :indices%used) - sum(f(:, :indices%used))/size(f(:, :indices%used))
+      if (indices%used > 0) f(:, :indices%used) = f(:, :indices%used) - mean/indices%used
       do i = 1, k
          indices%first(i) = nan
          indices%total(i) = nan
@@ -84,6 +91,48 @@ contains
          end associate
       end do
    end subroutine sobol_indices
+
+   !> The number of designs per row of a Saltelli design: k + 2 (A, AB₁ … AB_k, B) or 2 k + 2 (A, AB₁ … AB_k, BA₁ … BA_k, B), as
+   !> SALib writes it without and with second order; 0 if the designs are none. AB_i: A with factor i from B; BA_i: B with i from A.
+   pure integer function saltelli_block(x) result(block)
+      real(wp), intent(in) :: x(:, :)                        !! (factor, design)
+      integer :: k, k2, r, i
+      logical :: is_one
+
+      do k2 = 1, 2
+         k = size(x, 1)
+         block = k2*k + 2
+         if (size(x, 2) < 2*block .or. mod(size(x, 2), block) /= 0) cycle
+         is_one = .false.
+         rows: do r = 0, size(x, 2) - block, block
+            associate (a => x(:, r + 1), b => x(:, r + block))
+               is_one = is_one .or. any(abs(a - b) > 0.0_wp)
+               do i = 1, k
+                  if (is_mixed(x(:, r + 1 + i), a, b, i) .and. (k2 == 1 .or. is_mixed(x(:, r + 1 + (k2 - 1)*k + i), b, a, i))) cycle
+                  is_one = .false.
+                  exit rows
+               end do
+            end associate
+         end do rows
+         if (is_one) return
+      end do
+      block = 0
+
+   contains
+
+      !> Whether a point is `base` but for coordinate i, which is that of `other`.
+      pure logical function is_mixed(point, base, other, i)
+         real(wp), intent(in) :: point(:), base(:), other(:)
+         integer, intent(in) :: i
+         integer :: j
+
+         is_mixed = .not. abs(point(i) - other(i)) > 0.0_wp
+         do j = 1, size(point)
+            if (j /= i) is_mixed = is_mixed .and. .not. abs(point(j) - base(j)) > 0.0_wp
+         end do
+      end function is_mixed
+
+   end function saltelli_block
 
    !> ⟨share⟩/V with V = ⟨a² + b²⟩/2 − ⟨a + b⟩²/4, and its confidence by the jackknife. Unchanged if V = 0.
    !>

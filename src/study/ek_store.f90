@@ -204,8 +204,8 @@ contains
       end associate
       allocate (store%variables(size(study%factors) + size(plan%heads) + plan%columns))
       do k = 1, size(study%factors)
-         call begin_variable(store, k, study%factors(k)%name, factor_role)
-         call describe_factor(study%factors(k), store%variables(k))
+         call begin_variable(store, k, trim(plan%factor_heads(k)), factor_role)
+         call describe_factor(study%factors(k), trim(plan%units(k)), store%variables(k))
       end do
       n = size(study%factors)
       do k = 1, size(plan%heads)
@@ -249,8 +249,9 @@ contains
       if (name /= head) call store%variables(k)%attributes%add('column_in_csv', head)
    end subroutine begin_variable
 
-   subroutine describe_factor(factor, variable)
+   subroutine describe_factor(factor, unit, variable)
       type(study_factor_t), intent(in) :: factor
+      character(*), intent(in) :: unit                     !! '' for none
       type(store_variable_t), intent(inout) :: variable
       character(:), allocatable :: paths, long_name
       integer :: k
@@ -264,8 +265,8 @@ contains
       if (factor%change == by_delta) long_name = long_name//', added to the deck'
       if (factor%change == by_scale) long_name = long_name//', as a multiple of the deck'
       associate (list => variable%attributes)
-         if (factor%change == by_scale) call list%add('units', '1')
-         if (factor%change /= by_scale) call list%add('units', units_of(factor%name))
+         if (unit == '') call list%add('units', '1')
+         if (unit /= '') call list%add('units', unit)
          call list%add('long_name', long_name)
          call list%add('path', paths)
          call list%add('change', trim(change_names(factor%change)))

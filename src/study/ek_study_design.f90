@@ -12,9 +12,11 @@ module ek_study_design
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, column_index, name_length
+   use ek_quantity, only: head_with_unit
    use ek_study, only: study_t, not_given
    use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
+   use ek_factor_unit, only: factor_unit, unit_ending
    use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
    implicit none(type, external)
@@ -32,7 +34,8 @@ module ek_study_design
       integer, allocatable :: case_of(:)                   !! of each response
       integer :: increments = 0                            !! of all cases; 0: those of the deck
       integer :: states = 0                                !! of the first case, in the first design
-      character(name_length), allocatable :: units(:)      !! of the responses, '' if unknown
+      character(name_length), allocatable :: units(:)      !! of the factors, '' if they have none: 'N/mm'
+      character(name_length), allocatable :: heads(:)      !! of the columns of the factors: 'rate_n_per_mm'
    end type designer_t
 
 contains
@@ -51,9 +54,11 @@ contains
       if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
       call make_worker(deck, designer%case_names, designer%worker, error, designer%increments)
       if (allocated(error)) return
-      allocate (designer%paths(size(study%factors)))
+      allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
       do k = 1, size(study%factors)
          call find_paths(study%factors(k), designer%worker%design, designer%paths(k))
+         designer%units(k) = factor_unit(designer%worker%design, designer%paths(k))
+         designer%heads(k) = head_with_unit(study%factors(k)%name, unit_ending(trim(designer%units(k))))
       end do
       call check_planes(study, designer%worker%design, designer%paths, error)
    end subroutine begin_designer
@@ -124,7 +129,7 @@ contains
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: heads(:)    ! all columns of the results
       character(:), allocatable :: message
-      integer :: j, k
+      integer :: k
 
       associate (first => designer%results(1))
          call sweep_columns(first%suspension, first%case, heads)
@@ -139,15 +144,46 @@ contains
             call sweep_columns(result%suspension, result%case, heads)
             call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home)
             if (message /= '') call mistakes%add(message)
+         end associate
+      end do
+      call check_heads(study, designer, mistakes)
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine check_columns
+
+   !> No two columns of the table of responses may have the same name.
+   subroutine check_heads(study, designer, mistakes)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      type(message_list_t), intent(inout) :: mistakes
+      integer :: j, k
+
+      do k = 1, size(study%factors)
+         do j = 1, k - 1
+            if (designer%heads(j) == designer%heads(k)) call add(study%factors(k)%where//': factor '// &
+               quoted(study%factors(k)%name), trim(designer%heads(k)), 'factor '//quoted(study%factors(j)%name))
+         end do
+      end do
+      do k = 1, size(designer%readings)
+         associate (this => designer%readings(k))
+            do j = 1, size(study%factors)
+               if (designer%heads(j) == this%head) call add(this%asked%where//': response '//quoted(this%asked%name), this%head, &
+                  'factor '//quoted(study%factors(j)%name))
+            end do
             do j = 1, k - 1
-               if (readings(j)%head == readings(k)%head) call mistakes%add(readings(k)%asked%where//': response '// &
-                  quoted(readings(k)%asked%name)//': its column would have the name '//quoted(readings(k)%head)// &
-                  ', like that of response '//quoted(readings(j)%asked%name)//'; rename one')
+               if (designer%readings(j)%head == this%head) call add(this%asked%where//': response '//quoted(this%asked%name), &
+                  this%head, 'response '//quoted(designer%readings(j)%asked%name))
             end do
          end associate
       end do
-      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
-   end subroutine check_columns
+
+   contains
+
+      subroutine add(who, head, other)
+         character(*), intent(in) :: who, head, other
+         call mistakes%add(who//': its column would have the name '//quoted(head)//', like that of '//other//'; rename one')
+      end subroutine add
+
+   end subroutine check_heads
 
    !> Solves design k of a chunk, whose factors the chunk has, and fills its row.
    subroutine solve_design(study, deck, designer, k, chunk)

@@ -27,7 +27,8 @@ module ek_study_plan
       type(sampler_t) :: sampler
       integer :: designs = 0, chunk = 1, chunks = 0          !! designs in all, per chunk; chunks
       character(name_length), allocatable :: heads(:)        !! of the responses
-      character(name_length), allocatable :: units(:)        !! of the responses
+      character(name_length), allocatable :: factor_heads(:) !! with their units
+      character(name_length), allocatable :: units(:)        !! of the factors, '' for none
       integer :: columns = 0                                 !! of a row of the curves: the swept value and those of the study
       integer :: states = 0                                  !! of a design, usually
       character(:), allocatable :: deck_sum                  !! checksum of the deck
@@ -56,6 +57,8 @@ contains
       plan%chunks = (plan%designs + plan%chunk - 1)/plan%chunk
       plan%columns = merge(size(study%columns) + 1, 0, size(study%columns) > 0)
       plan%states = designer%states
+      plan%units = designer%units
+      plan%factor_heads = designer%heads
       allocate (plan%heads(size(designer%readings)))
       do k = 1, size(plan%heads)
          plan%heads(k) = designer%readings(k)%head
@@ -95,7 +98,7 @@ contains
       integer :: f
 
       settings = study%settings
-      if (study%kind == list_kind) call read_list(study, home, settings%rows, error)
+      if (study%kind == list_kind) call read_list(study, home, designer, settings%rows, error)
       do f = 1, size(factors)
          if (.not. allocated(error)) call define_factor(study%factors(f), study%kind, &
             deck_value(designer%worker, designer%paths(f)), factors(f), error)
@@ -110,10 +113,11 @@ contains
       end if
    end subroutine plan_sampler
 
-   !> Reads the designs of a list: a column per factor, of its name; other columns are not used.
-   subroutine read_list(study, home, rows, error)
+   !> Reads the designs of a list: a column per factor, of its name, with or without its unit; other columns are not used.
+   subroutine read_list(study, home, designer, rows, error)
       type(study_t), intent(in) :: study
       character(*), intent(in) :: home
+      type(designer_t), intent(in) :: designer
       real(wp), allocatable, intent(out) :: rows(:, :)     !! (factor, design)
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: table
@@ -127,6 +131,7 @@ contains
       allocate (rows(size(study%factors), size(table%values, 2)))
       do f = 1, size(study%factors)
          at = column_index(table, study%factors(f)%name)
+         if (at == 0) at = column_index(table, trim(designer%heads(f)))      ! the results of another study
          if (at == 0) then
             call fail(error, exit_file, path//': there is no column '//quoted(study%factors(f)%name)//' for the factor in '// &
                study%factors(f)%where)

@@ -154,13 +154,8 @@ contains
       character(*), intent(in) :: last(:)         !! columns behind the factors
       character(:), allocatable :: text
       type(table_t) :: table
-      character(name_length) :: names(size(study%factors))
-      integer :: f
 
-      do f = 1, size(names)
-         names(f) = study%factors(f)%name
-      end do
-      table = new_table([character(name_length) :: 'design', names, last], 0)
+      table = new_table([character(name_length) :: 'design', plan%factor_heads, last], 0)
       call table%header%add('study '//study%name//', kind '//trim(kind_names(study%kind))//', '// &
          plural(plan%designs, 'design', 'designs')//seed_of(study))
       call table%header%add('elastokin '//version//', deck checksum '//plan%deck_sum//', study '//plan%identity)

@@ -32,12 +32,12 @@ do for [format in 'png svg'] {
    set lmargin at screen 0.075; set rmargin at screen 0.44
    unset colorbox
    set xlabel 'toe [deg]    (+ front edge inward)'
-   plot curves using 'toe_deg':'wheel_travel_mm':'lca_front_radial' with lines linewidth 1.1 linecolor palette
+   plot curves using 'toe_deg':'wheel_travel_mm':'lca_front_radial_n_per_mm' with lines linewidth 1.1 linecolor palette
    unset label 1; unset label 2
    set lmargin at screen 0.51; set rmargin at screen 0.875
    set colorbox user origin screen 0.9, screen 0.16 size screen 0.018, screen 0.65
    set xlabel 'camber [deg]    (+ top outward)'
-   plot curves using 'camber_deg':'wheel_travel_mm':'lca_front_radial' with lines linewidth 1.1 linecolor palette
+   plot curves using 'camber_deg':'wheel_travel_mm':'lca_front_radial_n_per_mm' with lines linewidth 1.1 linecolor palette
    unset multiplot
    unset output
    unset xzeroaxis; unset yzeroaxis; unset logscale cb; set cbrange [*:*]; set cbtics autofreq; set yrange [*:*]; set ytics autofreq
@@ -56,13 +56,13 @@ do for [format in 'png svg'] {
    set xtics (500, 1000, 2000, 4000, 8000, 16000); set ytics (250, 500, 1000, 2000, 4000, 8000)
    set xrange [500:16000]; set yrange [250:8000]
    set table $grid
-   splot responses using 'lca_front_radial':'lca_rear_lateral':'toe_gradient_deg_per_m' with lines
+   splot responses using 'lca_front_radial_n_per_mm':'lca_rear_lateral_n_per_mm':'toe_gradient_deg_per_m' with lines
    unset table
    set table $lines
    set contour base
    set cntrparam levels 8
    unset surface
-   splot responses using 'lca_front_radial':'lca_rear_lateral':'toe_gradient_deg_per_m' with lines
+   splot responses using 'lca_front_radial_n_per_mm':'lca_rear_lateral_n_per_mm':'toe_gradient_deg_per_m' with lines
    unset table
    unset contour; set surface
    set view map

@@ -1,0 +1,117 @@
+!> The unit of a factor: that of the numbers of the deck which it changes, in texts ('N/mm') and at the end of a heading ('n_per_mm').
+!>
+!> A parameter knows the size of its unit in SI only; which unit this is follows from its group and key, here in one table.
+module ek_factor_unit
+   use ek_kinds, only: wp, millimetre, degree
+   use ek_record, only: is_given
+   use ek_reader, only: design_t
+   use ek_study, only: by_scale
+   use ek_worker, only: factor_paths_t
+   implicit none(type, external)
+   private
+   public :: factor_unit, unit_ending
+
+   !> Keys of one unit. L, F, A: length, force and angle as the deck writes them; a blank between factors, '/' before the divisor.
+   type :: unit_row_t
+      character(8) :: unit
+      character(200) :: keys             !! group.key, blanks between them and around all
+   end type unit_row_t
+
+   type(unit_row_t), parameter :: rows(*) = [ &
+      unit_row_t('L', ' point.at wheel.radius wheel.tyre_width axle.wheelbase axle.cg_height axle.front_overhang'// &
+         ' axle.front_width spring.free_length stop.clearance stop.rounding steering.ratio steering.travel case.offset '), &
+      unit_row_t('F', ' load.force bushing.preload_force damper.gas_force spring.preload '), &
+      unit_row_t('F L', ' load.moment bushing.preload_moment torsion.preload '), &
+      unit_row_t('F/L', ' bushing.kt spring.rate stop.rate damper.gas_rate wheel.tyre_rate '), &
+      unit_row_t('F L/A', ' bushing.kr torsion.rate '), &
+      unit_row_t('A', ' wheel.toe wheel.camber '), &
+      unit_row_t('kg', ' body.mass mass.kg wheel.sprung_mass axle.mass '), &
+      unit_row_t('m/s²', ' model.gravity ')]
+
+contains
+
+   !> The unit of a factor: 'N/mm'; '' without one: a multiple of the deck, a share, a number whose unit is not known.
+   function factor_unit(design, paths) result(unit)
+      type(design_t), intent(in) :: design
+      type(factor_paths_t), intent(in) :: paths
+      character(:), allocatable :: unit
+      integer :: k
+
+      unit = ''
+      if (paths%change == by_scale) return
+      do k = 1, size(paths%found)
+         if (k == 1) unit = parameter_unit(design, paths%found(k)%number)
+         if (unit == parameter_unit(design, paths%found(k)%number)) cycle
+         unit = ''
+         return
+      end do
+   end function factor_unit
+
+   !> The unit of one number of the deck.
+   function parameter_unit(design, number) result(unit)
+      type(design_t), intent(in) :: design
+      integer, intent(in) :: number
+      character(:), allocatable :: unit, path
+      integer :: k
+
+      unit = ''
+      associate (this => design%parameters%list(number), plan => design%plan)
+         path = ' '//trim(design%records(this%record)%group)//'.'//trim(this%key)//' '
+         do k = 1, size(rows)
+            if (index(rows(k)%keys, path) > 0) exit
+         end do
+         if (k > size(rows)) return
+         ! the rate of a spring on a &measure is a moment per angle if this is an angle
+         if (path == ' spring.rate ' .or. path == ' spring.preload ') then
+            if (is_given(design%records(this%record), 'measure')) return
+         end if
+         unit = written(trim(rows(k)%unit))
+      end associate
+
+   contains
+
+      !> The unit with the names of the deck.
+      function written(pattern) result(text)
+         character(*), intent(in) :: pattern
+         character(:), allocatable :: text
+         integer :: j
+
+         text = ''
+         do j = 1, len(pattern)
+            select case (pattern(j:j))
+            case ('L')
+               text = text//trim(merge('mm', 'm ', design%plan%length_unit < 1.5_wp*millimetre))
+            case ('F')
+               text = text//trim(merge('kN', 'N ', design%plan%force_unit > 500.0_wp))
+            case ('A')
+               text = text//merge('deg', 'rad', design%plan%angle_unit < 1.5_wp*degree)
+            case default
+               text = text//pattern(j:j)
+            end select
+         end do
+      end function written
+
+   end function parameter_unit
+
+   !> A unit as the end of a heading: 'n_per_mm' for 'N/mm', 'nmm_per_deg' for 'N mm/deg', 'm_per_s2' for 'm/s²'.
+   pure function unit_ending(unit) result(ending)
+      character(*), intent(in) :: unit
+      character(:), allocatable :: ending
+      integer :: k
+
+      ending = ''
+      do k = 1, len(unit)
+         select case (unit(k:k))
+         case (' ')
+         case ('/')
+            ending = ending//'_per_'
+         case ('A':'Z')
+            ending = ending//achar(iachar(unit(k:k)) + 32)
+         case default
+            if (iachar(unit(k:k)) < 128) ending = ending//unit(k:k)
+         end select
+      end do
+      if (index(unit, '²') > 0) ending = ending//'2'
+   end function unit_ending
+
+end module ek_factor_unit

@@ -1,0 +1,72 @@
+!> How far a study is, from the chunks in its folder: for --status, while another process may be running it.
+module ek_study_survey
+   use ek_kinds, only: wp, i8
+   use ek_file, only: join_path, file_exists, folder_exists
+   use ek_system, only: facts_t, facts_of
+   use ek_writer, only: find_users
+   use ek_study, only: study_t
+   use ek_study_plan, only: study_plan_t
+   use ek_study_run, only: parts_folder
+   use ek_chunk, only: chunk_t, read_chunk, chunk_name
+   implicit none(type, external)
+   private
+   public :: survey_t, survey_parts, rate_of_chunks
+
+   integer(i8), parameter :: least_time = 20        !! s; file times are whole seconds
+
+   !> What is found in the folder of the chunks.
+   type :: survey_t
+      integer :: done = 0, failed = 0                !! designs; of these, those that failed
+      logical :: is_at_work = .false.                !! a run has the folder
+      real(wp) :: rate = 0.0_wp                      !! designs per second, lately; 0: unknown
+   end type survey_t
+
+contains
+
+   !> Looks at all chunks.
+   subroutine survey_parts(study, plan, out, survey)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(survey_t), intent(out) :: survey
+      type(chunk_t) :: chunk
+      type(facts_t) :: facts
+      character(:), allocatable :: folder, path
+      integer(i8) :: times(plan%chunks)
+      integer :: designs(plan%chunks), k, n
+      logical :: is_good, is_here
+
+      folder = parts_folder(study, out)
+      n = 0
+      do k = 1, plan%chunks
+         path = join_path(folder, chunk_name(k))
+         if (.not. file_exists(path)) cycle
+         call read_chunk(path, plan%identity, chunk, is_good)
+         if (.not. is_good) cycle
+         facts = facts_of(path, follow=.true.)
+         n = n + 1
+         times(n) = facts%changed
+         designs(n) = size(chunk%status)
+         survey%failed = survey%failed + count(chunk%status /= 0)
+      end do
+      survey%done = sum(designs(:n))
+      if (folder_exists(folder)) call find_users(folder, survey%is_at_work, is_here)
+      survey%rate = rate_of_chunks(times(:n), designs(:n))
+   end subroutine survey_parts
+
+   !> Designs per second in the last 20 s in which chunks were written, or somewhat more: to that time belong the designs of all chunks
+   !> but those that were written at its beginning. 0 if all chunks were written within less.
+   pure real(wp) function rate_of_chunks(times, designs) result(rate)
+      integer(i8), intent(in) :: times(:)            !! when each was written [s]
+      integer, intent(in) :: designs(:)
+      integer(i8) :: last, begin
+
+      rate = 0.0_wp
+      if (size(times) == 0) return
+      last = maxval(times)
+      if (.not. any(times <= last - least_time)) return
+      begin = maxval(times, mask=times <= last - least_time)
+      rate = sum(designs, mask=times > begin)/real(last - begin, wp)
+   end function rate_of_chunks
+
+end module ek_study_survey
