@@ -37,7 +37,7 @@ module ek_compliance
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
-   use ek_lapack, only: dsytrs, dgesv
+   use ek_lapack, only: dsytrs2, dgesv
    implicit none(type, external)
    private
    public :: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch, hold, lock
@@ -113,8 +113,8 @@ contains
          call factorise(kkt)
          self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
          info = 0
-         if (self%is_known) call dsytrs('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
-            kkt%n, info)
+         if (self%is_known) call dsytrs2('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
+            kkt%n, kkt%work, info)
          if (info /= 0) self%is_known = .false.
       end if
       if (.not. self%is_known) then
