@@ -12,13 +12,13 @@ module ek_reader_elements
    use ek_elastic, only: bushing_t
    use ek_blueprint, only: element_plan_t, curve_plan_t, vector_t, bushing_plan_t, chosen, chosen_right
    use ek_design_vector, only: marker_axes
-   use ek_group, only: measure_group, word_length
+   use ek_group, only: measure_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, &
       numbers_of, value_count, refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
-   public :: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   public :: read_curve, read_element
 
    real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
@@ -54,6 +54,24 @@ contains
       call slot(reading, 'y', 1.0_wp, plan%y, count=plan%points)
       reading%plan%curves(size(reading%plan%curves)) = plan
    end subroutine read_curve
+
+   !> The record of an elastic element.
+   subroutine read_element(reading)
+      type(deck_reading_t), intent(inout) :: reading
+
+      select case (reading%cards(reading%k)%group)
+      case (bushing_group)
+         call read_bushing(reading)
+      case (spring_group)
+         call read_spring(reading)
+      case (damper_group)
+         call read_damper(reading)
+      case (stop_group)
+         call read_stop(reading)
+      case (torsion_group)
+         call read_torsion(reading)
+      end select
+   end subroutine read_element
 
    !> &spring: between two points, or on a measure.
    subroutine read_spring(reading)
