@@ -13,7 +13,7 @@
 !> −T × gradient of the measure. Forces and tangents of all kinds: ek_element_force.
 !>
 !> A new kind of one measure: its number and its row in `element_kinds`, here; its group, keys and reader in the deck layer. A new
-!> number of the deck: also its place in the list of numbers and its line in `set_numbers`. A formula that ek_law does not have: its
+!> number of the deck: also its position in the list of numbers and its line in `set_numbers`. A formula that ek_law does not have: its
 !> case in `look_up_element`, `element_slopes` and `is_linear`.
 module ek_element
    use ek_kinds, only: wp
