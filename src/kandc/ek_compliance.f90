@@ -33,7 +33,7 @@ module ek_compliance
    use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
-   use ek_element, only: axial_spring
+   use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
@@ -67,9 +67,8 @@ contains
       integer :: n, k, ports
 
       self%wheels = size(suspension%wheels)
-      self%springs = count(suspension%elements%kind == axial_spring)
-      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%elements))], &
-         suspension%elements%kind == axial_spring))
+      self%spring = pack([(k, k=1, size(suspension%elements))], element_kinds(suspension%elements%kind)%is_axial_spring)
+      self%springs = size(self%spring)
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
