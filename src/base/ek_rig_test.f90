@@ -15,7 +15,8 @@
 !> | vertical_force  | force           | upward at the patch                    | vertical force   |
 !> | table           | row of the file | its columns                            | vertical force   |
 !>
-!> A further test is a row here; if it has charts or gradients of its own, also a list in ek_test_charts and rows in ek_gradient.
+!> A further test is a row here; if it has charts or gradients of its own, also a list in ek_test_charts and rows in
+!> ek_gradient_definition.
 !> The deck reader, the rig, the standard tests, the usual ranges, the abscissa and the windows follow from the row.
 module ek_rig_test
    use ek_kinds, only: wp, degree, millimetre

@@ -8,9 +8,8 @@ module ek_reader
    use ek_error, only: error_t, fail, exit_deck
    use ek_record, only: single, record_t, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
-      measure_group, joint_group, bushing_group, spring_groups, spring_group, damper_group, stop_group, torsion_group, case_group, &
-      curve_group, mass_group, wheel_group, axle_group, steering_group, load_group, &
-      word_length, record_head, did_you_mean, has_results
+      measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
+      steering_group, load_group, word_length, record_head, did_you_mean, has_results
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
@@ -18,7 +17,7 @@ module ek_reader
    use ek_parameter, only: parameters_t
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
-   use ek_reader_elements, only: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   use ek_reader_elements, only: read_curve, read_element
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t, point_t
@@ -163,16 +162,6 @@ contains
          call read_measure(reading)
       case (joint_group)
          call read_joint(reading)
-      case (bushing_group)
-         call read_bushing(reading)
-      case (spring_group)
-         call read_spring(reading)
-      case (damper_group)
-         call read_damper(reading)
-      case (stop_group)
-         call read_stop(reading)
-      case (torsion_group)
-         call read_torsion(reading)
       case (wheel_group)
          call read_wheel(reading)
       case (axle_group)
@@ -181,6 +170,8 @@ contains
          call read_steering(reading)
       case (load_group)
          call read_load(reading)
+      case default
+         call read_element(reading)
       end select
    end subroutine read_record
 

@@ -8,17 +8,18 @@ module ek_reader_elements
    use ek_record, only: right_side
    use ek_curve, only: curve_t, new_curve, look_up_curve, curve_kinds, min_step
    use ek_measure, only: measure_t, distance, rotation, is_of_angle
-   use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element
+   use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element, &
+      rate_number, preload_number, free_length_number, clearance_number, rounding_number
    use ek_elastic, only: bushing_t
    use ek_blueprint, only: element_plan_t, curve_plan_t, vector_t, bushing_plan_t, chosen, chosen_right
    use ek_design_vector, only: marker_axes
-   use ek_group, only: measure_group, word_length
+   use ek_group, only: measure_group, bushing_group, spring_group, damper_group, stop_group, torsion_group, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, has_key, choice, text_of, texts_of, switch_of, number_of, &
       numbers_of, value_count, refuse, slot
    use ek_reference, only: look_up, find_bodies, find_direction, find_ends, find_curve, new_vector
    implicit none(type, external)
    private
-   public :: read_curve, read_spring, read_damper, read_stop, read_torsion, read_bushing
+   public :: read_curve, read_element
 
    real(wp), parameter :: usual_rounding = 0.5e-3_wp   !! m: a typical soft lip of a bump stop
 
@@ -55,6 +56,24 @@ contains
       reading%plan%curves(size(reading%plan%curves)) = plan
    end subroutine read_curve
 
+   !> The record of an elastic element.
+   subroutine read_element(reading)
+      type(deck_reading_t), intent(inout) :: reading
+
+      select case (reading%cards(reading%k)%group)
+      case (bushing_group)
+         call read_bushing(reading)
+      case (spring_group)
+         call read_spring(reading)
+      case (damper_group)
+         call read_damper(reading)
+      case (stop_group)
+         call read_stop(reading)
+      case (torsion_group)
+         call read_torsion(reading)
+      end select
+   end subroutine read_element
+
    !> &spring: between two points, or on a measure.
    subroutine read_spring(reading)
       type(deck_reading_t), intent(inout) :: reading
@@ -74,8 +93,9 @@ contains
       if (has_key(reading, 'preload') .and. has_key(reading, 'free_length')) &
          call complain(reading, 'free_length', 'give either preload or free_length, not both')
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'free_length', reading%units%length, plan%free_length)
-      if (plan%free_length == 0) call slot(reading, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
+      call slot(reading, 'free_length', reading%units%length, plan%numbers(free_length_number))
+      if (plan%numbers(free_length_number) == 0) &
+         call slot(reading, 'preload', plan%force_unit, plan%numbers(preload_number), default=0.0_wp)
       call add(reading, plan, merge(axial_spring, measure_spring, measure%kind == distance), measure)
 
    contains
@@ -109,8 +129,8 @@ contains
 
       call find_link(reading, plan, measure)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'gas_rate', reading%units%force/reading%units%length, plan%rate, default=0.0_wp)
-      call slot(reading, 'gas_force', reading%units%force, plan%preload, default=0.0_wp)
+      call slot(reading, 'gas_rate', reading%units%force/reading%units%length, plan%numbers(rate_number), default=0.0_wp)
+      call slot(reading, 'gas_force', reading%units%force, plan%numbers(preload_number), default=0.0_wp)
       call add(reading, plan, damper, measure)
    end subroutine read_damper
 
@@ -137,8 +157,9 @@ contains
             ' must be 0 at 0 (a stop without contact exerts no force), found '//str(force))
       end if
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'clearance', reading%units%length, plan%clearance)
-      call slot(reading, 'rounding', reading%units%length, plan%rounding, default=usual_rounding/reading%units%length)
+      call slot(reading, 'clearance', reading%units%length, plan%numbers(clearance_number))
+      call slot(reading, 'rounding', reading%units%length, plan%numbers(rounding_number), &
+         default=usual_rounding/reading%units%length)
       call add(reading, plan, stop_spring, measure)
       if (c == 2) reading%plan%prototype%elements(reading%plan%prototype%scalars)%law%sign = 1.0_wp
    end subroutine read_stop
@@ -157,7 +178,7 @@ contains
       if (.not. has_axis) call complain(reading, '', "give 'axis' or 'axis_vector'")
       call find_law(reading, plan)
       if (.not. reading%cards(reading%k)%is_good) return
-      call slot(reading, 'preload', plan%force_unit, plan%preload, default=0.0_wp)
+      call slot(reading, 'preload', plan%force_unit, plan%numbers(preload_number), default=0.0_wp)
       call add(reading, plan, torsion_spring, measure_t(kind=rotation, body_i=bodies(1), body_j=bodies(2)))
    end subroutine read_torsion
 
@@ -184,7 +205,7 @@ contains
          call complain(reading, '', "give 'rate' or 'curve'")
       end if
       call find_curve(reading, 'curve', text_of(reading, 'curve'), plan%curve)
-      call slot(reading, 'rate', plan%force_unit/plan%value_unit, plan%rate)
+      call slot(reading, 'rate', plan%force_unit/plan%value_unit, plan%numbers(rate_number))
    end subroutine find_law
 
    !> Adds an element to the prototype, before all bushings, and its plan to the blueprint; `realise` sets the numbers.

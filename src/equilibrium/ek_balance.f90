@@ -15,7 +15,7 @@ module ek_balance
    use ek_text, only: str, quoted, plural
    use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated, add_gradient
-   use ek_element, only: axial_spring, element_t
+   use ek_element, only: element_kinds, element_t
    use ek_elastic, only: set_bushing_axes, design_rates
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
@@ -53,7 +53,7 @@ contains
    !> Whether balance may change the preload of an element.
    elemental logical function is_free(element)
       type(element_t), intent(in) :: element
-      is_free = element%kind == axial_spring .and. element%is_balanced
+      is_free = element_kinds(element%kind)%is_axial_spring .and. element%is_balanced
    end function is_free
 
    !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel

@@ -15,8 +15,8 @@ module ek_chord
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_measure, only: measure_t, evaluation_t, body_gap, rotation, measure_value, evaluate
-   use ek_law, only: law_t, look_up_law, find_slopes
-   use ek_element, only: bushing_element
+   use ek_law, only: look_up_law, find_slopes
+   use ek_element, only: element_t, look_up_element, element_slopes, is_linear, bushing_element
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t
    use ek_tangent, only: tangent_t, find_tangent
@@ -77,7 +77,7 @@ contains
       do k = 1, size(suspension%elements)
          associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
             if (element%kind /= bushing_element) then
-               if (.not. (element%law%has_curve .or. element%law%is_one_sided)) cycle
+               if (is_linear(element)) cycle
                law = law + 1
                place(law) = place_t(element=k, measure=element%measure)
                cycle
@@ -113,11 +113,7 @@ contains
             j = place%measure%body_j + 1
             self%value(at_a, k) = measure_value(place%measure, a%poses(i), a%poses(j)) - place%offset
             self%value(at_b, k) = measure_value(place%measure, b%poses(i), b%poses(j)) - place%offset
-            if (place%component == 0) then
-               call draw(self, k, suspension%elements(place%element)%law)
-            else
-               call draw(self, k, suspension%elements(place%element)%bushing%laws(place%component))
-            end if
+            call draw(self, k, suspension%elements(place%element), place%component)
          end associate
          if (.not. self%slope(most, k) - self%slope(least, k) > bent*maxval(abs(self%slope(:, k)))) cycle
          self%bends = self%bends + 1
@@ -127,18 +123,28 @@ contains
    end subroutine straighten
 
    !> Forces and slopes of a law at both ends and between them.
-   pure subroutine draw(self, number, law)
+   pure subroutine draw(self, number, element, component)
       type(chord_t), intent(inout) :: self
       integer, intent(in) :: number                !! of the law; its values are set
-      type(law_t), intent(in) :: law
+      type(element_t), intent(in) :: element
+      integer, intent(in) :: component             !! of a bushing; 0: the law of the element
       real(wp) :: slope
       integer :: end
 
       associate (value => self%value(:, number), force => self%force(:, number))
          do end = at_a, at_b
-            call look_up_law(law, value(end), force(end), self%own(end, number))
+            if (component == 0) then
+               call look_up_element(element, value(end), force(end), self%own(end, number))
+            else
+               call look_up_law(element%bushing%laws(component), value(end), force(end), self%own(end, number))
+            end if
          end do
-         call find_slopes(law, value(at_a), value(at_b), self%slope(least, number), self%slope(most, number))
+         if (component == 0) then
+            call element_slopes(element, value(at_a), value(at_b), self%slope(least, number), self%slope(most, number))
+         else
+            call find_slopes(element%bushing%laws(component), value(at_a), value(at_b), self%slope(least, number), &
+               self%slope(most, number))
+         end if
          slope = self%own(at_a, number)
          if (abs(value(at_b) - value(at_a)) > 0.0_wp) slope = (force(at_b) - force(at_a))/(value(at_b) - value(at_a))
       end associate

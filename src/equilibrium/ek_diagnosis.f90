@@ -17,7 +17,7 @@ module ek_diagnosis
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted, plural
-   use ek_element, only: axial_spring, bushing_element, element_label
+   use ek_element, only: element_kinds, bushing_element, element_label
    use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
@@ -316,7 +316,9 @@ contains
 
       least = kkt%stiffness
       do k = 1, size(suspension%elements)
-         if (all(suspension%elements(k)%kind /= [axial_spring, bushing_element])) cycle
+         associate (kind => suspension%elements(k)%kind)
+            if (.not. (element_kinds(kind)%is_axial_spring .or. kind == bushing_element)) cycle
+         end associate
          rates = design_stiffness(suspension%elements(k))
          least = min(least, minval(rates(1:3), mask=rates(1:3) > 0.0_wp))
       end do

@@ -261,21 +261,24 @@ contains
       if (are_checked) call require(kkt%stage == assembled, 'factorise: no matrix was assembled')
       kkt%stage = factors
       kkt%factorisations = kkt%factorisations + 1
-      call scale_lower(kkt%n, kkt%scale, kkt%matrix)
+      call scale_lower(kkt%n, kkt%nq, kkt%scale, kkt%matrix)
       call dsytrf('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%work, size(kkt%work), info)
       call count_inertia(kkt%n, kkt%matrix, kkt%pivots, kkt%negative, kkt%pivot_ratio, kkt%log_determinant)
       kkt%is_singular = info /= 0 .or. .not. kkt%pivot_ratio > 0.0_wp
    end subroutine factorise
 
-   !> Scales the lower triangle: D S D.
-   pure subroutine scale_lower(n, scale, matrix)
-      integer, intent(in) :: n
+   !> Scales the lower triangle: D S D. Behind the unknowns of the bodies only its diagonal is not zero.
+   pure subroutine scale_lower(n, nq, scale, matrix)
+      integer, intent(in) :: n, nq
       real(wp), intent(in) :: scale(n)
       real(wp), intent(inout) :: matrix(n, n)
       integer :: j
 
-      do j = 1, n
+      do j = 1, nq
          matrix(j:n, j) = matrix(j:n, j)*(scale(j)*scale(j:n))
+      end do
+      do j = nq + 1, n
+         matrix(j, j) = matrix(j, j)*(scale(j)*scale(j))
       end do
    end subroutine scale_lower
 

@@ -25,7 +25,7 @@ module ek_reach
    !> Where and how a sweep stopped.
    type :: failure_t
       integer :: state = 0                 !! index of the first state that did not converge, 0: none
-      real(wp) :: value = 0.0_wp           !! place of the last attempt
+      real(wp) :: value = 0.0_wp           !! place of the nearest attempt that failed
       real(wp) :: reached = 0.0_wp         !! place of the last equilibrium
       logical :: is_singular = .false.
       logical :: is_off_path = .false.     !! a linear method continued, but not along the path from design
@@ -89,6 +89,7 @@ contains
       type(failure_t), intent(inout) :: failure
       type(step_t) :: step
       real(wp) :: here, width
+      real(wp) :: lost        ! place of the nearest attempt that failed
       integer :: points, attempt
       real(wp) :: beyond      ! the nearest swept value known behind a bifurcation
       logical :: is_there, knows_beyond, is_last_try
@@ -98,6 +99,7 @@ contains
       knows_beyond = .false.
       is_last_try = .false.
       beyond = 0.0_wp
+      lost = goal
       points = branch%predictor%trusted
       width = goal - here
       do attempt = 1, max_attempts
@@ -128,6 +130,7 @@ contains
             is_last_try = .false.
             cycle
          end if
+         if (.not. is_last_try) lost = step%place
          points = min(points, 2)     ! the prediction may itself be the cause
          ! halves come to the same place again
          width = merge(away, 0.5_wp, branch%is_singular)*(step%place - here)
@@ -145,7 +148,7 @@ contains
             width = beyond - here
          end if
       end do
-      call blame(suspension, branch%predictor, step, state, kkt, failure)
+      call blame(suspension, branch%predictor, lost, step, state, kkt, failure)
    end subroutine reach
 
    !> Predicts the state at step%place, along the tangent or from earlier states, and iterates to equilibrium.
@@ -286,10 +289,11 @@ contains
 
    !> Determines which body moved most in a failed attempt and which constraint is violated most; `state` is reset
    !> to the last equilibrium.
-   subroutine blame(suspension, predictor, step, state, kkt, failure)
+   subroutine blame(suspension, predictor, lost, step, state, kkt, failure)
       type(suspension_t), intent(in) :: suspension
       type(predictor_t), intent(in) :: predictor
-      type(step_t), intent(in) :: step           !! the failed attempt
+      real(wp), intent(in) :: lost               !! place of the nearest attempt that failed
+      type(step_t), intent(in) :: step           !! the last attempt
       type(state_t), intent(inout) :: state
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
@@ -301,7 +305,7 @@ contains
       call unpack_state(predictor%packed(:, predictor%newest), before)
       failure%last = predictor%packed(:, predictor%newest)
       failure%state = 1
-      failure%value = step%place
+      failure%value = lost
       failure%reached = predictor%abscissa(predictor%newest)
       failure%is_singular = step%outcome%is_singular
       do k = 2, size(state%poses)

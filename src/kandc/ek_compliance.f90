@@ -33,11 +33,11 @@ module ek_compliance
    use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated
    use ek_rotation, only: cross, skew, identity3
-   use ek_element, only: axial_spring
+   use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
-   use ek_lapack, only: dsytrs, dgesv
+   use ek_lapack, only: dsytrs2, dgesv
    implicit none(type, external)
    private
    public :: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch, hold, lock
@@ -67,9 +67,8 @@ contains
       integer :: n, k, ports
 
       self%wheels = size(suspension%wheels)
-      self%springs = count(suspension%elements%kind == axial_spring)
-      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%elements))], &
-         suspension%elements%kind == axial_spring))
+      self%spring = pack([(k, k=1, size(suspension%elements))], element_kinds(suspension%elements%kind)%is_axial_spring)
+      self%springs = size(self%spring)
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
@@ -113,8 +112,8 @@ contains
          call factorise(kkt)
          self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
          info = 0
-         if (self%is_known) call dsytrs('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
-            kkt%n, info)
+         if (self%is_known) call dsytrs2('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
+            kkt%n, kkt%work, info)
          if (info /= 0) self%is_known = .false.
       end if
       if (.not. self%is_known) then

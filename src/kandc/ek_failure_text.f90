@@ -3,7 +3,7 @@ module ek_failure_text
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, plural
    use ek_measure, only: measure_value
-   use ek_element, only: stop_spring, element_label
+   use ek_element, only: element_kinds, element_label
    use ek_element_force, only: spring_tension
    use ek_suspension, only: suspension_t, body_name
    use ek_case, only: case_t, scales_loads
@@ -152,7 +152,7 @@ contains
       text = ''
       do k = 1, size(suspension%elements)
          associate (spring => suspension%elements(k))
-            if (spring%kind /= stop_spring) cycle
+            if (.not. element_kinds(spring%kind)%has_gap) cycle
             call spring_tension(spring, measure_value(spring%measure, state%poses(spring%measure%body_i + 1), &
                state%poses(spring%measure%body_j + 1)), tension, slope)
             if (abs(tension) > felt) text = text//'; '//element_label(spring)//' is in contact ('// &

@@ -7,7 +7,7 @@ module ek_geometry_columns
    use ek_rotation, only: cross
    use ek_measure, only: evaluation_t, evaluate, measure_value
    use ek_law, only: deflection
-   use ek_element, only: stop_spring, measure_spring, is_of_angle
+   use ek_element, only: element_kinds, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, design_state
    use ek_wheel_side, only: is_axle
@@ -111,7 +111,7 @@ contains
       if (compliance%wheels == 0) return
       do k = 1, size(suspension%elements)
          associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
-            if (element%kind == stop_spring) then
+            if (element_kinds(element%kind)%has_gap) then
                ratio = length_ratio(suspension, compliance, state, k)
                gap = -deflection(element%law, measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1)))
                values = [values, gap_over(gap, ratio)/millimetre]

@@ -12,7 +12,7 @@ module ek_kandc_columns
    use ek_quantity, only: wheel_rates, wheel_forces, wheel_stiffness, of_axle, of_steering, wheel_geometry, axle_geometry, &
       of_rack
    use ek_measure, only: measure_value
-   use ek_element, only: stop_spring, measure_spring, is_of_angle
+   use ek_element, only: element_kinds, measure_spring, is_of_angle
    use ek_suspension, only: suspension_t, driver_row
    use ek_state, only: state_t, inputs_t
    use ek_kkt, only: kkt_t
@@ -74,7 +74,7 @@ contains
       call end_block(self)
       do k = 1, merge(size(suspension%elements), 0, self%compliance%wheels > 0)      ! without a wheel there is no travel
          associate (element => suspension%elements(k))
-            if (element%kind == stop_spring) call add_column(self, element%name//'_travel_left_mm', .true.)
+            if (element_kinds(element%kind)%has_gap) call add_column(self, element%name//'_travel_left_mm', .true.)
             if (element%kind == measure_spring) then
                if (.not. is_of_angle(element%measure%kind)) call add_column(self, element%name//'_motion_ratio', .true.)
             end if

@@ -5,7 +5,7 @@ module ek_plausibility
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_measure, only: measure_t, axis_axis, rotation, distance
-   use ek_element, only: element_t, axial_spring, damper, element_label
+   use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, element_label
    use ek_suspension, only: suspension_t, body_name, driver_row
    use ek_case, only: case_t
    use ek_state, only: design_state
@@ -85,7 +85,7 @@ contains
          call doubt_own_points(suspension, suspension%elements(k)%measure, doubts)
       end do
       do k = 1, suspension%scalars
-         if (any(suspension%elements(k)%kind == [axial_spring, damper])) &
+         if (any(element_kinds(suspension%elements(k)%kind)%shape == [coil_shape, damper_shape])) &
             call doubt_upright(suspension, suspension%elements(k), doubts)
       end do
    end subroutine doubt_links

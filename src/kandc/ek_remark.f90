@@ -5,7 +5,7 @@ module ek_remark
    use ek_text, only: str, quoted
    use ek_case, only: case_t
    use ek_error, only: message_list_t
-   use ek_element, only: element_kinds, element_label, axial_spring, torsion_spring
+   use ek_element, only: element_kinds, element_label, torsion_spring
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private
@@ -176,7 +176,7 @@ contains
 
       if (suspension%balance == 'none') return
       do k = 1, size(suspension%elements)
-         if (suspension%elements(k)%kind /= axial_spring) cycle
+         if (.not. element_kinds(suspension%elements(k)%kind)%is_axial_spring) cycle
          call words%add('balance: preload of '//element_label(suspension%elements(k))//' = '// &
             str(suspension%elements(k)%preload, 9)//' N (compression)')
       end do

@@ -10,15 +10,15 @@ module ek_lapack
 #ifdef EK_TRAPS
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
-   use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsycon => dsycon, lapack_dsysv => dsysv, &
-      lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
+   use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsytrs2 => dsytrs2, &
+      lapack_dsycon => dsycon, lapack_dsysv => dsysv, lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
       lapack_dpotrf => dpotrf
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
 
 #ifdef EK_TRAPS
 contains
@@ -61,6 +61,20 @@ contains
       call lapack_dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrs
+
+   pure subroutine dsytrs2(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, info)
+      character, intent(in) :: uplo
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(in) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dsytrs2(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, info)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dsytrs2
 
    pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
       character, intent(in) :: uplo

@@ -5,7 +5,7 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsycon, dsysv, dsyev, dgesv, dgesvd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dsycon, dsysv, dsyev, dgesv, dgesvd, dpotrf
 
    interface
       !> Cholesky factorisation of a symmetric positive definite matrix; info = order of the first minor that is not.
@@ -41,6 +41,19 @@ module ek_lapack_routines
          real(wp), intent(inout) :: b(ldb, *)
          integer, intent(out) :: info
       end subroutine dsytrs
+
+      !> The same in matrix products: quicker than dsytrs for several right-hand sides. The factors are as before on return.
+      pure subroutine dsytrs2(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: uplo
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(in) :: ipiv(*)
+         real(wp), intent(inout) :: b(ldb, *)
+         real(wp), intent(out) :: work(*)          !! n
+         integer, intent(out) :: info
+      end subroutine dsytrs2
 
       !> Reciprocal condition number (1-norm) from the factors of dsytrf.
       pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)

@@ -7,6 +7,7 @@
 !> 0 as the number of a parameter means that the deck does not give it, and 0 as the number of a vector that there is none.
 module ek_blueprint
    use ek_kinds, only: wp
+   use ek_element, only: element_numbers
    use ek_suspension, only: suspension_t, allocate_lists
    implicit none(type, external)
    private
@@ -64,11 +65,11 @@ module ek_blueprint
       integer :: stiffness = 0              !! parameter of a driver [N, or N m, per deck unit of the measure]
    end type joint_plan_t
 
-   !> A spring, damper, stop or torsion spring; numbers are parameters.
+   !> An elastic element of one measure.
    type :: element_plan_t
       integer :: ends(2) = 0, axis = 0      !! vectors
       integer :: readout = 0                !! measure of a spring on a measure
-      integer :: rate = 0, preload = 0, free_length = 0, clearance = 0, rounding = 0
+      integer :: numbers(element_numbers) = 0   !! parameters, in the order of ek_element
       integer :: curve = 0                  !! number of the curve
       real(wp) :: value_unit = 1.0_wp, force_unit = 1.0_wp   !! SI per deck unit, of the curve
    end type element_plan_t

@@ -12,26 +12,34 @@
 !> f is one-sided and rounded (ek_law). All kinds but the bushing act along one measure: the force ON the bodies is
 !> −T × gradient of the measure. Forces and tangents of all kinds: ek_element_force.
 !>
-!> A new kind of one measure: its number and its row in `element_kinds`, here; its group, keys and reader in the deck layer.
+!> A new kind of one measure: its number and its row in `element_kinds`, here; its group, keys and reader in the deck layer. A new
+!> number of the deck: also its position in the list of numbers and its line in `set_numbers`. A formula that ek_law does not have: its
+!> case in `look_up_element`, `element_slopes` and `is_linear`.
 module ek_element
    use ek_kinds, only: wp
    use ek_text, only: quoted
    use ek_measure, only: measure_t, is_of_angle
-   use ek_law, only: law_t
+   use ek_law, only: law_t, look_up_law, find_slopes
    use ek_elastic, only: bushing_t
    implicit none(type, external)
    private
    public :: element_t, element_kinds, set_kind, set_design_value, is_of_angle, element_label
    public :: axial_spring, damper, stop_spring, torsion_spring, measure_spring, bushing_element
+   public :: element_numbers, rate_number, preload_number, free_length_number, clearance_number, rounding_number, set_numbers
+   public :: look_up_element, element_slopes, is_linear
    public :: no_shape, coil_shape, damper_shape, stop_shape, bushing_shape
 
    ! kinds, numbered as in element_kinds
    integer, parameter :: bushing_element = 1
-   integer, parameter :: axial_spring = 2    !! its preload may be set by balance; its motion ratio is reported
+   integer, parameter :: axial_spring = 2
    integer, parameter :: torsion_spring = 3
    integer, parameter :: measure_spring = 4  !! on a gap, a rotation or a cosine; keeps its preload
    integer, parameter :: stop_spring = 5
    integer, parameter :: damper = 6
+
+   ! numbers that a deck gives for an element of one measure
+   integer, parameter :: rate_number = 1, preload_number = 2, free_length_number = 3, clearance_number = 4, rounding_number = 5
+   integer, parameter :: element_numbers = 5      !! how many there are
 
    ! shapes in pictures
    integer, parameter :: no_shape = 0, coil_shape = 1, damper_shape = 2, stop_shape = 3, bushing_shape = 4
@@ -41,17 +49,18 @@ module ek_element
       character(8) :: label       !! in messages: the group of the deck
       character(20) :: one, many  !! counted by `check`, in the order of the table; '': not counted
       logical :: carries          !! its rate at design carries the car (a deck without such an element gives a warning)
-      logical :: has_gap          !! its column is the gap to contact instead of the value of its measure
+      logical :: has_gap          !! a stop: free up to contact; its column is the gap instead of the value of its measure
+      logical :: is_axial_spring        !! its preload may be set by balance; its motion ratio is reported
       integer :: shape            !! in pictures, of an element on a distance, or a bushing
    end type element_kind_t
 
    type(element_kind_t), parameter :: element_kinds(*) = [ &
-      element_kind_t('bushing', 'bushing', 'bushings', .false., .false., bushing_shape), &
-      element_kind_t('spring', 'spring', 'springs', .true., .false., coil_shape), &
-      element_kind_t('torsion', 'torsion spring', 'torsion springs', .false., .false., no_shape), &
-      element_kind_t('spring', 'spring on a measure', 'springs on measures', .true., .false., no_shape), &
-      element_kind_t('stop', 'stop', 'stops', .false., .true., stop_shape), &
-      element_kind_t('damper', '', '', .false., .false., damper_shape)]
+      element_kind_t('bushing', 'bushing', 'bushings', .false., .false., .false., bushing_shape), &
+      element_kind_t('spring', 'spring', 'springs', .true., .false., .true., coil_shape), &
+      element_kind_t('torsion', 'torsion spring', 'torsion springs', .false., .false., .false., no_shape), &
+      element_kind_t('spring', 'spring on a measure', 'springs on measures', .true., .false., .false., no_shape), &
+      element_kind_t('stop', 'stop', 'stops', .false., .true., .false., stop_shape), &
+      element_kind_t('damper', '', '', .false., .false., .false., damper_shape)]
 
    !> An elastic element. What the solution reads comes first.
    type :: element_t
@@ -68,6 +77,18 @@ module ek_element
    end type element_t
 
 contains
+
+   !> Takes the numbers of a design, in SI; 0 where the deck gives none.
+   pure subroutine set_numbers(element, numbers)
+      type(element_t), intent(inout) :: element
+      real(wp), intent(in) :: numbers(element_numbers)      !! N/m and N, of an angle N m/rad and N m; m
+
+      element%law%rate = numbers(rate_number)
+      element%preload = numbers(preload_number)
+      element%free_length = numbers(free_length_number)
+      element%clearance = numbers(clearance_number)
+      element%law%rounding = numbers(rounding_number)
+   end subroutine set_numbers
 
    !> Sets kind and measure. The law of a length has the compression as its argument, that of an angle or a cosine its increase.
    pure subroutine set_kind(element, kind, measure)
@@ -97,6 +118,28 @@ contains
          element%preload = element%law%rate*(element%free_length - value)
       end if
    end subroutine set_design_value
+
+   !> Force of an element of one measure without its preload (derivative of the energy) at a value of the measure, and its slope.
+   pure subroutine look_up_element(element, value, force, slope)
+      type(element_t), intent(in) :: element
+      real(wp), intent(in) :: value               !! m, rad, -
+      real(wp), intent(out) :: force, slope       !! N and N/m; N m and N m/rad
+      call look_up_law(element%law, value, force, slope)
+   end subroutine look_up_element
+
+   !> The least and the largest slope of that force between two values of the measure.
+   pure subroutine element_slopes(element, from, to, least, most)
+      type(element_t), intent(in) :: element
+      real(wp), intent(in) :: from, to            !! m, rad, -
+      real(wp), intent(out) :: least, most        !! N/m, N m/rad
+      call find_slopes(element%law, from, to, least, most)
+   end subroutine element_slopes
+
+   !> Whether that force is linear in the measure: its slope is the same everywhere.
+   pure logical function is_linear(element)
+      type(element_t), intent(in) :: element
+      is_linear = .not. (element%law%has_curve .or. element%law%is_one_sided)
+   end function is_linear
 
    !> "spring 'coil'", for messages.
    pure function element_label(element) result(text)

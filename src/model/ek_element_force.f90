@@ -6,10 +6,9 @@ module ek_element_force
    use ek_relative_rotation, only: pose_t
    use ek_measure, only: evaluation_t, evaluate, add_measure_hessian, is_of_angle, distance, global_gap
    use ek_block, only: add_link_stiffness, add_diagonal_block, add_block, dyad
-   use ek_law, only: look_up_law
    use ek_elastic, only: bushing_evaluation_t, evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, &
       design_rates
-   use ek_element, only: element_t, bushing_element
+   use ek_element, only: element_t, look_up_element, bushing_element
    implicit none(type, external)
    private
    public :: element_evaluation_t, evaluate_element, add_element_tangent, design_stiffness
@@ -50,7 +49,7 @@ contains
       real(wp), intent(out) :: tension  !! N, pulls the ends together; N m, reduces the angle
       real(wp), intent(out) :: slope    !! N/m, N m/rad
 
-      call look_up_law(spring%law, value, tension, slope)
+      call look_up_element(spring, value, tension, slope)
       tension = tension - spring%preload
    end subroutine spring_tension
 

@@ -12,7 +12,7 @@ module ek_realise
    use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, min_step
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
-   use ek_element, only: stop_spring
+   use ek_element, only: element_kinds, element_numbers, set_numbers
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_completion, only: settle_design
@@ -149,14 +149,14 @@ contains
       end do
    end subroutine place_joints
 
-   !> Springs, dampers, stops and torsion springs.
+   !> Elastic elements of one measure.
    subroutine place_elements(plan, x, suspension, is_good)
       type(blueprint_t), intent(in) :: plan
       real(wp), intent(in) :: x(:)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(inout) :: is_good
-      real(wp) :: force, slope
-      integer :: k
+      real(wp) :: numbers(element_numbers), force, slope
+      integer :: k, n
 
       do k = 1, size(plan%elements)
          associate (spring => suspension%elements(k), this => plan%elements(k))
@@ -169,14 +169,13 @@ contains
             end if
             if (spring%measure%kind == distance) &
                is_good = is_good .and. norm2(spring%measure%arm_j - spring%measure%arm_i) > 0.0_wp
-            spring%law%rate = number_at(x, this%rate)
-            spring%preload = number_at(x, this%preload)
-            spring%free_length = number_at(x, this%free_length)
-            spring%clearance = number_at(x, this%clearance)
-            spring%law%rounding = number_at(x, this%rounding)
+            do n = 1, element_numbers
+               numbers(n) = number_at(x, this%numbers(n))
+            end do
+            call set_numbers(spring, numbers)
             if (this%curve == 0) cycle
             call renew(plan, this%curve, x, this%value_unit, this%force_unit, spring%law%curve, is_good)
-            if (spring%kind /= stop_spring .or. .not. is_good) cycle
+            if (.not. (element_kinds(spring%kind)%has_gap .and. is_good)) cycle
             call look_up_curve(spring%law%curve, 0.0_wp, force, slope)
             is_good = abs(force) <= 0.0_wp      ! without contact it exerts no force
          end associate

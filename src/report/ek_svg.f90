@@ -102,7 +102,7 @@ contains
       integer :: from, at, equals, first, last, renamed
 
       at = 0
-      if (index(tag, '<g ') == 1) at = index(tag, defaults)
+      if (tag(:min(len(tag), 3)) == '<g ') at = index(tag, defaults)
       if (at > 0) then
          call add_tag(out, tag(:at - 1)//tag(at + len(defaults):), prefix)
          return
@@ -144,8 +144,11 @@ contains
       character(*), intent(in) :: text, word
       integer, intent(in) :: at
 
-      place = at - 1 + index(text(at:), word)
-      if (place < at) place = len(text) + 1
+      do place = at, len(text) - len(word) + 1      ! the library's index is several times slower
+         if (text(place:place) /= word(1:1)) cycle
+         if (text(place:place + len(word) - 1) == word) return
+      end do
+      place = len(text) + 1
    end function next_of
 
    !> Value of an attribute, '' if it is missing.
