@@ -77,7 +77,7 @@ for ((k = 0; k < 60; k++)); do [ -z "$(squeue -h)" ] && break; sleep 1; done
 "$program" study study.nml --out "$work/out" --status
 submit again || complain "the array, again: $(cat "$work"/logs/*)"
 cmp "$work/wanted/bushing_scatter_responses.csv" "$work/out/bushing_scatter_responses.csv" || complain 'the array: not the same bytes'
-[ ! -e "$work/out/bushing_scatter.parts" ] && [ -z "$(find "$work/out" -name '.elastokin-*')" ] || complain "left behind: $(ls -A "$work/out")"
+[ -z "$(find "$work/out" -name '*.parts' -o -name '.elastokin-*')" ] || complain "left behind: $(ls -A "$work/out")"
 [ -s "$work/out/bushing_scatter.html" ] || complain 'the merging job wrote no page'
 grep -h 'were done before' "$work"/logs/* || complain 'the second array began anew'
 
