@@ -13,17 +13,12 @@ program elastokin_netcdf
    implicit none(type, external)
    type(store_t) :: store
    type(error_t), allocatable :: error
-   character(:), allocatable :: text
-   integer :: every, status
+   integer :: every
 
    if (argument(1) == '--version') then
       write (output_unit, '(a)') 'elastokin-netcdf '//version
    else if (argument(1) == '--csv' .and. (command_argument_count() == 3 .or. command_argument_count() == 4)) then
-      every = 1
-      status = 0
-      text = argument(4)
-      if (len(text) > 0) read (text, *, iostat=status) every
-      if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be a whole number, 1 or more')
+      call read_every(every, error)
       if (.not. allocated(error)) call write_store_tables(argument(2), argument(3), every, error)
    else if (command_argument_count() /= 2) then
       call fail(error, exit_usage, 'expected: elastokin-netcdf PARTS_FOLDER OUT.nc (elastokin study runs it), or '// &
@@ -39,6 +34,20 @@ program elastokin_netcdf
    end if
 
 contains
+
+   !> The fourth argument, a number; 1 if there is none.
+   subroutine read_every(every, error)
+      integer, intent(out) :: every
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: text
+      integer :: status
+
+      every = 1
+      status = 0
+      text = argument(4)
+      if (len(text) > 0) read (text, *, iostat=status) every
+      if (status /= 0 .or. every < 1) call fail(error, exit_usage, '--csv: N must be a whole number, 1 or more')
+   end subroutine read_every
 
    !> An argument; '' if there is none.
    function argument(number) result(text)
