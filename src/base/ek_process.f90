@@ -10,7 +10,7 @@ module ek_process
    use ek_system, only: set_signal, system_reason, error_number, interrupted, sigpipe
    implicit none(type, external)
    private
-   public :: run_program
+   public :: run_program, go_on_as
 
    integer, parameter :: sigkill = 9, sigalrm = 14      !! the same on all systems
 
@@ -65,6 +65,26 @@ contains
       if (c_associated(said)) ignored = c_fclose(said)
       if (c_associated(nothing)) ignored = c_fclose(nothing)
    end subroutine run_program
+
+   !> This process goes on as another program, with the same arguments, environment and open files. Returns only if that cannot be.
+   subroutine go_on_as(path)
+      character(*), intent(in) :: path                        !! of the program
+      type(message_list_t) :: words
+      character(kind=c_char), allocatable, target :: letters(:)
+      type(c_ptr), allocatable :: pointers(:)
+      character(:), allocatable :: word
+      integer :: k, length, ignored
+
+      call words%add(path)
+      do k = 1, command_argument_count()
+         call get_command_argument(k, length=length)
+         word = repeat(' ', length)
+         call get_command_argument(k, word)
+         call words%add(word)
+      end do
+      call argument_list(words, letters, pointers)
+      ignored = c_execvp(path//c_null_char, pointers)
+   end subroutine go_on_as
 
    !> Waits for a process, and kills its group at the time limit.
    subroutine wait_for(process, limit, status, trouble)

@@ -3,10 +3,17 @@
 !> MPI is called only if the environment shows a launcher, so that a usual run neither starts nor waits for it. The ranks share
 !> counters, which lie in the memory of rank 0: the work is handed out by tickets, to whoever asks next. The procedures may be
 !> called by one thread at a time; those that say `all ranks` return when every rank has called them.
+!>
+!> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it goes on as
+!> elastokin-mpi, the same program with this module compiled with EK_MPI. Both see the same types.
 module ek_ranks
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: str
-#ifdef EK_MPI
+#ifndef EK_MPI
+   use ek_system, only: program_folder
+   use ek_file, only: join_path
+   use ek_process, only: go_on_as
+#else
    use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
    use mpi_f08, only: MPI_Init_thread, MPI_Finalize, MPI_Comm_rank, MPI_Comm_size, MPI_Bcast, MPI_Allreduce, MPI_Barrier, &
       MPI_Iprobe, MPI_Win, MPI_Win_allocate, MPI_Win_free, MPI_Win_lock, MPI_Win_unlock, MPI_Fetch_and_op, MPI_Status, &
@@ -18,6 +25,10 @@ module ek_ranks
    public :: ranks_t, start_ranks, end_ranks, count_up, share, agree, help_others
    public :: ticket_counter, done_counter, failed_counter, stopped_counter
 
+#ifndef EK_MPI
+   character(*), parameter :: mpi_program = 'elastokin-mpi'
+#endif
+
    ! what is counted over all ranks
    integer, parameter :: ticket_counter = 1, done_counter = 2, failed_counter = 3, stopped_counter = 4, counters = 4
 
@@ -28,9 +39,7 @@ module ek_ranks
       logical :: has_threads = .true.             !! each rank may have several threads
       integer, private :: values(counters) = 0    !! of one rank
       logical, private :: is_started = .false.    !! MPI was called
-#ifdef EK_MPI
-      type(MPI_Win), private :: window            !! the counters, in the memory of rank 0
-#endif
+      integer, private :: window = 0              !! number of MPI's window to the counters, in the memory of rank 0
    end type ranks_t
 
 contains
@@ -52,8 +61,10 @@ contains
             'this program was compiled')
       end if
 #else
+      if (program_folder() /= '') call go_on_as(join_path(program_folder(), mpi_program))
       if (launched > 1) call fail(error, exit_usage, 'started as one of '//str(launched)// &
-         ' processes, but this program was compiled without MPI; use --jobs, or --shard and elastokin merge')
+         ' processes, but there is no '//mpi_program//' beside this program (compiled without MPI); use --jobs, or --shard and '// &
+         'elastokin merge')
 #endif
    end subroutine start_ranks
 
@@ -86,7 +97,7 @@ contains
 
 #ifdef EK_MPI
       if (ranks%is_started) then
-         call count_there(ranks%window, counter, by, before)
+         call count_there(MPI_Win(ranks%window), counter, by, before)
          return
       end if
 #endif
@@ -155,10 +166,14 @@ contains
    !> All ranks: end MPI. Each process then goes on alone; a second call has no effect.
    subroutine end_ranks(ranks)
       type(ranks_t), intent(inout) :: ranks
+#ifdef EK_MPI
+      type(MPI_Win) :: window
+#endif
 
       if (.not. ranks%is_started) return
 #ifdef EK_MPI
-      call MPI_Win_free(ranks%window)
+      window = MPI_Win(ranks%window)
+      call MPI_Win_free(window)
       call MPI_Finalize()
 #endif
       ranks%is_started = .false.
@@ -173,6 +188,7 @@ contains
       integer(MPI_ADDRESS_KIND) :: bytes
       integer :: level
       type(c_ptr) :: address
+      type(MPI_Win) :: window
 
       call MPI_Init_thread(MPI_THREAD_SERIALIZED, level)
       ranks%is_started = .true.
@@ -182,12 +198,13 @@ contains
       ranks%is_first = ranks%rank == 0
       bytes = counters*storage_size(1)/8
       call MPI_Win_allocate(merge(bytes, 0_MPI_ADDRESS_KIND, ranks%is_first), storage_size(1)/8, MPI_INFO_NULL, MPI_COMM_WORLD, &
-         address, ranks%window)
+         address, window)
+      ranks%window = window%MPI_VAL
       if (ranks%is_first) then
          call c_f_pointer(address, values, [counters])
-         call MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, ranks%window)
+         call MPI_Win_lock(MPI_LOCK_EXCLUSIVE, 0, 0, window)
          values(:) = 0
-         call MPI_Win_unlock(0, ranks%window)
+         call MPI_Win_unlock(0, window)
       end if
       call MPI_Barrier(MPI_COMM_WORLD)
    end subroutine start_mpi
