@@ -67,8 +67,9 @@ contains
       integer :: n, k, ports
 
       self%wheels = size(suspension%wheels)
-      self%spring = pack([(k, k=1, size(suspension%elements))], element_kinds(suspension%elements%kind)%is_axial_spring)
-      self%springs = size(self%spring)
+      self%springs = count(element_kinds(suspension%elements%kind)%is_axial_spring)
+      allocate (self%spring(self%springs), source=pack([(k, k=1, size(suspension%elements))], &
+         element_kinds(suspension%elements%kind)%is_axial_spring))
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
