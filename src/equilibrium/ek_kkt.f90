@@ -22,7 +22,7 @@ module ek_kkt
    use ek_suspension, only: suspension_t, load_t
    use ek_state, only: state_t, inputs_t
    use ek_scale, only: characteristic, scale_factors
-   use ek_lapack, only: dsytrf, dsycon
+   use ek_lapack, only: dsytrf, dlacn2
    use ek_substitution, only: substitute
    implicit none(type, external)
    private
@@ -344,15 +344,15 @@ contains
       call multiply(kkt%n, kkt%scale, kkt%rhs)
    end subroutine solve
 
-   !> Reciprocal condition number of the scaled matrix at a state (LAPACK dsycon). Factorises.
+   !> Reciprocal condition number of the scaled matrix at a state (as LAPACK's dsycon). Factorises.
    pure subroutine condition(suspension, state, inputs, kkt, rcond)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt
       real(wp), intent(out) :: rcond             !! 0: singular; 1: unit matrix
-      real(wp) :: column
-      integer :: i, j, info
+      real(wp) :: column, inverse
+      integer :: i, j, kase, kept(3)
 
       call assemble(suspension, state, inputs, whole_tangent, kkt)
       kkt%norm = 0.0_wp
@@ -364,11 +364,16 @@ contains
          kkt%norm = max(kkt%norm, column)
       end do
       call factorise(kkt)
-      rcond = 0.0_wp
-      info = 0
-      if (.not. kkt%is_singular) call dsycon('L', kkt%n, kkt%matrix, kkt%n, kkt%pivots, kkt%norm, rcond, &
-         kkt%work, kkt%iwork, info)
-      if (info /= 0) rcond = 0.0_wp
+      rcond = merge(1.0_wp, 0.0_wp, kkt%n == 0)
+      if (kkt%is_singular .or. kkt%n == 0) return
+      inverse = 0.0_wp
+      kase = 0
+      do
+         call dlacn2(kkt%n, kkt%work(kkt%n + 1:2*kkt%n), kkt%work(:kkt%n), kkt%iwork, inverse, kase, kept)
+         if (kase == 0) exit
+         call substitute(kkt%n, kkt%matrix, kkt%pivots, kkt%work(:kkt%n))     ! the matrix is symmetric
+      end do
+      if (inverse > 0.0_wp) rcond = (1.0_wp/inverse)/kkt%norm
    end subroutine condition
 
 end module ek_kkt

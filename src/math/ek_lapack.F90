@@ -11,14 +11,14 @@ module ek_lapack
    use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsytrs2 => dsytrs2, &
-      lapack_dsycon => dsycon, lapack_dsysv => dsysv, lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
+      lapack_dlacn2 => dlacn2, lapack_dsysv => dsysv, lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
       lapack_dpotrf => dpotrf
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dpotrf
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsytrs2, dsycon, dsysv, dgesv, dsyev, dgesvd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dpotrf
 
 #ifdef EK_TRAPS
 contains
@@ -76,21 +76,18 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dsytrs2
 
-   pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
-      character, intent(in) :: uplo
-      integer, intent(in) :: n, lda
-      real(wp), intent(in) :: a(lda, *)
-      integer, intent(in) :: ipiv(*)
-      real(wp), intent(in) :: anorm
-      real(wp), intent(out) :: rcond
-      real(wp), intent(out) :: work(*)
-      integer, intent(out) :: iwork(*)
-      integer, intent(out) :: info
+   pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
+      integer, intent(in) :: n
+      real(wp), intent(inout) :: v(n), x(n)
+      integer, intent(inout) :: isgn(n)
+      real(wp), intent(inout) :: est
+      integer, intent(inout) :: kase
+      integer, intent(inout) :: isave(3)
 
       call ieee_set_halting_mode(ieee_usual, .false.)
-      call lapack_dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
+      call lapack_dlacn2(n, v, x, isgn, est, kase, isave)
       call ieee_set_flag(ieee_usual, .false.)
-   end subroutine dsycon
+   end subroutine dlacn2
 
    pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
       character, intent(in) :: uplo

@@ -5,7 +5,7 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsytrs2, dsycon, dsysv, dsyev, dgesv, dgesvd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgesvd, dpotrf
 
    interface
       !> Cholesky factorisation of a symmetric positive definite matrix; info = order of the first minor that is not.
@@ -55,20 +55,18 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dsytrs2
 
-      !> Reciprocal condition number (1-norm) from the factors of dsytrf.
-      pure subroutine dsycon(uplo, n, a, lda, ipiv, anorm, rcond, work, iwork, info)
+      !> Estimate of the 1-norm of a matrix from its products, by reverse communication (N. J. Higham): as long as kase > 0 on
+      !> return, the caller multiplies x by the matrix (kase 1) or its transpose (2) and calls again; the first call has kase = 0.
+      pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
          implicit none(type, external)
-         character, intent(in) :: uplo
-         integer, intent(in) :: n, lda
-         real(wp), intent(in) :: a(lda, *)
-         integer, intent(in) :: ipiv(*)
-         real(wp), intent(in) :: anorm
-         real(wp), intent(out) :: rcond
-         real(wp), intent(out) :: work(*)
-         integer, intent(out) :: iwork(*)
-         integer, intent(out) :: info
-      end subroutine dsycon
+         integer, intent(in) :: n
+         real(wp), intent(inout) :: v(n), x(n)
+         integer, intent(inout) :: isgn(n)
+         real(wp), intent(inout) :: est            !! the estimate, never above the norm, if kase = 0 on return
+         integer, intent(inout) :: kase
+         integer, intent(inout) :: isave(3)
+      end subroutine dlacn2
 
       !> Factor and solve in one call: the unit of the benchmark.
       pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
