@@ -25,7 +25,7 @@ module ek_bench
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case
+   use ek_case_result, only: solve_options_t, solve_mounted
    use ek_wheel_side, only: prefix_of
    use ek_json, only: json_t, json_string, json_number
    use ek_console, only: print_text
@@ -183,7 +183,6 @@ contains
       type(worker_t) :: worker
       type(factor_paths_t) :: paths(1)
       type(solve_options_t) :: options
-      type(case_result_t) :: result
       real(wp) :: start, value, time
       logical :: is_done
       integer :: k, d
@@ -213,12 +212,14 @@ contains
                figures%design = 0.0_wp
                return
             end if
-            call solve_case(worker%suspension, worker%cases(1)%case, options, result, observer=worker%cases(1)%observer)
+            call solve_mounted(options, worker%cases(1)%result, observer=worker%cases(1)%observer)
          end do
          figures%design = min(figures%design, (seconds() - start)/designs)
          start = seconds()
          do d = 1, designs
-            call sweep(result%suspension, result%case, result%path, result%kkt)
+            associate (this => worker%cases(1)%result)
+               call sweep(this%suspension, this%case, this%path, this%kkt)
+            end associate
          end do
          figures%states = min(figures%states, (seconds() - start)/designs)
       end do

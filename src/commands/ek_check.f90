@@ -8,6 +8,7 @@ module ek_check
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
+   use ek_rig, only: mounted_case_t
    use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
@@ -43,7 +44,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
-      type(case_t) :: case
+      type(mounted_case_t) :: mounted
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
@@ -63,8 +64,8 @@ contains
       call diagnose(base, design_state(base), kkt, diagnosis)
       call add_model(base, diagnosis, checksum, findings)
       do k = 1, size(chosen)
-         call examine_case(base, chosen(k), diagnosis, on_rig=case)
-         call add_case(case, diagnosis, findings)
+         call examine_case(base, chosen(k), diagnosis, mounted=mounted)
+         call add_case(mounted%case, diagnosis, findings)
          if (diagnosis%is_solvable()) cycle
          ! the message on one defect may differ in the last digit between two drives
          call add_distinct(found, diagnosis%words())

@@ -55,8 +55,8 @@ contains
       call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
       if (allocated(error)) return
-      this%texts%swept = this%designer%results(1)%case%place_name
-      this%texts%swept_unit = this%designer%results(1)%case%unit_name
+      this%texts%swept = this%designer%worker%cases(1)%result%case%place_name
+      this%texts%swept_unit = this%designer%worker%cases(1)%result%case%unit_name
    end subroutine plan_study
 
    !> The file of the results: the store, or the table of the designs.

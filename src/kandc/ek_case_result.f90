@@ -9,9 +9,8 @@ module ek_case_result
    use ek_system, only: has_memory, memory_remarks
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_kkt, only: kkt_t, new_kkt
    use ek_path, only: path_t, sweep, progress_procedure
-   use ek_rig, only: mount
+   use ek_rig, only: mounted_case_t, mount_case
    use ek_wheel_side, only: single_side
    use ek_sweep_table, only: observer_t, make_observer, observe, sweep_bytes
    use ek_failure_text, only: failure_text, stability_remarks
@@ -21,7 +20,7 @@ module ek_case_result
    use ek_test_result, only: frame_line
    implicit none(type, external)
    private
-   public :: case_result_t, solve_options_t, solve_case, failure_of, add_header
+   public :: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of, add_header
    public :: solved, partly_solved, not_solvable, not_mountable, out_of_memory
 
    ! outcomes
@@ -41,15 +40,12 @@ module ek_case_result
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 
-   !> The solution of a case.
-   type :: case_result_t
+   !> The solution of a case; its work space serves for further solutions at its states.
+   type, extends(mounted_case_t) :: case_result_t
       integer :: outcome = solved                  !! one of those above
-      type(suspension_t) :: suspension             !! on the rig
-      type(case_t) :: case                         !! with its actuations, unit and name of the swept value
       type(path_t) :: path                         !! its states
       type(table_t) :: table                       !! observations: one row per state; only if the case was run
       type(remark_list_t) :: remarks
-      type(kkt_t) :: kkt                           !! work space for further solutions at its states
    contains
       procedure :: is_run                          !! there are a path and a table
    end type case_result_t
@@ -68,33 +64,45 @@ contains
       type(solve_options_t), intent(in) :: options
       type(case_result_t), intent(out) :: result
       procedure(progress_procedure), optional :: progress
-      type(observer_t), intent(inout), optional, target :: observer   !! kept from design to design of a deck
-      type(observer_t), target :: own
-      type(observer_t), pointer :: tells
-      integer(i8) :: bytes
+      type(observer_t), intent(inout), optional :: observer   !! kept from design to design of a deck
 
       if (allocated(options%fault)) then
          if (len(options%fault) > 0) then
-            call give_up(not_solvable, options%fault)
+            call give_up(result, not_solvable, case, options%fault)
             return
          end if
       end if
       if (.not. is_mountable(case)) then
          if (allocated(case%table%fault)) then
-            call give_up(not_mountable, case%table%fault)
+            call give_up(result, not_mountable, case, case%table%fault)
          else
-            call give_up(not_mountable, 'case '//quoted(case%name)//': its table was not read')
+            call give_up(result, not_mountable, case, 'case '//quoted(case%name)//': its table was not read')
          end if
          return
       end if
-      call mount(base, case, result%suspension, result%case)
-      result%kkt = new_kkt(result%suspension)
+      call mount_case(base, case, result%mounted_case_t)
+      call solve_mounted(options, result, progress, observer)
+   end subroutine solve_case
+
+   !> Solves the path of a case that was put on the rig (mount_case) and tabulates it.
+   subroutine solve_mounted(options, result, progress, observer)
+      type(solve_options_t), intent(in) :: options     !! without a fault
+      type(case_result_t), intent(inout) :: result     !! what it holds besides the case on the rig is replaced
+      procedure(progress_procedure), optional :: progress
+      type(observer_t), intent(inout), optional, target :: observer   !! kept from design to design of a deck
+      type(observer_t), target :: own
+      type(observer_t), pointer :: tells
+      type(remark_list_t) :: none
+      integer(i8) :: bytes
+
+      result%outcome = solved
+      result%remarks = none
       tells => own
       if (present(observer)) tells => observer
       call make_observer(result%suspension, result%case, tells, options%columns)
       bytes = sweep_bytes(result%suspension, result%case, tells)
       if (.not. has_memory(bytes)) then
-         call give_up(out_of_memory, memory_remarks(bytes, 'case '//quoted(case%name)//' with '// &
+         call give_up(result, out_of_memory, result%case, memory_remarks(bytes, 'case '//quoted(result%case%name)//' with '// &
             plural(result%case%increments, 'increment', 'increments')))
          return
       end if
@@ -104,17 +112,18 @@ contains
       if (options%has_remarks) call closure_remarks(result%case, result%table, result%remarks)
       if (any(result%path%failure%state > 0) .or. result%remarks%has_failed()) result%outcome = partly_solved
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
+   end subroutine solve_mounted
 
-   contains
+   !> Says why a case was not run.
+   subroutine give_up(result, outcome, case, words)
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: outcome
+      type(case_t), intent(in) :: case
+      character(*), intent(in) :: words
 
-      subroutine give_up(outcome, words)
-         integer, intent(in) :: outcome
-         character(*), intent(in) :: words
-         result%outcome = outcome
-         call result%remarks%add(failure, on_case, case, words)
-      end subroutine give_up
-
-   end subroutine solve_case
+      result%outcome = outcome
+      call result%remarks%add(failure, on_case, case, words)
+   end subroutine give_up
 
    !> Remarks on the states of a path.
    subroutine remark_on_path(options, result)

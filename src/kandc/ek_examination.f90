@@ -8,9 +8,9 @@ module ek_examination
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_rig, only: mount
+   use ek_rig, only: mount, mounted_case_t, mount_case
    use ek_state, only: design_state
-   use ek_kkt, only: kkt_t, new_kkt
+   use ek_kkt, only: kkt_t
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_soundness, only: is_surely_sound
    use ek_sweep_table, only: sweep_columns
@@ -92,22 +92,32 @@ contains
    !> With `known`, the first design is diagnosed in full. A later one that is certainly sound, with the same number of unknowns and
    !> rows and the same inertia, is not: `diagnosis` then contains no message and no rank. A case that cannot be mounted
    !> has no defect here: the run reports the reason.
-   subroutine examine_case(base, case, diagnosis, known, on_rig, is_in_doubt)
+   subroutine examine_case(base, case, diagnosis, known, mounted, is_in_doubt)
       type(suspension_t), intent(in) :: base       !! not balanced
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
-      type(case_t), intent(out), optional :: on_rig      !! the case with its actuations
+      type(mounted_case_t), intent(inout), optional, target :: mounted     !! of mount_case, unless the case cannot be mounted
       logical, intent(out), optional :: is_in_doubt      !! if present, a doubtful design is not diagnosed, which takes text
-      type(suspension_t) :: suspension
-      type(case_t) :: mounted
-      type(kkt_t) :: kkt
+      type(mounted_case_t), target :: own
+      type(mounted_case_t), pointer :: this
 
       if (present(is_in_doubt)) is_in_doubt = .false.
       if (.not. is_mountable(case)) return
-      call mount(base, case, suspension, mounted)
-      if (present(on_rig)) on_rig = mounted
-      kkt = new_kkt(suspension)
+      this => own
+      if (present(mounted)) this => mounted
+      call mount_case(base, case, this)
+      call examine_mounted(this%suspension, this%kkt, diagnosis, known, is_in_doubt)
+   end subroutine examine_case
+
+   !> Diagnoses a case on the rig, see examine_case.
+   subroutine examine_mounted(suspension, kkt, diagnosis, known, is_in_doubt)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(inout) :: kkt
+      type(diagnosis_t), intent(inout) :: diagnosis
+      type(known_case_t), intent(inout), optional :: known
+      logical, intent(inout), optional :: is_in_doubt
+
       if (present(known)) then
          if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
             if (is_surely_sound(suspension, design_state(suspension), known%negative, kkt)) return
@@ -125,7 +135,7 @@ contains
       known%unknowns = kkt%nq
       known%constraints = kkt%nc
       known%negative = diagnosis%negative
-   end subroutine examine_case
+   end subroutine examine_mounted
 
    !> A text without its digits, signs and points.
    pure function without_numbers(text) result(rest)

@@ -21,10 +21,11 @@ module ek_rig
    use ek_measure, only: measure_t, global_gap, rotation, axis_axis
    use ek_joint, only: joint_t, row_t, term_t, joint_kinds
    use ek_suspension, only: suspension_t, load_t, driver_row
+   use ek_kkt, only: kkt_t, new_kkt
    use ek_case, only: case_t, actuation_t, append_actuation, is_mountable, follows_place, follows_tangent, follows_table
    implicit none(type, external)
    private
-   public :: rig_t, new_rig, rig_of, add_height, put_on, mount
+   public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case
 
    !> What a case adds to a suspension. Its joints, rows, terms and loads count on from those of the suspension.
    type :: rig_t
@@ -37,6 +38,13 @@ module ek_rig
       integer :: increments = 0
       character(:), allocatable :: unit, place_name      !! of the swept value: 'mm', 'wheel travel'
    end type rig_t
+
+   !> A case on the rig, ready to be solved.
+   type :: mounted_case_t
+      type(suspension_t) :: suspension             !! on the rig
+      type(case_t) :: case                         !! with its actuations, unit and name of the swept value
+      type(kkt_t) :: kkt                           !! work space
+   end type mounted_case_t
 
    character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! no name of a deck begins so
    real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp], nothing(3) = 0.0_wp
@@ -64,6 +72,16 @@ contains
       this%unit_name = rig%unit
       this%place_name = rig%place_name
    end subroutine mount
+
+   !> Puts a completed suspension on the rig of a case, with the work space of its solution.
+   subroutine mount_case(base, given, mounted)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: given                !! is_mountable
+      type(mounted_case_t), intent(inout) :: mounted
+
+      call mount(base, given, mounted%suspension, mounted%case)
+      mounted%kkt = new_kkt(mounted%suspension)
+   end subroutine mount_case
 
    !> A suspension and a rig as one flat model.
    pure subroutine put_on(rig, base, suspension)

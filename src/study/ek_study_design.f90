@@ -9,7 +9,7 @@ module ek_study_design
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
    use ek_text, only: str, quoted
    use ek_deck, only: deck_t, set_value
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: table_t, column_index, name_length
    use ek_quantity, only: head_with_unit
@@ -29,7 +29,6 @@ module ek_study_design
       type(factor_paths_t), allocatable :: paths(:)        !! of the factors
       character(name_length), allocatable :: case_names(:) !! of the cases that are solved; '': the first of the deck
       type(solve_options_t), allocatable :: options(:)     !! of each case: its columns
-      type(case_result_t), allocatable :: results(:)       !! of each case, of the present design
       type(reading_t), allocatable :: readings(:)
       integer, allocatable :: case_of(:)                   !! of each response
       integer :: increments = 0                            !! of all cases; 0: those of the deck
@@ -74,16 +73,17 @@ contains
 
       call begin_designer(study, deck, designer, error)
       if (allocated(error)) return
-      allocate (designer%options(size(designer%case_names)), designer%results(size(designer%case_names)))
+      allocate (designer%options(size(designer%case_names)))
       do k = 1, size(designer%case_names)
          call list_columns(study, designer, k)
          designer%options(k)%has_remarks = .false.
-         call solve_case(designer%worker%suspension, designer%worker%cases(k)%case, designer%options(k), designer%results(k), &
-            observer=designer%worker%cases(k)%observer)
-         if (.not. designer%results(k)%is_run()) call failure_of(designer%results(k), error)
+         associate (this => designer%worker%cases(k))
+            call solve_case(designer%worker%suspension, this%case, designer%options(k), this%result, observer=this%observer)
+            if (.not. this%result%is_run()) call failure_of(this%result, error)
+         end associate
          if (allocated(error)) return
       end do
-      designer%states = size(designer%results(1)%table%values, 2)
+      designer%states = size(designer%worker%cases(1)%result%table%values, 2)
       call check_columns(study, home, designer, error)
    end subroutine new_designer
 
@@ -131,7 +131,7 @@ contains
       character(:), allocatable :: message
       integer :: k
 
-      associate (first => designer%results(1))
+      associate (first => designer%worker%cases(1)%result)
          call sweep_columns(first%suspension, first%case, heads)
          do k = 1, size(study%columns)
             if (column_index(first%table, trim(study%columns(k))) == 0) &
@@ -140,7 +140,7 @@ contains
       end associate
       allocate (designer%readings(size(study%responses)))
       do k = 1, size(study%responses)
-         associate (result => designer%results(designer%case_of(k)), readings => designer%readings)
+         associate (result => designer%worker%cases(designer%case_of(k))%result, readings => designer%readings)
             call sweep_columns(result%suspension, result%case, heads)
             call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home)
             if (message /= '') call mistakes%add(message)
@@ -204,13 +204,14 @@ contains
          return
       end if
       do case = 1, size(designer%options)
-         call solve_case(designer%worker%suspension, designer%worker%cases(case)%case, designer%options(case), &
-            designer%results(case), observer=designer%worker%cases(case)%observer)
+         associate (this => designer%worker%cases(case))
+            call solve_mounted(designer%options(case), this%result, observer=this%observer)
+         end associate
       end do
-      call take_row(study, designer, designer%results, k, chunk, faults)
+      call take_row(study, designer, designer%worker, k, chunk, faults)
       if (chunk%status(k) == design_solved) return
       !$omp critical (ek_words)
-      call explain(designer, designer%results, k, faults, chunk)
+      call explain(designer, designer%worker, k, faults, chunk)
       !$omp end critical (ek_words)
    end subroutine solve_design
 
@@ -223,7 +224,6 @@ contains
       type(chunk_t), intent(inout) :: chunk
       type(deck_t) :: changed
       type(worker_t) :: worker
-      type(case_result_t) :: results(size(designer%options))
       type(error_t), allocatable :: error
       integer :: faults(size(designer%readings)), f, j, case
 
@@ -249,36 +249,37 @@ contains
          call add_reason(chunk, k, error%message)
          return
       end if
-      do case = 1, size(results)
-         call solve_case(worker%suspension, worker%cases(case)%case, designer%options(case), results(case), &
-            observer=worker%cases(case)%observer)
+      do case = 1, size(worker%cases)
+         associate (this => worker%cases(case))
+            call solve_case(worker%suspension, this%case, designer%options(case), this%result, observer=this%observer)
+         end associate
       end do
-      call take_row(study, designer, results, k, chunk, faults)
-      if (chunk%status(k) /= design_solved) call explain(designer, results, k, faults, chunk)
+      call take_row(study, designer, worker, k, chunk, faults)
+      if (chunk%status(k) /= design_solved) call explain(designer, worker, k, faults, chunk)
    end subroutine solve_from_text
 
    !> The responses and the curves of a design. A response of a case that lost a state has no value.
-   subroutine take_row(study, designer, results, k, chunk, faults)
+   subroutine take_row(study, designer, worker, k, chunk, faults)
       type(study_t), intent(in) :: study
       type(designer_t), intent(in) :: designer
-      type(case_result_t), intent(in) :: results(:)
+      type(worker_t), intent(in) :: worker        !! with the results of its cases
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       integer, intent(out) :: faults(:)           !! of each response, see read_response
       integer :: j
 
-      do j = 1, size(results)
-         if (.not. is_whole(results(j))) chunk%status(k) = design_incomplete
+      do j = 1, size(worker%cases)
+         if (.not. is_whole(worker%cases(j)%result)) chunk%status(k) = design_incomplete
       end do
       faults = 0
       do j = 1, size(designer%readings)
-         associate (result => results(designer%case_of(j)))
+         associate (result => worker%cases(designer%case_of(j))%result)
             if (.not. is_whole(result)) cycle
             call read_response(designer%readings(j), result%table, chunk%responses(j, k), faults(j))
             if (.not. ieee_is_finite(chunk%responses(j, k))) chunk%status(k) = design_incomplete
          end associate
       end do
-      if (results(1)%is_run()) call take_curves(study, results(1)%table, k, chunk)
+      if (worker%cases(1)%result%is_run()) call take_curves(study, worker%cases(1)%result%table, k, chunk)
    end subroutine take_row
 
    !> Whether all states of a case converged.
@@ -318,31 +319,31 @@ contains
    end subroutine take_curves
 
    !> Says why a design is incomplete.
-   subroutine explain(designer, results, k, faults, chunk)
+   subroutine explain(designer, worker, k, faults, chunk)
       type(designer_t), intent(in) :: designer
-      type(case_result_t), intent(in) :: results(:)
+      type(worker_t), intent(in) :: worker        !! with the results of its cases
       integer, intent(in) :: k, faults(:)
       type(chunk_t), intent(inout) :: chunk
       type(message_list_t) :: words
       type(error_t), allocatable :: error
       integer :: j, side
 
-      do j = 1, size(results)
-         if (.not. results(j)%is_run()) then
-            call failure_of(results(j), error)
-            call words%add(error%message)
-            cycle
-         end if
-         associate (path => results(j)%path)
+      do j = 1, size(worker%cases)
+         associate (result => worker%cases(j)%result, path => worker%cases(j)%result%path)
+            if (.not. result%is_run()) then
+               call failure_of(result, error)
+               call words%add(error%message)
+               cycle
+            end if
             do side = 1, 2
-               if (path%failure(side)%state > 0) call words%add('case '//quoted(results(j)%case%name)// &
-                  ': no equilibrium at factor '//str(path%value(path%failure(side)%state)/results(j)%case%unit))
+               if (path%failure(side)%state > 0) call words%add('case '//quoted(result%case%name)// &
+                  ': no equilibrium at factor '//str(path%value(path%failure(side)%state)/result%case%unit))
             end do
          end associate
       end do
       do j = 1, size(faults)
          if (faults(j) /= 0) call words%add('response '//quoted(designer%readings(j)%asked%name)//': '// &
-            fault_text(designer%readings(j), results(designer%case_of(j))%table, faults(j)))
+            fault_text(designer%readings(j), worker%cases(designer%case_of(j))%result%table, faults(j)))
       end do
       if (words%count() == 0) call words%add('a response has no value')
       call add_reason(chunk, k, words%text())

@@ -12,10 +12,12 @@ module ek_worker
    use ek_parameter, only: choice_t, in_range
    use ek_realise, only: new_design, realise, realise_cases
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
+   use ek_case, only: case_t, is_mountable
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
+   use ek_rig, only: mount_case
    use ek_sweep_table, only: observer_t
+   use ek_case_result, only: case_result_t
    use ek_examination, only: examine_case, known_case_t, check_inputs
    use ek_study, only: by_value, by_delta, not_given
    implicit none(type, external)
@@ -28,12 +30,13 @@ module ek_worker
       type(choice_t), allocatable :: found(:)
    end type factor_paths_t
 
-   !> One of the cases that are solved.
+   !> One of the cases that are solved, and its solution.
    type :: worker_case_t
       type(case_t) :: case                        !! of the present design, as in the deck
       integer :: number = 0                       !! in the deck
       type(known_case_t) :: known                 !! what the first design has proved about the others
       type(observer_t), allocatable :: observer   !! of the columns of its results, for solve_case
+      type(case_result_t) :: result               !! of the present design; change_design puts the case on the rig
    end type worker_case_t
 
    !> One design after the other of a deck.
@@ -113,7 +116,7 @@ contains
       found%case = cases(k)
    end subroutine take_case
 
-   !> The design with these values of the factors, from the numbers alone. is_done is .false. if it must be read from the text:
+   !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be read from the text:
    !> a factor is no number of the design space, a value is outside its range, or the design may have a defect.
    subroutine change_design(factors, values, worker, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
@@ -136,12 +139,19 @@ contains
       if (.not. is_done) return
       do k = 1, size(worker%cases)
          worker%cases(k)%case = worker%design%cases(worker%cases(k)%number)
-         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known, is_in_doubt=is_in_doubt)
+         is_done = is_mountable(worker%cases(k)%case)
+         if (.not. is_done) return
+         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known, &
+            worker%cases(k)%result%mounted_case_t, is_in_doubt)
          is_done = .not. is_in_doubt
          if (.not. is_done) return
       end do
       call balance(worker%suspension, worker%cases(1)%case%tolerance, error, is_terse=.true.)
       is_done = .not. allocated(error)
+      if (.not. is_done .or. worker%suspension%balance == 'none') return
+      do k = 1, size(worker%cases)      ! they were examined without the preloads of balance
+         call mount_case(worker%suspension, worker%cases(k)%case, worker%cases(k)%result%mounted_case_t)
+      end do
    end subroutine change_design
 
    !> Writes a factor into x; relative to the numbers of the deck, or instead of them. The right side of an axle takes the value
