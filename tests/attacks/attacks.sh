@@ -35,7 +35,7 @@ clean() { # no temporary file or folder below
   left=$(find "$1" -name '.elastokin-*')
   [ -z "$left" ] || { echo "left behind: $left"; return 1; }
 }
-not_here() { echo "note: $*"; return 0; }
+not_here() { echo "remark: $*"; return 0; }
 fake_gnuplot() { # fake_gnuplot WORDS...: a gnuplot of one's own in bin/
   mkdir -p bin
   printf '#!/bin/sh\n%s\n' "$*" >bin/gnuplot
@@ -468,7 +468,7 @@ for attack in "$@"; do
   chmod 755 "$work/$attack"
   if words=$(cd "$work/$attack" && "$attack" 2>&1); then
     held=$((held + 1))
-    echo "held: $attack$(sed -n 's/^note: / - /p' <<<"$words")"
+    echo "held: $attack$(sed -n 's/^remark: / - /p' <<<"$words")"
   else
     failed=$((failed + 1))
     echo "FAILED: $attack"
@@ -476,6 +476,6 @@ for attack in "$@"; do
   fi
   rm -rf "${work:?}/$attack"
 done
-echo "note: $held attacks held"
+echo "remark: $held attacks held"
 echo "$held held, $failed failed"
 [ "$failed" -eq 0 ]

@@ -122,5 +122,5 @@ for name in "${names[@]}"; do
   diff <(digest "$work/wanted/$name") <(digest "$work/hit/$name") || complain "$name: not the same after the kills"
   find "$work/hit/$name" -name '.elastokin*' -o -name '*.part' | sed 's/^/FAILED: left behind: /' | grep . && failed=1
 done
-[ $failed -eq 0 ] && echo "note: $struck kills, no half file, reruns the same to the byte"
+[ $failed -eq 0 ] && echo "remark: $struck kills, no half file, reruns the same to the byte"
 exit $failed

@@ -114,11 +114,11 @@ kill_often() {
 
 ways=(threads shard)
 if ! command -v mpirun >/dev/null; then
-  echo 'note: ranks left out, there is no mpirun'
+  echo 'remark: ranks left out, there is no mpirun'
 elif mpirun -n 2 "$program" --version >/dev/null 2>&1 && ! mpirun -n 2 "$program" study "$work/study.nml" --status 2>&1 | grep -q 'without MPI'; then
   ways+=(ranks)
 else
-  echo 'note: ranks left out, the program was compiled without MPI'
+  echo 'remark: ranks left out, the program was compiled without MPI'
 fi
 for way in "${ways[@]}"; do kill_often "$way" "$work/$way" $(((kills + ${#ways[@]} - 1) / ${#ways[@]})); done
 [ $struck -ge $((kills * 9 / 10)) ] || complain "only $struck of $kills kills struck"
@@ -182,7 +182,7 @@ if mount -t tmpfs -o size=64k tmpfs "$work/disk" 2>/dev/null; then
   only_table "$work/disk/out" 'after a full disk'
   umount "$work/disk"
 else
-  echo 'note: full disk left out, no tmpfs may be mounted here'
+  echo 'remark: full disk left out, no tmpfs may be mounted here'
 fi
 
 # A folder that may not be written, also by root: a read-only mount, or else a folder of another
@@ -217,5 +217,5 @@ for round in 1 2 3 4 5; do
   only_table "$work/two" "two at once, round $round"
 done
 
-[ $failed -eq 0 ] && echo "note: $struck kills (${ways[*]}), every study resumed, the same to the byte"
+[ $failed -eq 0 ] && echo "remark: $struck kills (${ways[*]}), every study resumed, the same to the byte"
 exit $failed

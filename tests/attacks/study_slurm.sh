@@ -6,7 +6,7 @@ set -uo pipefail
 program=$(realpath "$1")
 cd "$(dirname "$0")/../../studies/slurm" || exit 1
 if [ "$(id -u)" -ne 0 ] || ! command -v slurmctld >/dev/null || ! command -v slurmd >/dev/null || ! command -v munged >/dev/null; then
-  echo 'note: left out, it needs slurm-wlm, munge and root'
+  echo 'remark: left out, it needs slurm-wlm, munge and root'
   exit 0
 fi
 work=$(mktemp -d "${TMPDIR:-/tmp}/elastokin_slurm_XXXXXX") || exit 1
@@ -59,7 +59,7 @@ END
 munged --force --key-file="$work/key" --socket="$work/munge.socket" --pid-file="$work/munged.pid" --log-file="$work/munged.log" \
   --seed-file="$work/munged.seed" && slurmctld -f "$SLURM_CONF" && sleep 1 && slurmd -N localhost -f "$SLURM_CONF"
 for ((k = 0; k < 20; k++)); do sinfo -h -o %t 2>/dev/null | grep -q idle && break; sleep 1; done
-sinfo || { echo 'note: left out, Slurm does not start here'; exit 0; }
+sinfo || { echo 'remark: left out, Slurm does not start here'; exit 0; }
 
 "$program" study study.nml --out "$work/wanted" --jobs 1 --no-plots --quiet >/dev/null || complain 'one process'
 
@@ -85,7 +85,7 @@ if srun --mpi=list 2>&1 | grep -qw pmix && ! OMPI_COMM_WORLD_SIZE=2 "$program" s
   srun --mpi=pmix --overcommit --ntasks=3 "$program" study study.nml --out "$work/ranks" --no-plots --quiet >"$work/said" 2>&1 || complain "srun: $(cat "$work/said")"
   cmp "$work/wanted/bushing_scatter_responses.csv" "$work/ranks/bushing_scatter_responses.csv" || complain 'srun: not the same bytes'
 else
-  echo 'note: srun left out, no pmix or no MPI'
+  echo 'remark: srun left out, no pmix or no MPI'
 fi
-[ $failed -eq 0 ] && echo 'note: an array of four tasks, one killed and repeated, and ranks of srun: the same to the byte'
+[ $failed -eq 0 ] && echo 'remark: an array of four tasks, one killed and repeated, and ranks of srun: the same to the byte'
 exit $failed
