@@ -38,7 +38,7 @@ module ek_bench
    integer, parameter :: kept_numbers = 2**17 !! size of the matrices kept for the unit: 1 MB stays in the cache
 
    integer, parameter :: short_sweep = 20     !! increments of a design, like those of a study
-   integer, parameter :: designs = 40         !! timed together
+   integer, parameter :: designs = 10         !! timed together
 
    !> What was measured.
    type :: figures_t
@@ -205,7 +205,7 @@ contains
       if (size(worker%suspension%wheels) > 1) options%columns = prefix_of(worker%suspension, 1)//'toe_deg'
       figures%design = huge(time)
       figures%states = huge(time)
-      do k = 1, 3
+      do k = 1, 5
          start = seconds()
          do d = 1, designs
             call change_design(paths, [value*(1.0_wp + 1.0e-10_wp*d)], worker, is_done)

@@ -48,11 +48,11 @@ echo "2000 designs by one thread: $undisturbed_us us"
 
 # ---- kills --------------------------------------------------------------------------------------
 
-# The processes below one that are this program
+# The processes below one that are this program; under mpirun it becomes elastokin-mpi
 runs_below() {
   local child
   while read -r child; do
-    [ "$(readlink "/proc/$child/exe")" = "$program" ] && echo "$child"
+    [[ $(readlink "/proc/$child/exe") == "$program"?(-mpi) ]] && echo "$child"
     runs_below "$child"
   done < <(cat /proc/"$1"/task/*/children 2>/dev/null | tr -s ' ' '\n' | grep .)
 }
