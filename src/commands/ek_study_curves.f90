@@ -5,6 +5,7 @@ module ek_study_curves
    use ek_error, only: error_t, fail, exit_file
    use ek_sample_statistics, only: ascending_order, percentile
    use ek_study_data, only: study_data_t, percents
+   use ek_study_tables, only: repeated_factors
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
    implicit none(type, external)
    private
@@ -31,7 +32,7 @@ contains
       integer :: k, c, status, used, every, rest, last
 
       call open_table(path, '', lines, names, error)
-      k = size(data%factors)
+      k = repeated_factors(size(data%factors))
       c = size(data%columns)
       if (.not. allocated(error) .and. size(names) /= k + c + 2) call fail(error, exit_file, path// &
          ': this is not the table of curves of the study; run the study again')

@@ -14,7 +14,7 @@ module ek_netcdf_tables
    use ek_file, only: join_path
    use ek_table, only: table_t, new_table, name_length, csv_head, csv_row
    use ek_writer, only: writer_t, begin_file
-   use ek_study_tables, only: quoted_field, tables_of
+   use ek_study_tables, only: quoted_field, tables_of, repeated_factors
    implicit none(type, external)
    private
    public :: write_store_tables
@@ -205,9 +205,9 @@ contains
       logical, allocatable :: is_whole(:)
       integer :: first, n, k, j, s, f, c
 
-      f = size(file%factors)
+      f = repeated_factors(size(file%factors))
       c = size(file%curves)
-      call add_head(file, [file%factors, file%curves], [character(name_length) ::], curves)
+      call add_head(file, [file%factors(:f), file%curves], [character(name_length) ::], curves)
       allocate (factors(f, curve_block), states(c, file%states, curve_block), part(curve_block), plane(file%states, curve_block))
       allocate (is_whole(1 + f + c), source=.false.)
       is_whole(1) = .true.

@@ -18,9 +18,11 @@ module ek_study_tables
    use ek_store_description, only: keeps
    implicit none(type, external)
    private
-   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, quoted_field
+   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, repeated_factors, &
+      quoted_field
 
    integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
+   integer, parameter :: most_repeated = 10      !! factors that the table of states repeats in each row
 
    !> How the designs of a study ended.
    type :: study_counts_t
@@ -42,6 +44,12 @@ contains
       name = study_name//'_curves.csv'
       if (number == 1) name = study_name//'_responses.csv'
    end function tables_of
+
+   !> How many of these factors the table of states repeats in each row: all, or, as it would consist of them, none.
+   pure integer function repeated_factors(factors)
+      integer, intent(in) :: factors
+      repeated_factors = merge(factors, 0, factors <= most_repeated)
+   end function repeated_factors
 
    !> The name of the table of designs.
    pure function responses_name(study) result(name)
@@ -76,8 +84,9 @@ contains
       call begin_file(rows, join_path(out, responses_name(study)), error)
       if (.not. allocated(error) .and. has_curves) call begin_file(curves, join_path(out, curves_name(study)), error)
       if (.not. allocated(error)) then
-         call rows%add(head_of(study, plan, [character(name_length) :: plan%heads, last_columns(study)]))
-         if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: 'factor', study%columns]))
+         call rows%add(head_of(study, plan, [character(name_length) :: plan%factor_heads, plan%heads, last_columns(study)]))
+         if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: &
+            plan%factor_heads(:repeated_factors(size(plan%factor_heads))), 'factor', study%columns]))
          do k = 1, plan%chunks
             call load_chunk(study, plan, out, k, chunk, error)
             counts%is_missing = allocated(error)
@@ -148,14 +157,14 @@ contains
    end subroutine count_chunk
 
    !> Header lines and column names.
-   function head_of(study, plan, last) result(text)
+   function head_of(study, plan, columns) result(text)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
-      character(*), intent(in) :: last(:)         !! columns behind the factors
+      character(*), intent(in) :: columns(:)      !! behind the number of the design
       character(:), allocatable :: text
       type(table_t) :: table
 
-      table = new_table([character(name_length) :: 'design', plan%factor_heads, last], 0)
+      table = new_table([character(name_length) :: 'design', columns], 0)
       call table%header%add('study '//study%name//', kind '//trim(kind_names(study%kind))//', '// &
          plural(plan%designs, 'design', 'designs')//seed_of(study))
       call table%header%add('elastokin '//version//', deck checksum '//plan%deck_sum//', study '//plan%identity)
@@ -260,9 +269,9 @@ contains
       type(chunk_t), intent(in) :: chunk
       logical, intent(inout) :: is_begun          !! a curve precedes
       type(writer_t), intent(inout) :: curves
-      integer :: k, j, row, n
+      integer :: k, j, row, repeated
 
-      n = 1 + size(chunk%factors, 1) + size(chunk%curves, 1)
+      repeated = repeated_factors(size(chunk%factors, 1))
       row = 0
       do k = 1, size(chunk%status)
          if (chunk%states(k) == 0) cycle
@@ -270,8 +279,8 @@ contains
          is_begun = .true.
          do j = 1, chunk%states(k)
             row = row + 1
-            call curves%add(csv_row([real(chunk%first + k - 1, wp), chunk%factors(:, k), chunk%curves(:, row)], &
-               [.true., spread(.false., 1, n - 1)]))
+            call curves%add(csv_row([real(chunk%first + k - 1, wp), chunk%factors(:repeated, k), chunk%curves(:, row)], &
+               [.true., spread(.false., 1, repeated + size(chunk%curves, 1))]))
          end do
       end do
    end subroutine add_curves

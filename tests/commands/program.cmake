@@ -9,7 +9,7 @@ endforeach()
 # Stores of studies are read with ncdump, where elastokin-netcdf was built
 find_program(EK_NCDUMP ncdump)
 if(TARGET elastokin-netcdf AND EK_NCDUMP)
-  set_property(TEST test_study_store APPEND PROPERTY ENVIRONMENT "EK_NCDUMP=${EK_NCDUMP}")
+  set_property(TEST test_study_store test_study_plots APPEND PROPERTY ENVIRONMENT "EK_NCDUMP=${EK_NCDUMP}")
   add_dependencies(test_study_store elastokin-netcdf)
 else()
   message(STATUS "NetCDF: no elastokin-netcdf or no ncdump, so the tests of stores pass without doing anything")
