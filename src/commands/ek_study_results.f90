@@ -138,6 +138,7 @@ contains
             axis%label = response%name
             axis%note = response%of//' of '//response%column
             if (response%of == 'value' .or. response%of == 'slope') axis%note = axis%note//' at '//str(response%at)
+            if (response%side /= '') axis%note = axis%note//', '//response%side//' wheel'
             if (response%case /= '') axis%note = axis%note//', case '//response%case
             axis%lower = response%lower
             axis%upper = response%upper
@@ -236,7 +237,7 @@ contains
 
       axis%name = head
       unit = unit_of(trim(study%responses(number)%column))
-      if (study%responses(number)%of == 'slope') unit = unit_of(head)
+      if (study%responses(number)%of == 'slope' .or. study%responses(number)%of == 'gradient') unit = unit_of(head)
       axis%label = study%responses(number)%name
       if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
    end subroutine name_response

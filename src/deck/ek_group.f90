@@ -221,6 +221,7 @@ module ek_group
       key_t(response_group, 'case', word, 1, 1, .false.), &
       key_t(response_group, 'column', word, 1, 1, .true.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
+      key_t(response_group, 'side', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
       key_t(response_group, 'over', word, 1, 1, .false.), &
       key_t(response_group, 'window', number, 1, 1, .false., positive), &

@@ -27,7 +27,7 @@ module ek_gradient
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, slope_over_window, gradients_csv, gradients_json, write_gradients, read_gradients
+   public :: gradient_t, test_gradients, slope_over_window, noise_of, gradients_csv, gradients_json, write_gradients, read_gradients
 
    integer, parameter :: min_points = 3     !! fewer points define no fit
 
@@ -41,6 +41,7 @@ module ek_gradient
       character(:), allocatable :: window      !! '±15 mm'
       real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
       real(wp) :: value = 0.0_wp               !! in `unit`; not a number if there is a note
+      real(wp) :: turn = 1.0_wp                !! s_y/s_x
       integer :: points = 0                    !! states in the window
       character(:), allocatable :: note        !! reason of a missing value, otherwise ''
    end type gradient_t
@@ -120,6 +121,7 @@ contains
       end if
       call slope_over_window(x, y, gradient%window_half, slope, gradient%points)
       gradient%note = ''
+      gradient%turn = turn_of(test, definition, side)
       gradient%value = slope
       if (.not. ieee_is_finite(slope)) then
          gradient%note = 'no state in the window'
@@ -129,7 +131,7 @@ contains
          return
       end if
       if (abs(slope)*gradient%window_half <= noise_of(gradient%column)) slope = 0.0_wp
-      gradient%value = slope*factor*turn_of(test, definition, side)
+      gradient%value = slope*factor*gradient%turn
    end function one_gradient
 
    !> Numerical noise in the unit of a column, by its ending: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a

@@ -1,5 +1,5 @@
-!> A response that a study reads from the table of a design, and its column name: a value, a slope, a span, an extreme, or the
-!> deviation from a given curve.
+!> A response that a study reads from the table of a design, and its column name: a value, a slope, a span, an extreme, the
+!> deviation from a given curve, or a gradient of the report.
 !>
 !> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
 !> otherwise those of its two columns. The column name ends with the unit.
@@ -10,7 +10,10 @@ module ek_response
    use ek_text, only: str, quoted, nearest_name, plural
    use ek_quantity, only: slope_unit, unit_of, head_with_unit
    use ek_table, only: table_t, column_index, name_length, read_csv
-   use ek_study, only: response_t
+   use ek_test_result, only: test_result_t
+   use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
+   use ek_gradient, only: gradient_t, test_gradients, slope_over_window, noise_of
+   use ek_study, only: response_t, of_names
    implicit none(type, external)
    private
    public :: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
@@ -21,28 +24,41 @@ module ek_response
       character(:), allocatable :: over      !! slope: the column over which it is taken
       character(:), allocatable :: head      !! name of its column, with its unit
       real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
+      real(wp) :: noise = 0.0_wp             !! gradient: change of the column over the window that counts as none
       integer :: of = 0                      !! what is read, one of those below
       integer :: at_column = 0, at_over = 0  !! places of the columns in the table of the first design
       real(wp), allocatable :: curve(:, :)   !! rms: (factor, wanted value; point)
    end type reading_t
 
    ! what is read
-   integer, parameter :: a_value = 1, a_slope = 2, a_span = 3, a_least = 4, a_most = 5, an_rms = 6
-   character(*), parameter :: of_names(6) = [character(5) :: 'value', 'slope', 'span', 'min', 'max', 'rms']
+   integer, parameter :: a_value = 1, a_slope = 2, a_span = 3, a_least = 4, a_most = 5, an_rms = 6, a_gradient = 7    ! of of_names
 
    ! why it cannot be read
-   integer, parameter :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, is_flat = 5
+   integer, parameter :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, is_flat = 5, &
+      has_few_states = 6
 
    character(*), parameter :: travel = 'wheel_travel_mm'
 
 contains
 
    !> The columns from which a response may be read.
-   subroutine needed_columns(asked, names)
+   subroutine needed_columns(asked, kind, names)
       type(response_t), intent(in) :: asked
+      character(*), intent(in) :: kind                          !! of the test of its case, '' for none
       character(*), intent(inout), allocatable :: names(:)      !! those that are needed are added
-      integer :: mark
+      type(definition_t), allocatable :: list(:)
+      integer :: mark, k
 
+      if (asked%of == 'gradient') then
+         list = definitions_of(kind)
+         do k = 1, size(list)
+            if (list(k)%quantity /= asked%column//fitted) cycle
+            call add_of_wheels(trim(list(k)%column))
+            call add_of_wheels(trim(list(k)%over))
+         end do
+         call add_of_wheels(travel)                             ! gives the wheels
+         return
+      end if
       call add(asked%column)
       if (asked%of /= 'slope') return
       call add(asked%over)
@@ -59,10 +75,17 @@ contains
          if (.not. any(names == name)) names = [character(len(names)) :: names, name]
       end subroutine add
 
+      subroutine add_of_wheels(name)
+         character(*), intent(in) :: name
+         call add(name)
+         call add('left_'//name)
+         call add('right_'//name)
+      end subroutine add_of_wheels
+
    end subroutine needed_columns
 
    !> Checks a response against the table of the first design; `message` gives the reason if it cannot be read, else ''.
-   subroutine prepare_reading(asked, table, factor_unit, reading, message, heads, home)
+   subroutine prepare_reading(asked, table, factor_unit, reading, message, heads, home, test)
       type(response_t), intent(in) :: asked
       type(table_t), intent(in) :: table
       character(*), intent(in) :: factor_unit             !! of the column `factor`: 'mm', 'deg', 'N', 'N m', '-'
@@ -70,9 +93,10 @@ contains
       character(:), allocatable, intent(out) :: message
       character(*), intent(in), optional :: heads(:)      !! all columns of the results, for suggestions; default those of the table
       character(*), intent(in), optional :: home          !! folder of the study with its slash, for the file of rms
+      type(test_result_t), intent(in), optional :: test   !! the case as a test of the report, for a gradient
       character(name_length), allocatable :: names(:)
       character(:), allocatable :: unit
-      real(wp) :: value
+      real(wp) :: value, size_of_slope
       integer :: fault
 
       reading%asked = asked
@@ -82,16 +106,18 @@ contains
       names = table%columns
       if (present(heads)) names = heads
       message = ''
-      reading%at_column = column_index(table, asked%column)
-      if (reading%at_column == 0) message = no_column(asked%column, names)
-      if (reading%of == a_slope) then
+      if (reading%of == a_gradient) call find_gradient(test, reading, message)
+      reading%at_column = column_index(table, reading%asked%column)
+      if (message == '' .and. reading%at_column == 0) message = no_column(reading%asked%column, names)
+      if (is_slope(reading)) then
          if (reading%over == '') reading%over = usual_over(asked%column, table)
          reading%at_over = column_index(table, reading%over)
          if (message == '' .and. reading%at_over == 0) then
             message = no_column(reading%over, names)
             if (asked%over == '') message = "give 'over': the results have no wheel travel, over which a slope is taken by default"
          end if
-         call slope_unit(asked%column, reading%over, factor_unit, unit, reading%size)
+         call slope_unit(reading%asked%column, reading%over, factor_unit, unit, size_of_slope)
+         reading%size = reading%size*size_of_slope
          reading%head = head_with_unit(asked%name, unit)
       end if
       if (reading%of == an_rms) call read_curve(asked, home, reading%curve, message)
@@ -101,6 +127,45 @@ contains
       end if
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
+
+   !> The columns, the window and the sign of a gradient of the report.
+   subroutine find_gradient(test, reading, message)
+      type(test_result_t), intent(in), optional :: test
+      type(reading_t), intent(inout) :: reading
+      character(:), allocatable, intent(inout) :: message
+      type(gradient_t), allocatable :: gradients(:)
+      type(definition_t), allocatable :: list(:)
+      character(name_length), allocatable :: names(:)
+      character(:), allocatable :: wanted
+      integer :: k
+
+      allocate (gradients(0), names(0))
+      if (present(test)) then
+         if (test%kind == '') message = 'a gradient belongs to a test of the rig, and case '//quoted(test%name)//' is none'
+         call test_gradients(test, windows_t(), gradients)
+         list = definitions_of(test%kind)
+         names = [character(name_length) :: list%quantity]
+      end if
+      wanted = reading%asked%column//fitted
+      do k = 1, size(gradients)
+         if (gradients(k)%quantity /= wanted) cycle
+         if (gradients(k)%side /= reading%asked%side .and. gradients(k)%side//reading%asked%side /= 'left') cycle
+         reading%asked%column = gradients(k)%column
+         reading%over = gradients(k)%over
+         if (.not. reading%asked%window > 0.0_wp) reading%asked%window = gradients(k)%window_half
+         reading%size = gradients(k)%turn
+         reading%noise = noise_of(gradients(k)%column)
+         return
+      end do
+      if (message /= '') return
+      message = 'test '//quoted(test%kind)//' has no gradient '//quoted(reading%asked%column)
+      if (any(names == wanted)) then
+         if (reading%asked%side /= '') message = message//' of the '//reading%asked%side//' wheel'
+      else
+         wanted = nearest_name(wanted, names)
+         if (wanted /= '') message = message//' (did you mean '//quoted(wanted(:index(wanted, fitted) - 1))//'?)'
+      end if
+   end subroutine find_gradient
 
    !> Reads the curve from which a column deviates: a CSV with the columns `factor` and that of the response.
    subroutine read_curve(asked, home, curve, message)
@@ -138,6 +203,7 @@ contains
       real(wp), intent(out) :: value             !! nan if there is none
       integer, intent(out) :: fault              !! 0, or for fault_text
       real(wp) :: at, centre, mean_x, mean_y, spread
+      integer :: points
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
       integer :: column, over, k
@@ -146,7 +212,7 @@ contains
       value = ieee_value(1.0_wp, ieee_quiet_nan)
       column = place_of_column(table, reading%asked%column, reading%at_column)
       over = 2                                   ! the factor
-      if (reading%of == a_slope) over = place_of_column(table, reading%over, reading%at_over)
+      if (is_slope(reading)) over = place_of_column(table, reading%over, reading%at_over)
       if (column == 0) fault = column_is_missing
       if (over == 0) fault = over_is_missing
       if (fault /= no_fault) return              ! the model of this design does not define it
@@ -159,6 +225,11 @@ contains
          value = minval(y)
       case (a_most)
          value = maxval(y)
+      case (a_gradient)
+         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points)
+         if (.not. ieee_is_finite(value)) fault = merge(has_few_states, is_flat, points < 3)
+         if (fault == no_fault .and. abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
+         value = value*reading%size
       case (an_rms)
          spread = 0.0_wp
          do k = 1, size(reading%curve, 2)
@@ -194,6 +265,11 @@ contains
          end if
       end select
    end subroutine read_response
+
+   pure logical function is_slope(reading)
+      type(reading_t), intent(in) :: reading
+      is_slope = reading%of == a_slope .or. reading%of == a_gradient
+   end function is_slope
 
    !> The states in the window of a slope.
    subroutine find_window(reading, table, over, at, centre, is_near)
@@ -252,6 +328,9 @@ contains
          text = 'at = '//str(reading%asked%at)
          if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
          text = text//' lies outside the range of the case, '//str(minval(x))//' to '//str(maxval(x))
+      case (has_few_states)
+         text = 'no gradient: it needs 3 states within the window of ± '//str(reading%asked%window)// &
+            '; use more increments in the case, or a larger window in the response'
       case (has_no_slope)
          x = table%values(place_of_column(table, reading%over, reading%at_over), :)
          call find_window(reading, table, place_of_column(table, reading%over, reading%at_over), &

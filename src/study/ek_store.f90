@@ -290,11 +290,14 @@ contains
          text = text//', slope over '//over//' at '//str(response%at)
       case ('rms')
          text = text//', root mean square of the deviations from '//response%file
+      case ('gradient')
+         text = 'Gradient '//response%column
+         if (response%side /= '') text = text//', '//response%side//' wheel'
       case default
          text = text//', '//response%of
       end select
       units = units_of(variable%name)
-      if (units == '1' .and. response%of /= 'slope') units = units_of(response%column)
+      if (units == '1' .and. response%of /= 'slope' .and. response%of /= 'gradient') units = units_of(response%column)
       if (response%case /= '') text = text//', case '//response%case
       variable%lower = response%lower
       variable%upper = response%upper

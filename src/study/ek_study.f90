@@ -39,16 +39,21 @@ module ek_study
 
    !> A number read from the table of a case.
    type :: response_t
-      character(:), allocatable :: name, column
+      character(:), allocatable :: name
+      character(:), allocatable :: column         !! gradient: its name
       character(:), allocatable :: case           !! '': the case of the study
-      character(:), allocatable :: of             !! 'value', 'slope', 'span', 'min', 'max' or 'rms'
+      character(:), allocatable :: of             !! one of of_names
+      character(:), allocatable :: side           !! gradient: 'left' or 'right'; '': left, or of the axle
       real(wp) :: at = 0.0_wp                     !! factor of the case, for value and slope
       character(:), allocatable :: over           !! column over which the slope is taken; '': the travel of the wheel
-      real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`
+      real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`; gradient: 0 for its own
       character(:), allocatable :: file           !! rms: CSV of the curve from which the column deviates
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits that a good design keeps
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
+
+   !> What a response reads of a case.
+   character(*), parameter, public :: of_names(7) = [character(8) :: 'value', 'slope', 'span', 'min', 'max', 'rms', 'gradient']
 
    !> A study.
    type :: study_t

@@ -11,6 +11,7 @@ module ek_study_design
    use ek_deck, only: deck_t, set_value
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of
    use ek_sweep_table, only: sweep_columns
+   use ek_test_result, only: test_result_t, find_wheels
    use ek_table, only: table_t, column_index, name_length
    use ek_quantity, only: head_with_unit
    use ek_study, only: study_t, not_given
@@ -104,6 +105,20 @@ contains
       end do
    end subroutine list_cases
 
+   !> The case of a result as a test of the report.
+   function test_of(result) result(test)
+      type(case_result_t), intent(in) :: result
+      type(test_result_t) :: test
+
+      test%name = result%case%name
+      test%kind = result%case%test
+      test%is_anti = result%case%is_anti
+      test%is_iso = result%suspension%is_iso
+      test%table = result%table
+      allocate (test%prefixes(0), test%sides(0))
+      if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
+   end function test_of
+
    !> The columns that are computed of a case.
    subroutine list_columns(study, designer, case)
       type(study_t), intent(in) :: study
@@ -115,7 +130,8 @@ contains
       allocate (wanted(merge(size(study%columns), 0, case == 1)))
       if (case == 1) wanted(:) = study%columns
       do k = 1, size(study%responses)
-         if (designer%case_of(k) == case) call needed_columns(study%responses(k), wanted)
+         if (designer%case_of(k) == case) call needed_columns(study%responses(k), &
+            designer%worker%cases(case)%case%test, wanted)
       end do
       designer%options(case)%columns = wanted
    end subroutine list_columns
@@ -142,7 +158,8 @@ contains
       do k = 1, size(study%responses)
          associate (result => designer%worker%cases(designer%case_of(k))%result, readings => designer%readings)
             call sweep_columns(result%suspension, result%case, heads)
-            call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home)
+            call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home, &
+               test_of(result))
             if (message /= '') call mistakes%add(message)
          end associate
       end do

@@ -16,13 +16,13 @@ module ek_study_reader
       text_of, texts_of, number_of, numbers_of, whole_of, switch_of, value_count, raw
    use ek_distribution, only: distribution_kinds, uniform_kind, normal_kind, log_normal_kind
    use ek_sampler_kind, only: sampler_kinds, grid_kind, list_kind
-   use ek_study, only: study_t, study_factor_t, response_t, step_size_kind, kind_names, change_names, by_value, not_given, is_given
+   use ek_study, only: study_t, study_factor_t, response_t, of_names, step_size_kind, kind_names, change_names, by_value, &
+      not_given, is_given
    implicit none(type, external)
    private
    public :: read_study
 
    character(*), parameter :: format_names(2) = [character(6) :: 'netcdf', 'csv']
-   character(*), parameter :: of_names(6) = [character(5) :: 'value', 'slope', 'span', 'min', 'max', 'rms']
 
 contains
 
@@ -321,6 +321,7 @@ contains
    subroutine take_response(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
+      character(*), parameter :: of_slopes(2) = [character(4) :: 'at', 'over']
       type(response_t) :: this
       integer :: c
 
@@ -331,7 +332,15 @@ contains
       this%of = lower(text_of(reading, 'of', 'value'))
       this%over = text_of(reading, 'over')
       this%at = number_of(reading, 'at', 0.0_wp)
-      this%window = number_of(reading, 'window', this%window)
+      this%window = number_of(reading, 'window', merge(0.0_wp, this%window, this%of == 'gradient'))
+      this%side = lower(text_of(reading, 'side'))
+      call choice(reading, 'side', [character(5) :: 'left', 'right'], c)
+      do c = 1, size(of_slopes)
+         if (this%of == 'gradient' .and. has_key(reading, trim(of_slopes(c)))) call complain(reading, trim(of_slopes(c)), &
+            'a gradient has no '//quoted(trim(of_slopes(c)))//', it is taken at design over the input of its test')
+      end do
+      if (this%of /= 'gradient' .and. this%side /= '') call complain(reading, 'side', 'only a gradient has a side; '// &
+         'the name of a column begins with it')
       this%file = text_of(reading, 'file')
       this%lower = number_of(reading, 'lower', this%lower)
       this%upper = number_of(reading, 'upper', this%upper)

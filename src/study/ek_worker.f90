@@ -6,7 +6,7 @@
 module ek_worker
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_model
-   use ek_text, only: quoted
+   use ek_text, only: quoted, nearest_name
    use ek_deck, only: deck_t
    use ek_reader, only: design_t, read_design
    use ek_parameter, only: choice_t, in_range
@@ -16,6 +16,7 @@ module ek_worker
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_rig, only: mount_case
+   use ek_standard_tests, only: standard_tests
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t
    use ek_examination, only: examine_case, known_case_t, check_inputs
@@ -33,7 +34,7 @@ module ek_worker
    !> One of the cases that are solved, and its solution.
    type :: worker_case_t
       type(case_t) :: case                        !! of the present design, as in the deck
-      integer :: number = 0                       !! in the deck
+      integer :: number = 0                       !! in the deck; 0: a standard test
       type(known_case_t) :: known                 !! what the first design has proved about the others
       type(observer_t), allocatable :: observer   !! of the columns of its results, for solve_case
       type(case_result_t) :: result               !! of the present design; change_design puts the case on the rig
@@ -77,6 +78,9 @@ contains
       do k = 1, size(case_names)
          call take_case(deck%file, trim(case_names(k)), worker%design%cases, worker%suspension, worker%cases(k), error)
          if (allocated(error)) return
+         if (present(increments)) then
+            if (increments > 0) worker%cases(k)%case%increments = increments       ! also of a standard test
+         end if
       end do
       do k = 1, size(worker%cases)
          call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known)
@@ -87,14 +91,15 @@ contains
       call balance(worker%suspension, worker%cases(1)%case%tolerance, error)
    end subroutine make_worker
 
-   !> Finds a case of the deck.
+   !> Finds a case of the deck, or a standard test of the report that it does not have.
    subroutine take_case(file, name, cases, suspension, found, error)
-      character(*), intent(in) :: file, name
+      character(*), intent(in) :: file, name           !! '': the first of the deck
       type(case_t), intent(in) :: cases(:)
       type(suspension_t), intent(in) :: suspension
       type(worker_case_t), intent(inout) :: found
       type(error_t), allocatable, intent(out) :: error
-      integer :: k
+      type(case_t), allocatable :: tests(:)
+      integer :: k, j
 
       if (allocated(found%observer)) deallocate (found%observer)
       allocate (found%observer)
@@ -102,7 +107,16 @@ contains
          if (len(name) == 0 .or. cases(k)%name == name) exit
       end do
       if (k > size(cases)) then
-         call fail(error, exit_deck, file//': there is no case '//quoted(name))
+         call standard_tests(suspension, cases, tests)
+         do j = 1, size(tests)
+            if (len(name) > 0 .and. tests(j)%name == name) exit
+         end do
+         if (j > size(tests)) then
+            call fail(error, exit_deck, file//': there is no case '//quoted(name)//suggestion(name, tests))
+            return
+         end if
+         found%number = 0
+         found%case = tests(j)
          return
       end if
       if (cases(k)%follows_arc) then
@@ -115,6 +129,22 @@ contains
       found%number = k
       found%case = cases(k)
    end subroutine take_case
+
+   !> ' (did you mean …)', or a list, for a case that is not there.
+   function suggestion(name, tests) result(words)
+      character(*), intent(in) :: name
+      type(case_t), intent(in) :: tests(:)          !! all that could be named
+      character(:), allocatable :: words
+      character(63), allocatable :: names(:)
+      integer :: k
+
+      allocate (names(size(tests)))
+      do k = 1, size(tests)
+         names(k) = tests(k)%name
+      end do
+      words = nearest_name(name, names)
+      if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
+   end function suggestion
 
    !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be read from the text:
    !> a factor is no number of the design space, a value is outside its range, or the design may have a defect.
@@ -138,7 +168,12 @@ contains
       if (is_done) call realise_cases(worker%design%plan, worker%x, worker%design%cases, is_done)
       if (.not. is_done) return
       do k = 1, size(worker%cases)
-         worker%cases(k)%case = worker%design%cases(worker%cases(k)%number)
+         if (worker%cases(k)%number > 0) then
+            worker%cases(k)%case = worker%design%cases(worker%cases(k)%number)
+         else if (worker%cases(k)%case%test == 'steering') then
+            worker%cases(k)%case%to = worker%suspension%steering%travel
+            worker%cases(k)%case%from = -worker%suspension%steering%travel
+         end if
          is_done = is_mountable(worker%cases(k)%case)
          if (.not. is_done) return
          call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known, &
