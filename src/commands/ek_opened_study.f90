@@ -7,7 +7,7 @@ module ek_opened_study
    use ek_sampler_kind, only: sampler_kinds
    use ek_study, only: study_t, step_size_kind, kind_names
    use ek_study_reader, only: read_study
-   use ek_study_each, only: expand_factors
+   use ek_study_each, only: expand_factors, expand_columns
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_tables, only: responses_name
@@ -43,6 +43,7 @@ contains
       if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_factors(this%study, this%deck, error)
+      if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_columns(this%study, this%deck, error)
       if (.not. allocated(error)) call keep_texts(line%files%line(1), &
          join_path(this%home, this%study%deck), line%values('--set'), this%texts)
    end subroutine open_study

@@ -314,6 +314,7 @@ contains
       integer, intent(in) :: k
       type(chunk_t), intent(inout) :: chunk
       real(wp), allocatable :: more(:, :)
+      logical :: is_next
       integer :: place, j, rows
 
       if (size(study%columns) == 0) return
@@ -325,8 +326,12 @@ contains
       end if
       associate (curves => chunk%curves(:, chunk%rows + 1:chunk%rows + rows))
          curves(1, :) = table%values(2, :)
+         place = 2
          do j = 1, size(study%columns)
-            place = column_index(table, study%columns(j))
+            is_next = place < size(table%columns)
+            if (is_next) is_next = table%columns(place + 1) == study%columns(j)       ! many columns stand in their order
+            place = merge(place + 1, 0, is_next)
+            if (.not. is_next) place = column_index(table, study%columns(j))
             if (place > 0) curves(1 + j, :) = table%values(place, :)
             if (place == 0) curves(1 + j, :) = not_given()
          end do

@@ -1,4 +1,5 @@
-!> Factors with each = .true.: every number to which their paths lead becomes a factor of its own.
+!> Factors with each = .true.: every number to which their paths lead becomes a factor of its own. Columns with `*`: all that
+!> fit.
 module ek_study_each
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck
@@ -7,11 +8,18 @@ module ek_study_each
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t, path_t, find_parameters, split_path, parameter_path
    use ek_reader, only: design_t, read_design
+   use ek_group, only: word_length
    use ek_study, only: study_t, study_factor_t, by_scale
    use ek_factor_paths, only: is_held_in_plane
+   use ek_worker, only: worker_t, make_worker
+   use ek_sweep_table, only: sweep_columns
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_rig, only: mount
+   use ek_table, only: name_length
    implicit none(type, external)
    private
-   public :: expand_factors
+   public :: expand_factors, expand_columns
 
 contains
 
@@ -48,6 +56,48 @@ contains
       study%settings%pairs = reshape(place(pack(study%settings%pairs, .true.)), shape(study%settings%pairs))
       call move_alloc(factors, study%factors)
    end subroutine expand_factors
+
+   !> Replaces columns with `*` by those of the results that fit, except the number of the state, the swept value (it is written
+   !> anyway) and `converged`.
+   subroutine expand_columns(study, deck, error)
+      type(study_t), intent(inout) :: study
+      type(deck_t), intent(in) :: deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck, or as make_worker
+      type(worker_t) :: worker
+      type(suspension_t) :: suspension
+      type(case_t) :: case
+      character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
+      character(name_length), allocatable :: heads(:)
+      character(word_length), allocatable :: columns(:)
+      integer :: c, k, before
+
+      if (.not. any(index(study%columns, '*') > 0)) return
+      call make_worker(deck, [study%case], worker, error)
+      if (allocated(error)) return
+      call mount(worker%suspension, worker%cases(1)%case, suspension, case)
+      call sweep_columns(suspension, case, heads)
+      allocate (columns(0))
+      do c = 1, size(study%columns)
+         before = size(columns)
+         if (index(study%columns(c), '*') == 0) call add(study%columns(c))
+         do k = 1, size(heads)
+            if (any(heads(k) == never)) cycle
+            if (index(study%columns(c), '*') > 0 .and. is_like(trim(heads(k)), trim(study%columns(c)))) call add(heads(k))
+         end do
+         if (size(columns) > before .or. any(columns == study%columns(c))) cycle
+         call fail(error, exit_deck, study%where//': columns: the results have no column like '//quoted(trim(study%columns(c))))
+         return
+      end do
+      call move_alloc(columns, study%columns)
+
+   contains
+
+      subroutine add(name)
+         character(*), intent(in) :: name
+         if (.not. any(columns == name)) columns = [character(word_length) :: columns, name]
+      end subroutine add
+
+   end subroutine expand_columns
 
    !> The factors of one path.
    subroutine add_each(design, given, path_text, factors)

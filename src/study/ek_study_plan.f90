@@ -21,6 +21,7 @@ module ek_study_plan
    integer, parameter :: max_designs = 2000000000
    integer, parameter :: usual_chunks = 400       !! of a large study
    integer, parameter :: min_chunk = 50, max_chunk = 5000       !! designs
+   integer, parameter :: most_numbers = 4000000   !! of the curves of a chunk: 32 MB in each thread
 
    !> What all workers of a study share.
    type :: study_plan_t
@@ -53,10 +54,11 @@ contains
       if (allocated(error)) return
       plan%designs = int(designs_of(plan%sampler))
       plan%chunk = study%chunk
-      if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, min_chunk), max_chunk)
-      plan%chunks = (plan%designs + plan%chunk - 1)/plan%chunk
       plan%columns = merge(size(study%columns) + 1, 0, size(study%columns) > 0)
       plan%states = designer%states
+      if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, min_chunk), max_chunk, &
+         max(most_numbers/max(plan%states*plan%columns, 1), 1))
+      plan%chunks = (plan%designs + plan%chunk - 1)/plan%chunk
       plan%units = designer%units
       plan%factor_heads = designer%heads
       allocate (plan%heads(size(designer%readings)))
