@@ -1,0 +1,104 @@
+/* elastokin.h: the elastokinematics (kinematics and compliance) of a suspension, called from C.
+ *
+ * A handle (ek_model) holds one deck with its present numbers and its last solution:
+ *
+ *     ek_model *m;
+ *     if (ek_open_file("axle.nml", &m) != EK_OK) puts(ek_message(m));      m exists also after a mistake
+ *     ek_set(m, "bushing.lca_front.kt(1)", 500.0);                         in the unit of the deck, as --set
+ *     if (ek_solve(m, "parallel_travel", 0, NULL) == EK_OK) ...
+ *     ek_close(m);
+ *
+ * Every function that can fail returns an EK_ code, the exit status of the program `elastokin` for the same fault; ek_message
+ * then gives the text, with file, line and remedy. Nothing is printed, the process is never stopped, and no state is shared:
+ * each handle may be used by one thread at a time, and different handles by different threads.
+ *
+ * Counts and positions are int, and positions begin with 0. Texts are UTF-8 and end with '\0'. A text that a function returns belongs
+ * to the handle and stays valid until the next call with this handle. Numbers are in the units of the deck (parameters), in the
+ * unit that ends the name of their column (results), or SI (compliance); missing numbers are NaN. Signs and frames: input/QUANTITIES.md.
+ *
+ * Compatibility: functions and codes of this file keep names, arguments and meaning as long as the SONAME (libelastokin.so.0)
+ * stays. New functions may be added; their symbols then carry the version in which they were added. */
+#ifndef ELASTOKIN_H
+#define ELASTOKIN_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ek_model ek_model;
+
+enum {
+  EK_OK = 0,
+  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside its range; a null pointer */
+  EK_DECK = 2,        /* mistakes of the deck, or a value outside its legal range: all of them in the message */
+  EK_MODEL = 3,       /* a mechanism, or redundant constraints: nothing was solved */
+  EK_CONVERGENCE = 4, /* some states did not converge: their rows have converged = 0 and NaN; the others are good */
+  EK_FILE = 5         /* a file cannot be read, or memory does not suffice */
+};
+
+/* ---- the library ---- */
+const char *ek_version(void);                       /* "0.2.0" */
+
+/* ---- a model ---- */
+int ek_open_file(const char *path, ek_model **model);                       /* reads a deck */
+int ek_open_text(const char *text, const char *name, ek_model **model);     /* name: for messages; its folder is that of included files */
+void ek_close(ek_model *model);                     /* NULL is allowed */
+const char *ek_message(ek_model *model);            /* of the last call; "" if it succeeded */
+const char *ek_name(ek_model *model);               /* of the model */
+const char *ek_checksum(ek_model *model);           /* of the deck with its present numbers, 16 hexadecimal digits */
+int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
+
+/* ---- parameters: every number of the deck ---- */
+int ek_parameter_count(ek_model *model);
+const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
+const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" without dimension */
+int ek_parameter_is_given(ek_model *model, int k);           /* 1: the deck gives it; 0: it has its default */
+int ek_parameter_twin(ek_model *model, int k);               /* on a mirrored axle: position of the same number on the left side; -1: none */
+int ek_get_at(ek_model *model, int k, double *value);
+int ek_set_at(ek_model *model, int k, double value);
+int ek_get_all(ek_model *model, int n, double *values);      /* n must be ek_parameter_count */
+int ek_set_all(ek_model *model, int n, const double *values);
+int ek_get(ek_model *model, const char *path, double *value);       /* NaN if the path leads to several different numbers */
+int ek_set(ek_model *model, const char *path, double value);        /* path as --set: both sides of a mirrored axle, * for any letters */
+int ek_set_text(ek_model *model, const char *path, const char *text);  /* "*1.1", "+2", or a word */
+int ek_reset(ek_model *model);                      /* all numbers and texts as opened */
+
+/* ---- cases: those of the deck, then the standard tests that it does not have ---- */
+int ek_case_count(ek_model *model);
+const char *ek_case_name(ek_model *model, int k);
+int ek_case_is_of_deck(ek_model *model, int k);
+
+/* ---- solving; the results stay until the next solution ---- */
+int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
+                                                    /* name NULL or "": the first case. n_columns 0: all columns; otherwise `state`,
+                                                       `factor`, these (in the order of the program's tables), and the last columns on convergence */
+int ek_row_count(ek_model *model);                  /* states of the last solution; 0 without */
+int ek_column_count(ek_model *model);
+const char *ek_column_name(ek_model *model, int k);          /* "left_toe_deg" */
+const char *ek_column_unit(ek_model *model, int k);          /* "deg" */
+const char *ek_column_title(ek_model *model, int k);         /* "Toe"; "" if it has none */
+const char *ek_column_sign(ek_model *model, int k);          /* "+ toe-in"; "" if it has none */
+int ek_values(ek_model *model, int n, double *values);       /* n = rows x columns; row after row */
+int ek_column_values(ek_model *model, const char *name, int n, double *values);   /* n = rows */
+int ek_remark_count(ek_model *model);               /* notes, warnings and failures of the last solution */
+const char *ek_remark(ek_model *model, int k);
+const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
+
+/* compliance matrix at a state of the last solution: 6 x wheels squared, row after row: rows displacements and rotations of each
+ * wheel centre (x y z [m], rx ry rz [rad]), columns the loads there (fx fy fz [N], mx my mz [N m]); frame of the deck;
+ * the vertical force on all wheels is held */
+int ek_compliance(ek_model *model, int row, int n, double *values);
+
+/* ---- key numbers, as in key_numbers.csv of the report ---- */
+/* the numbers with these names; only the tests that they need are solved. On an axle a name begins with left_ or right_, unless the
+ * number is one of the axle. The last solution (ek_values) is not changed. */
+int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
+int ek_number_count(ek_model *model);               /* all names; solves nothing, so one of them may have no value */
+const char *ek_number_name(ek_model *model, int k);
+const char *ek_number_unit(ek_model *model, int k);
+const char *ek_number_definition(ek_model *model, int k);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
