@@ -1,7 +1,7 @@
 """black_box.py DECK: the fit of dakota/dakota.in by scipy, with one process per design in place of the package.
 
 For optimisers that know programs and files only: the values go into a copy of dakota/settings.template, the key numbers come from a file with
-lines `value name`. A design costs the start of a program and the reading of the deck in addition; least_squares.py does without.
+lines `value name`. A design costs the start of a program and the reading of the deck in addition; fit_by_scipy.py does without.
 """
 
 import subprocess
