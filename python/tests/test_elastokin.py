@@ -92,11 +92,12 @@ class Numbers(unittest.TestCase):
         self.assertNotIn("bushing.no_such.kt(1)", self.model)
         self.assertIn(PATH, self.model)
 
-    def test_a_value_outside_its_range_is_a_deck_error_and_changes_nothing(self) -> None:
-        before = self.model.x
-        with self.assertRaises(elastokin.DeckError):
+    def test_a_value_outside_its_range_is_a_deck_error(self) -> None:
+        with self.assertRaisesRegex(elastokin.DeckError, "radius"):
             self.model["wheel.left.radius"] = -1
-        np.testing.assert_array_equal(self.model.x, before)
+            self.model.solve("parallel_travel")
+        self.model.reset()
+        self.assertTrue(self.model.solve("parallel_travel", ["left_toe_deg"]).converged)
 
     def test_deleting_takes_a_change_back_and_keeps_the_others(self) -> None:
         before = self.model.checksum
@@ -182,10 +183,9 @@ class Solving(unittest.TestCase):
         self.assertEqual(self.model.solve(columns=["left_toe_deg"]).case, "parallel_travel")
 
     def test_states_that_do_not_converge_are_nan_with_a_warning(self) -> None:
-        text = CORNER.read_text() + "\n&case name = 'far', load = 'vertical', from = -1.0e6, to = 0.0 /\n"
         far = AXLE.read_text().replace("&case test = 'parallel_travel', from = -80.0,   to = 80.0 /",
                                        "&case test = 'parallel_travel', from = -80.0, to = 600.0 /")
-        self.assertNotEqual(far, AXLE.read_text(), text[:0])
+        self.assertNotEqual(far, AXLE.read_text())
         with Model.from_text(far, str(AXLE)) as model:
             with self.assertWarns(elastokin.ConvergenceWarning):
                 result = model.solve("parallel_travel", columns=["left_toe_deg"])
@@ -261,6 +261,7 @@ class Copies(unittest.TestCase):
         model = Model.from_file(AXLE)
         model.x = model.x * 1.0
         model[PATH] = 500
+        model["spring.coil.rate"] = "*1.1"
         model["spring.coil.rate"] = "*1.1"
         return model
 

@@ -15,6 +15,7 @@ _TEXTS = POINTER(c_char_p)
 # name: (result, arguments)
 _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_version": (c_char_p, []),
+    "ek_use_one_thread": (c_int, []),
     "ek_open_file": (c_int, [c_char_p, POINTER(c_void_p)]),
     "ek_open_text": (c_int, [c_char_p, c_char_p, POINTER(c_void_p)]),
     "ek_close": (None, [c_void_p]),

@@ -19,7 +19,7 @@ from ._library import lib, text_of, texts_for
 from .parameters import Parameters
 from .result import Heading, Remark, Result
 
-# A change of the deck, in the order in which they were made: (path, number), (path, text), or ("", all numbers)
+# A change of the deck: (path, number), (path, text), or ("", all numbers). A model keeps those that a copy of it needs, in order
 _Change = tuple[str, Any]
 
 
@@ -163,23 +163,31 @@ class Model:
     def __setitem__(self, path: str, value: float | str) -> None:
         """Changes a number in the unit of the deck, as --set: on both sides of a mirrored axle, `*` in the path for any letters.
 
-        A text is a word of the deck, or a change of the number: "*1.1" scales it, "+2" adds to it.
+        A text is a word of the deck, or a change of the present number: "*1.1" scales it, "+2" adds to it. The deck is then read again, which
+        takes some milliseconds. Some values outside their legal range are only reported by the next solution.
         """
         with self._lock:
             if isinstance(value, str):
                 self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
+                self._parameters = None
             else:
                 value = float(value)
                 self._check(lib.ek_set(self._open, path.encode(), value))
-            self._changes.pop(path, None)       # the newest change comes last
-            self._changes[path] = (path, value)
+            if isinstance(value, str) and value.lstrip()[:1] in ("*", "+", "-"):     # it changes what earlier changes left
+                self._changes[path, len(self._changes)] = (path, value)
+            else:
+                self._changes.pop(path, None)       # the newest change comes last
+                self._changes[path] = (path, value)
 
     def __delitem__(self, path: str) -> None:
-        """Takes back a change that was made with this path. Raises KeyError if there is none."""
+        """Takes back the changes that were made with this path; the others stay. Raises KeyError if there are none."""
         with self._lock:
-            del self._changes[path]
-            self._check(lib.ek_reset(self._open))
-            self._make(list(self._changes.values()))
+            others = {key: change for key, change in self._changes.items() if change[0] != path}
+            if len(others) == len(self._changes):
+                raise KeyError(path)
+            self.reset()
+            self._make(list(others.values()))
+            self._changes = others
 
     def __contains__(self, path: object) -> bool:
         if not isinstance(path, str):
@@ -196,6 +204,7 @@ class Model:
         with self._lock:
             self._check(lib.ek_reset(self._open))
             self._changes.clear()
+            self._parameters = None
 
     def _make(self, changes: list[_Change]) -> None:
         """Makes changes of the deck that were made before, on this model or on the one of which this is a copy."""
@@ -250,8 +259,9 @@ class Model:
     def solve(self, case: str | None = None, columns: Sequence[str] | None = None, compliance: bool = False) -> Result:
         """Solves a case with the present numbers.
 
-        `case`: its name; without one the first case. `columns`: the columns to compute; the result has them in the order of the
-        program's tables, with the first columns `state` and `factor` and those on convergence; without names it has all columns.
+        `case`: its name; without one the first case. `columns`: the columns to compute, `*` for any letters; the
+        result has them in the order of the program's tables, with the first columns `state` and `factor` and those on convergence; without
+        names it has all columns.
         `compliance`: also compute the compliance matrix of every state, for `Result.compliance`.
 
         States that do not converge do not raise an error: the result has NaN in their rows, `converged` false, and a ConvergenceWarning is
