@@ -60,7 +60,7 @@ class Model:
         model._lock = threading.RLock()
         model._source = source
         model._text = text
-        model._changes = {}
+        model._changes = []
         model._serial = 0
         model._headings = {}
         model._parameters = None
@@ -75,7 +75,7 @@ class Model:
     _lock: threading.RLock      # held during a call and until its texts and values are copied
     _source: str                # path of the deck, or name of the text
     _text: str                  # of the deck, for copies
-    _changes: dict[object, _Change]
+    _changes: list[_Change]
     _serial: int                # of the last solution
     _headings: dict[str, Heading]
     _parameters: Parameters | None
@@ -173,20 +173,19 @@ class Model:
             else:
                 value = float(value)
                 self._check(lib.ek_set(self._open, path.encode(), value))
-            if isinstance(value, str) and value.lstrip()[:1] in ("*", "+", "-"):     # it changes what earlier changes left
-                self._changes[path, len(self._changes)] = (path, value)
-            else:
-                self._changes.pop(path, None)       # the newest change comes last
-                self._changes[path] = (path, value)
+            is_relative = isinstance(value, str) and value.lstrip()[:1] in ("*", "+", "-")
+            if not is_relative:     # earlier changes of this path have no effect any more
+                self._changes = [change for change in self._changes if change[0] != path]
+            self._changes.append((path, value))
 
     def __delitem__(self, path: str) -> None:
         """Takes back the changes that were made with this path; the others stay. Raises KeyError if there are none."""
         with self._lock:
-            others = {key: change for key, change in self._changes.items() if change[0] != path}
+            others = [change for change in self._changes if change[0] != path]
             if len(others) == len(self._changes):
                 raise KeyError(path)
             self.reset()
-            self._make(list(others.values()))
+            self._make(others)
             self._changes = others
 
     def __contains__(self, path: object) -> bool:
@@ -250,9 +249,8 @@ class Model:
             raise errors.UsageError(f"x needs one dimension, found {x.ndim}")
         with self._lock:
             self._check(lib.ek_set_all(self._open, x.size, x.ctypes.data))
-            for key in [key for key, (_, value) in self._changes.items() if not isinstance(value, str)]:
-                del self._changes[key]
-            self._changes[None] = ("", x)
+            self._changes = [change for change in self._changes if isinstance(change[1], str)]
+            self._changes.append(("", x))
 
     # ---- solving ----
 
@@ -354,7 +352,7 @@ class Model:
     def copy(self) -> Model:
         """Another model with the same text and the same changes, for instance for another thread."""
         with self._lock:
-            return _copy_of(self._text, self._source, list(self._changes.items()))
+            return _copy_of(self._text, self._source, list(self._changes))
 
     __copy__ = copy
 
@@ -363,11 +361,11 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         with self._lock:
-            return _copy_of, (self._text, self._source, list(self._changes.items()))
+            return _copy_of, (self._text, self._source, list(self._changes))
 
 
-def _copy_of(text: str, name: str, changes: list[tuple[object, _Change]]) -> Model:
+def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
     model = Model.from_text(text, name)
-    model._make([change for _, change in changes])
-    model._changes = dict(changes)
+    model._make(changes)
+    model._changes = changes
     return model
