@@ -21,16 +21,22 @@ module ek_session
    use ek_deck, only: deck_t, read_deck, parse_deck, set_value, deck_checksum
    use ek_parameter, only: choice_t, find_parameters
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
+   use ek_remark, only: remark_t, remark_list_t, note, warning
    use ek_response, only: no_column
    use ek_factor_paths, only: shortest
-   use ek_table, only: name_length
+   use ek_table, only: name_length, column_index
+   use ek_compliance, only: compliance_t, new_compliance
+   use ek_schedule, only: new_schedule
+   use ek_sweep_table, only: state_compliance
+   use ek_wheel_side, only: deck_frame
    use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
       apply_settings, needs_text
    use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, solve_case_again, &
       heads_of_case, case_number
    implicit none(type, external)
    private
-   public :: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, solve, result_of, checksum_of
+   public :: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, solve, result_of
+   public :: compliance_at, read_remark, checksum_of
 
    !> A deck, its present numbers, and its last solution.
    type :: session_t
@@ -378,6 +384,44 @@ contains
          last => session%solver%cases(session%solved)%result
       end if
    end function result_of
+
+   !> A remark on a solution: its text, and 'note', 'warning' or 'failure'.
+   subroutine read_remark(remarks, k, text, severity)
+      type(remark_list_t), intent(in) :: remarks
+      integer, intent(in) :: k
+      character(:), allocatable, intent(out) :: text, severity
+      type(remark_t) :: remark
+
+      remark = remarks%item(k)
+      text = remark%whole()
+      severity = 'failure'
+      if (remark%severity == note) severity = 'note'
+      if (remark%severity == warning) severity = 'warning'
+   end subroutine read_remark
+
+   !> The compliance matrix at the wheel centres in one row of a solution, left before right, frame of the deck: displacements
+   !> x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
+   subroutine compliance_at(result, row, c)
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: row
+      real(wp), intent(out) :: c(:, :)                     !! 6 × wheels
+      type(compliance_t) :: compliance
+      real(wp) :: arm(3, size(c, 1)/6), frame(3)
+      integer :: state, i, j
+
+      state = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
+      c = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. result%path%is_reached(state)) return
+      compliance = new_compliance(result%suspension, .false.)
+      call state_compliance(result%suspension, new_schedule(result%suspension, result%case), result%path, state, result%kkt, &
+         compliance, c, arm)
+      frame = deck_frame(result%suspension)
+      do j = 1, size(c, 2)
+         do i = 1, size(c, 1)
+            c(i, j) = frame(mod(i - 1, 3) + 1)*frame(mod(j - 1, 3) + 1)*c(i, j)
+         end do
+      end do
+   end subroutine compliance_at
 
    !> The checksum of the deck with its present numbers.
    subroutine checksum_of(session, digits, error)
