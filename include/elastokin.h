@@ -13,7 +13,7 @@
  * each handle may be used by one thread at a time, and different handles by different threads.
  *
  * Counts and positions are int, and positions begin with 0. Texts are UTF-8 and end with '\0'. A text that a function returns belongs
- * to the handle and stays valid until the next call with this handle. Numbers are in the units of the deck (parameters), in the
+ * to the handle and stays valid until 16 further texts were returned by it (ek_message: until the next call). Numbers are in the units of the deck (parameters), in the
  * unit that ends the name of their column (results), or SI (compliance); missing numbers are NaN. Signs and frames: input/QUANTITIES.md.
  *
  * Compatibility: functions and codes of this file keep names, arguments and meaning as long as the SONAME (libelastokin.so.0)
@@ -38,6 +38,8 @@ enum {
 
 /* ---- the library ---- */
 const char *ek_version(void);                       /* "0.2.0" */
+int ek_use_one_thread(void);                          /* sets the OpenBLAS of this process to one thread, if it is the LAPACK: matrices are
+                                                       small here, and threads would only wait. Other users of it are affected */
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck */
@@ -81,7 +83,7 @@ const char *ek_column_sign(ek_model *model, int k);          /* "+ toe-in"; "" i
 int ek_values(ek_model *model, int n, double *values);       /* n = rows x columns; row after row */
 int ek_column_values(ek_model *model, const char *name, int n, double *values);   /* n = rows */
 int ek_remark_count(ek_model *model);               /* notes, warnings and failures of the last solution */
-const char *ek_remark(ek_model *model, int k);
+const char *ek_remark_text(ek_model *model, int k);
 const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
 /* compliance matrix at a state of the last solution: 6 x wheels squared, row after row: rows displacements and rotations of each

@@ -20,7 +20,7 @@ module ek_case_result
    use ek_test_result, only: frame_line
    implicit none(type, external)
    private
-   public :: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of, add_header
+   public :: case_result_t, solve_options_t, solve_case, solve_mounted, add_remarks, failure_of, add_header
    public :: solved, partly_solved, not_solvable, not_mountable, out_of_memory
 
    ! outcomes
@@ -107,10 +107,9 @@ contains
          return
       end if
       call sweep(result%suspension, result%case, result%path, result%kkt, progress)
-      if (options%has_remarks) call remark_on_path(options, result)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
-      if (options%has_remarks) call closure_remarks(result%case, result%table, result%remarks)
-      if (any(result%path%failure%state > 0) .or. result%remarks%has_failed()) result%outcome = partly_solved
+      if (any(result%path%failure%state > 0)) result%outcome = partly_solved
+      if (options%has_remarks) call add_remarks(options, result)
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
 
@@ -124,6 +123,17 @@ contains
       result%outcome = outcome
       call result%remarks%add(failure, on_case, case, words)
    end subroutine give_up
+
+   !> Adds the remarks on a result that was solved without them: notes, warnings, failures. They are texts, which only one thread at
+   !> a time may make.
+   subroutine add_remarks(options, result)
+      type(solve_options_t), intent(in) :: options
+      type(case_result_t), intent(inout) :: result     !! is_run
+
+      call remark_on_path(options, result)
+      call closure_remarks(result%case, result%table, result%remarks)
+      if (result%remarks%has_failed()) result%outcome = partly_solved
+   end subroutine add_remarks
 
    !> Remarks on the states of a path.
    subroutine remark_on_path(options, result)

@@ -20,7 +20,8 @@ module ek_sweep_table
    use ek_compliance, only: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, compliance_table
+   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, compliance_table, &
+      state_compliance
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
@@ -250,11 +251,9 @@ contains
       type(kkt_t), intent(inout) :: kkt                 !! work space
       type(table_t), intent(out) :: table
       type(compliance_t) :: compliance
-      type(state_t) :: state
-      type(inputs_t) :: inputs
       type(schedule_t) :: schedule
       real(wp), allocatable :: c(:, :), scale(:), arm(:, :)
-      integer :: n, k, w, row
+      integer :: n, k, row
 
       compliance = new_compliance(suspension, .false.)
       n = 6*compliance%wheels
@@ -262,26 +261,44 @@ contains
       scale = [(deck_frame(suspension), k=1, n/3)]
       table = new_table(columns_of(suspension, compliance), count(path%is_reached))
       schedule = new_schedule(suspension, case)
-      state = design_state(suspension)
       row = 0
       do k = 1, path%states
          if (.not. path%is_reached(k)) cycle
          row = row + 1
          table%values(1, row) = k - 1
          table%values(2, row) = path%value(k)/case%unit
-         call unpack_state(path%packed(:, k), state)
-         call inputs_at(schedule, path%value(k), inputs)
-         call wheel_compliance(suspension, state, inputs, 0, kkt, compliance)
-         do w = 1, compliance%wheels
-            associate (wheel => suspension%wheels(compliance%order(w)))
-               arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
-            end associate
-         end do
-         c = compliance%response(:n, :n)
+         call state_compliance(suspension, schedule, path, k, kkt, compliance, c, arm)
          call put(c, scale, table%values(3:2 + n*n, row))
          call put(read_at_patch(load_at_patch(c, arm), arm), scale, table%values(3 + n*n:2 + 2*n*n, row))
       end do
    end subroutine compliance_table
+
+   !> The compliance matrix at one converged state of a sweep, at the wheel centres: x rearward, y right, z up
+   !> [m/N, rad/N, m/(N m), rad/(N m)]; not a number where the matrix is singular.
+   subroutine state_compliance(suspension, schedule, path, k, kkt, compliance, c, arm)
+      type(suspension_t), intent(in) :: suspension      !! on the rig
+      type(schedule_t), intent(in) :: schedule          !! of the case
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k                          !! the state
+      type(kkt_t), intent(inout) :: kkt                 !! work space
+      type(compliance_t), intent(inout) :: compliance   !! work space, of new_compliance
+      real(wp), intent(out) :: c(:, :)                  !! 6 × wheels, left before right
+      real(wp), intent(out) :: arm(:, :)                !! from each centre to the contact point of the deck [m]
+      type(state_t) :: state
+      type(inputs_t) :: inputs
+      integer :: w
+
+      state = design_state(suspension)
+      call unpack_state(path%packed(:, k), state)
+      call inputs_at(schedule, path%value(k), inputs)
+      call wheel_compliance(suspension, state, inputs, 0, kkt, compliance)
+      do w = 1, compliance%wheels
+         associate (wheel => suspension%wheels(compliance%order(w)))
+            arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
+         end associate
+      end do
+      c = compliance%response(:size(c, 1), :size(c, 2))
+   end subroutine state_compliance
 
    !> The entries of a matrix, row by row, in the units of the columns and the frame of the deck.
    pure subroutine put(c, frame, values)

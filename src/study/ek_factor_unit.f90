@@ -9,7 +9,7 @@ module ek_factor_unit
    use ek_worker, only: factor_paths_t
    implicit none(type, external)
    private
-   public :: factor_unit, unit_ending
+   public :: factor_unit, parameter_unit, unit_ending
 
    !> Keys of one unit. L, F, A: length, force and angle as the deck writes them; a blank between factors, '/' before the divisor.
    type :: unit_row_t

@@ -23,7 +23,8 @@ module ek_worker
    use ek_study, only: by_value, by_delta, not_given
    implicit none(type, external)
    private
-   public :: worker_t, worker_case_t, factor_paths_t, make_worker, change_design, put_factor, deck_value
+   public :: worker_t, worker_case_t, factor_paths_t, make_worker, change_design, examine_design, refresh_case, put_factor
+   public :: deck_value
 
    !> The parameters of one factor.
    type :: factor_paths_t
@@ -154,8 +155,6 @@ contains
       type(worker_t), intent(inout) :: worker
       logical, intent(out) :: is_done
       type(error_t), allocatable :: error
-      type(diagnosis_t) :: diagnosis
-      logical :: is_in_doubt
       integer :: f, k
 
       worker%x(:) = worker%design%parameters%x
@@ -168,17 +167,7 @@ contains
       if (is_done) call realise_cases(worker%design%plan, worker%x, worker%design%cases, is_done)
       if (.not. is_done) return
       do k = 1, size(worker%cases)
-         if (worker%cases(k)%number > 0) then
-            worker%cases(k)%case = worker%design%cases(worker%cases(k)%number)
-         else if (worker%cases(k)%case%test == 'steering') then
-            worker%cases(k)%case%to = worker%suspension%steering%travel
-            worker%cases(k)%case%from = -worker%suspension%steering%travel
-         end if
-         is_done = is_mountable(worker%cases(k)%case)
-         if (.not. is_done) return
-         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known, &
-            worker%cases(k)%result%mounted_case_t, is_in_doubt)
-         is_done = .not. is_in_doubt
+         call examine_design(worker%suspension, worker%design, worker%cases(k), is_done)
          if (.not. is_done) return
       end do
       call balance(worker%suspension, worker%cases(1)%case%tolerance, error, is_terse=.true.)
@@ -188,6 +177,37 @@ contains
          call mount_case(worker%suspension, worker%cases(k)%case, worker%cases(k)%result%mounted_case_t)
       end do
    end subroutine change_design
+
+   !> Takes the numbers of a case from a design and examines the design on the rig of the case. is_sound is .false. if the case cannot be
+   !> put on the rig, or if the design may have a defect: it must then be read from the text.
+   subroutine examine_design(suspension, design, this, is_sound)
+      type(suspension_t), intent(in) :: suspension         !! realised, not balanced
+      type(design_t), intent(in) :: design                 !! with the cases of these numbers
+      type(worker_case_t), intent(inout) :: this
+      logical, intent(out) :: is_sound
+      type(diagnosis_t) :: diagnosis
+      logical :: is_in_doubt
+
+      call refresh_case(suspension, design, this)
+      is_sound = is_mountable(this%case)
+      if (.not. is_sound) return
+      call examine_case(suspension, this%case, diagnosis, this%known, this%result%mounted_case_t, is_in_doubt)
+      is_sound = .not. is_in_doubt
+   end subroutine examine_design
+
+   !> The numbers of a case at a design: those of the deck, or of the standard test.
+   subroutine refresh_case(suspension, design, this)
+      type(suspension_t), intent(in) :: suspension
+      type(design_t), intent(in) :: design                 !! with the cases of these numbers
+      type(worker_case_t), intent(inout) :: this
+
+      if (this%number > 0) then
+         this%case = design%cases(this%number)
+      else if (this%case%test == 'steering') then
+         this%case%to = suspension%steering%travel
+         this%case%from = -suspension%steering%travel
+      end if
+   end subroutine refresh_case
 
    !> Writes a factor into x; relative to the numbers of the deck, or instead of them. The right side of an axle takes the value
    !> with its sign (ek_parameter).

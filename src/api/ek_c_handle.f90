@@ -1,0 +1,124 @@
+!> What the C interface keeps for one ek_model: a session, the last message, and the texts that were returned last.
+module ek_c_handle
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
+   use ek_error, only: error_t, exit_usage
+   use ek_text, only: str
+   use ek_session, only: session_t
+   implicit none(type, external)
+   private
+   public :: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position
+
+   integer(c_int), parameter, public :: ek_ok = 0_c_int      !! the other codes are the exit_… of ek_error
+
+   integer, parameter :: kept = 16          !! texts that stay valid, so that one call of printf may have several
+
+   type :: text_t
+      character(:), allocatable :: text
+   end type text_t
+
+   type :: handle_t
+      type(session_t) :: session
+      logical :: is_open = .false.                           !! false: the deck could not be read
+      integer(c_int) :: code = ek_ok                         !! of opening
+      character(:), allocatable :: message                   !! of the last call, with its '\0'
+      type(text_t) :: texts(kept)                            !! returned last, with their '\0'
+      integer :: last = 0                                    !! of them
+   end type handle_t
+
+   interface
+      !> Length of a C text.
+      integer(c_size_t) function strlen(text) bind(c, name='strlen')
+         import :: c_ptr, c_size_t
+         implicit none(type, external)
+         type(c_ptr), value :: text
+      end function strlen
+   end interface
+
+contains
+
+   !> The handle behind the pointer of a caller; not associated for NULL.
+   function handle_of(model) result(handle)
+      type(c_ptr), intent(in) :: model
+      type(handle_t), pointer :: handle
+
+      nullify (handle)
+      if (c_associated(model)) call c_f_pointer(model, handle)
+   end function handle_of
+
+   !> Whether a handle has a deck. If it could not be read, the message of opening stays.
+   logical function is_usable(handle)
+      type(handle_t), pointer, intent(in) :: handle
+
+      is_usable = .false.
+      if (.not. associated(handle)) return
+      is_usable = handle%is_open
+      if (is_usable) handle%message = c_null_char
+   end function is_usable
+
+   !> Keeps the message of a call; the code for the caller.
+   integer(c_int) function finish(handle, error) result(code)
+      type(handle_t), intent(inout) :: handle
+      type(error_t), allocatable, intent(in) :: error
+
+      code = ek_ok
+      handle%message = c_null_char
+      if (.not. allocated(error)) return
+      code = int(error%code, c_int)
+      handle%message = error%message//c_null_char
+   end function finish
+
+   !> The code of a wrong call.
+   integer(c_int) function refuse(handle, message) result(code)
+      type(handle_t), pointer, intent(in) :: handle
+      character(*), intent(in) :: message
+
+      code = int(exit_usage, c_int)
+      if (.not. associated(handle)) return
+      if (.not. handle%is_open) then
+         code = handle%code                                  ! the message is that of opening
+      else
+         handle%message = message//c_null_char
+      end if
+   end function refuse
+
+   !> A text for the caller.
+   type(c_ptr) function say(handle, text) result(address)
+      type(handle_t), pointer, intent(in) :: handle
+      character(*), intent(in) :: text
+
+      handle%last = mod(handle%last, kept) + 1
+      handle%texts(handle%last)%text = text//c_null_char
+      address = c_loc(handle%texts(handle%last)%text)
+   end function say
+
+   !> Whether a position from 0 is inside a list; if not, the message says so.
+   logical function is_position(handle, k, count)
+      type(handle_t), pointer, intent(in) :: handle
+      integer(c_int), intent(in) :: k
+      integer, intent(in) :: count
+
+      is_position = k >= 0 .and. k < count
+      if (is_position) return
+      !$omp critical (ek_words)
+      handle%message = 'position '//str(int(k))//' lies outside the list, which has '//str(count)//' entries'//c_null_char
+      !$omp end critical (ek_words)
+   end function is_position
+
+   !> A C text; '' for NULL.
+   subroutine from_c(address, text)
+      type(c_ptr), intent(in) :: address
+      character(:), allocatable, intent(out) :: text
+      character(kind=c_char), pointer :: letters(:)
+      integer :: length, k
+
+      length = 0
+      if (c_associated(address)) length = int(strlen(address))
+      allocate (character(length) :: text)
+      if (length == 0) return
+      call c_f_pointer(address, letters, [length])
+      do k = 1, length
+         text(k:k) = letters(k)
+      end do
+   end subroutine from_c
+
+end module ek_c_handle

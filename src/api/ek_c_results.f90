@@ -1,0 +1,245 @@
+!> The C interface (include/elastokin.h): solving a case, and the arrays of its results.
+module ek_c_results
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_text, only: quoted
+   use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
+   use ek_response, only: no_column
+   use ek_table, only: name_length, column_index
+   use ek_case_result, only: case_result_t
+   use ek_session, only: solve, result_of, compliance_at, read_remark
+   use ek_c_handle, only: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position, ek_ok
+   implicit none(type, external)
+   private
+   public :: ek_solve, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, ek_values, &
+      ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance
+
+contains
+
+   integer(c_int) function ek_solve(model, name, n_columns, columns) bind(c) result(code)
+      type(c_ptr), value :: model, name, columns
+      integer(c_int), value :: n_columns
+      type(handle_t), pointer :: handle
+      type(error_t), allocatable :: error
+      character(:), allocatable :: case, text
+      character(name_length), allocatable :: names(:)
+      type(c_ptr), pointer :: addresses(:)
+      integer :: k
+
+      handle => handle_of(model)
+      code = refuse(handle, 'n_columns must be 0 or more, and columns must not be NULL')
+      if (.not. associated(handle)) return
+      if (.not. handle%is_open .or. n_columns < 0) return
+      allocate (names(n_columns))
+      if (n_columns > 0) then
+         if (.not. c_associated(columns)) return
+         call c_f_pointer(columns, addresses, [n_columns])
+         do k = 1, n_columns
+            call from_c(addresses(k), text)
+            names(k) = text
+         end do
+      end if
+      call from_c(name, case)
+      call solve(handle%session, case, error, names)
+      code = finish(handle, error)
+   end function ek_solve
+
+   !> The last solution; not associated if there is none.
+   function solution_of(handle) result(last)
+      type(handle_t), pointer, intent(in) :: handle
+      type(case_result_t), pointer :: last
+
+      nullify (last)
+      if (is_usable(handle)) last => result_of(handle%session)
+   end function solution_of
+
+   integer(c_int) function ek_row_count(model) bind(c) result(count)
+      type(c_ptr), value :: model
+      type(case_result_t), pointer :: last
+
+      last => solution_of(handle_of(model))
+      count = 0
+      if (associated(last)) count = int(size(last%table%values, 2), c_int)
+   end function ek_row_count
+
+   integer(c_int) function ek_column_count(model) bind(c) result(count)
+      type(c_ptr), value :: model
+      type(case_result_t), pointer :: last
+
+      last => solution_of(handle_of(model))
+      count = 0
+      if (associated(last)) count = int(size(last%table%values, 1), c_int)
+   end function ek_column_count
+
+   type(c_ptr) function ek_column_name(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_column(handle_of(model), k, 'name')
+   end function ek_column_name
+
+   type(c_ptr) function ek_column_unit(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_column(handle_of(model), k, 'unit')
+   end function ek_column_unit
+
+   type(c_ptr) function ek_column_title(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_column(handle_of(model), k, 'title')
+   end function ek_column_title
+
+   type(c_ptr) function ek_column_sign(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_column(handle_of(model), k, 'sign')
+   end function ek_column_sign
+
+   !> Name, unit, title or sign of a column of the last solution.
+   type(c_ptr) function text_of_column(handle, k, what) result(address)
+      type(handle_t), pointer, intent(in) :: handle
+      integer(c_int), intent(in) :: k
+      character(*), intent(in) :: what
+      type(case_result_t), pointer :: last
+      type(quantity_t) :: quantity
+      character(:), allocatable :: name, text
+
+      address = c_null_ptr
+      last => solution_of(handle)
+      if (.not. associated(last)) return
+      if (.not. is_position(handle, k, size(last%table%columns))) return
+      !$omp critical (ek_words)
+      name = trim(last%table%columns(k + 1))
+      text = name
+      select case (what)
+      case ('unit')
+         text = unit_text(unit_of(name))
+         if (name == 'factor') text = last%case%unit_name
+         if (text == '–' .or. text == '-') text = ''
+      case ('title', 'sign')
+         if (index(name, 'left_') == 1) name = name(6:)
+         if (index(name, 'right_') == 1) name = name(7:)
+         quantity = quantity_named(name)
+         text = trim(merge(quantity%title, quantity%sign//repeat(' ', len(quantity%title) - len(quantity%sign)), what == 'title'))
+         if (quantity%title == name) text = ''
+      end select
+      address = say(handle, text)
+      !$omp end critical (ek_words)
+   end function text_of_column
+
+   integer(c_int) function ek_values(model, n, values) bind(c) result(code)
+      type(c_ptr), value :: model, values
+      integer(c_int), value :: n
+      type(handle_t), pointer :: handle
+      type(case_result_t), pointer :: last
+      real(c_double), pointer :: place(:, :)
+
+      handle => handle_of(model)
+      last => solution_of(handle)
+      code = refuse(handle, 'there is no solution')
+      if (.not. associated(last)) return
+      code = refuse(handle, 'the array must have rows x columns numbers (ek_row_count, ek_column_count)')
+      if (n /= size(last%table%values) .or. .not. c_associated(values)) return
+      call c_f_pointer(values, place, shape(last%table%values))
+      place = last%table%values
+      handle%message = achar(0)
+      code = ek_ok
+   end function ek_values
+
+   integer(c_int) function ek_column_values(model, name, n, values) bind(c) result(code)
+      type(c_ptr), value :: model, name, values
+      integer(c_int), value :: n
+      type(handle_t), pointer :: handle
+      type(case_result_t), pointer :: last
+      real(c_double), pointer :: place(:)
+      character(:), allocatable :: head
+      integer :: k
+
+      handle => handle_of(model)
+      last => solution_of(handle)
+      code = refuse(handle, 'there is no solution')
+      if (.not. associated(last)) return
+      call from_c(name, head)
+      k = column_index(last%table, head)
+      if (k == 0) then
+         !$omp critical (ek_words)
+         code = refuse(handle, no_column(head, last%table%columns))
+         !$omp end critical (ek_words)
+         return
+      end if
+      code = refuse(handle, 'the array must have as many numbers as there are rows (ek_row_count)')
+      if (n /= size(last%table%values, 2) .or. .not. c_associated(values)) return
+      call c_f_pointer(values, place, [n])
+      place = last%table%values(k, :)
+      handle%message = achar(0)
+      code = ek_ok
+   end function ek_column_values
+
+   integer(c_int) function ek_remark_count(model) bind(c) result(count)
+      type(c_ptr), value :: model
+      type(case_result_t), pointer :: last
+
+      last => solution_of(handle_of(model))
+      count = 0
+      if (associated(last)) count = int(last%remarks%count(), c_int)
+   end function ek_remark_count
+
+   type(c_ptr) function ek_remark_text(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_remark(handle_of(model), k, is_severity=.false.)
+   end function ek_remark_text
+
+   type(c_ptr) function ek_remark_severity(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_remark(handle_of(model), k, is_severity=.true.)
+   end function ek_remark_severity
+
+   !> A remark on the last solution, or its severity.
+   type(c_ptr) function text_of_remark(handle, k, is_severity) result(address)
+      type(handle_t), pointer, intent(in) :: handle
+      integer(c_int), intent(in) :: k
+      logical, intent(in) :: is_severity
+      type(case_result_t), pointer :: last
+      character(:), allocatable :: text, severity
+
+      address = c_null_ptr
+      last => solution_of(handle)
+      if (.not. associated(last)) return
+      if (.not. is_position(handle, k, last%remarks%count())) return
+      !$omp critical (ek_words)
+      call read_remark(last%remarks, k + 1, text, severity)
+      if (is_severity) text = severity
+      address = say(handle, text)
+      !$omp end critical (ek_words)
+   end function text_of_remark
+
+   integer(c_int) function ek_compliance(model, row, n, values) bind(c) result(code)
+      type(c_ptr), value :: model, values
+      integer(c_int), value :: row, n
+      type(handle_t), pointer :: handle
+      type(case_result_t), pointer :: last
+      real(c_double), pointer :: place(:, :)
+      real(wp), allocatable :: c(:, :)
+      integer :: wide
+
+      handle => handle_of(model)
+      last => solution_of(handle)
+      code = refuse(handle, 'there is no solution')
+      if (.not. associated(last)) return
+      if (.not. is_position(handle, row, size(last%table%values, 2))) return
+      wide = 6*size(last%suspension%wheels)
+      code = refuse(handle, 'the array must have (6 x wheels) squared numbers (ek_wheel_count)')
+      if (n /= wide**2 .or. .not. c_associated(values)) return
+      call c_f_pointer(values, place, [wide, wide])
+      allocate (c(wide, wide))
+      call compliance_at(last, row + 1, c)
+      place = transpose(c)
+      handle%message = achar(0)
+      code = ek_ok
+   end function ek_compliance
+
+end module ek_c_results

@@ -1,0 +1,206 @@
+!> The numbers of a design space as a caller has set them: in SI for the solver, in the units of the deck for the caller, and as the
+!> settings (as for --set) with which the deck gives the same design when it is read as text.
+!>
+!> After begin_numbers and add_path nothing here makes a text, except apply_settings.
+module ek_design_numbers
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_record, only: single
+   use ek_group, only: group_names, point_group
+   use ek_parameter, only: choice_t, parameter_path
+   use ek_reader, only: design_t
+   use ek_deck, only: deck_t, set_value
+   use ek_factor_paths, only: shortest
+   implicit none(type, external)
+   private
+   public :: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, apply_settings, needs_text
+
+   !> A path that the caller has used.
+   type :: path_setting_t
+      character(:), allocatable :: path
+      type(choice_t), allocatable :: found(:)
+      real(wp) :: value = 0.0_wp           !! in the unit of the deck
+      integer :: turn = 0                  !! order of setting; 0: not set
+   end type path_setting_t
+
+   !> Present numbers.
+   type :: design_numbers_t
+      real(wp), allocatable :: x(:)                 !! of all parameters [SI, axes of the deck]
+      real(wp), allocatable :: value(:)             !! the same in the units of the deck, as the deck or the caller wrote them
+      logical :: is_new = .false.                   !! changed since the solver took them
+      real(wp), allocatable, private :: unit(:), first_x(:), first_value(:)
+      integer, allocatable, private :: turn(:)      !! of numbers set by their position
+      type(path_setting_t), allocatable, private :: settings(:)
+      integer, private :: used = 0, turns = 0
+      integer, allocatable, private :: in_plane(:), beside_plane(:)   !! y of points of a mirrored deck: in its centre plane, on one side
+   end type design_numbers_t
+
+   real(wp), parameter :: plane = 1.0e-9_wp         !! m; as in &mirror: a point closer to y = 0 exists once
+
+contains
+
+   !> The numbers of a deck.
+   subroutine begin_numbers(design, numbers)
+      type(design_t), intent(in) :: design
+      type(design_numbers_t), intent(out) :: numbers
+      integer :: n, k
+
+      n = design%parameters%used
+      associate (list => design%parameters%list(:n), records => design%records)
+         numbers%first_x = design%parameters%x(:n)
+         numbers%unit = list%unit
+         numbers%first_value = [(written(design%parameters%x(k)/list(k)%unit), k=1, n)]
+         allocate (numbers%in_plane(0), numbers%beside_plane(0))
+         if (any(records%side /= single)) then
+            do k = 1, n
+               if (list(k)%at /= 2 .or. list(k)%key /= 'at') cycle
+               if (records(list(k)%record)%group /= group_names(point_group)) cycle
+               if (records(list(k)%record)%side == single) then
+                  numbers%in_plane = [numbers%in_plane, k]
+               else
+                  numbers%beside_plane = [numbers%beside_plane, k]
+               end if
+            end do
+         end if
+      end associate
+      allocate (numbers%settings(16))
+      call reset_numbers(numbers)
+   end subroutine begin_numbers
+
+   !> All numbers as in the deck.
+   pure subroutine reset_numbers(numbers)
+      type(design_numbers_t), intent(inout) :: numbers
+      integer :: k
+
+      numbers%x = numbers%first_x
+      numbers%value = numbers%first_value
+      if (allocated(numbers%turn)) deallocate (numbers%turn)
+      allocate (numbers%turn(size(numbers%x)), source=0)
+      do k = 1, numbers%used
+         numbers%settings(k)%turn = 0
+      end do
+      numbers%turns = 0
+      numbers%is_new = .true.
+   end subroutine reset_numbers
+
+   !> A number as a person would have written it: the conversion to SI and back changes its last digit.
+   real(wp) function written(value)
+      real(wp), intent(in) :: value
+      character(32) :: text
+
+      write (text, '(es23.14e3)') value
+      read (text, *) written
+   end function written
+
+   !> The setting of a path that was used before; 0 if it was not.
+   pure integer function place_number(numbers, path) result(k)
+      type(design_numbers_t), intent(in) :: numbers
+      character(*), intent(in) :: path
+
+      do k = numbers%used, 1, -1
+         if (numbers%settings(k)%path == path) return
+      end do
+   end function place_number
+
+   !> Adds a path; its setting is the last.
+   subroutine add_path(numbers, path, found, setting)
+      type(design_numbers_t), intent(inout) :: numbers
+      character(*), intent(in) :: path
+      type(choice_t), intent(in) :: found(:)              !! the parameters to which it leads
+      integer, intent(out) :: setting
+
+      if (numbers%used == size(numbers%settings)) numbers%settings = [numbers%settings, numbers%settings]   ! twice the size
+      numbers%used = numbers%used + 1
+      setting = numbers%used
+      numbers%settings(setting)%path = path
+      numbers%settings(setting)%found = found
+      numbers%settings(setting)%turn = 0
+   end subroutine add_path
+
+   !> Sets the numbers of a path; on the right side of an axle with their sign (ek_parameter).
+   pure subroutine put_path(numbers, setting, value)
+      type(design_numbers_t), intent(inout) :: numbers
+      integer, intent(in) :: setting
+      real(wp), intent(in) :: value                       !! in the unit of the deck
+      integer :: j
+
+      numbers%turns = numbers%turns + 1
+      associate (this => numbers%settings(setting))
+         this%value = value
+         this%turn = numbers%turns
+         do j = 1, size(this%found)
+            associate (k => this%found(j)%number)
+               numbers%value(k) = this%found(j)%sign*value
+               numbers%x(k) = (this%found(j)%sign*value)*numbers%unit(k)
+            end associate
+         end do
+      end associate
+      numbers%is_new = .true.
+   end subroutine put_path
+
+   !> Sets one number by its position.
+   pure subroutine put_at(numbers, k, value)
+      type(design_numbers_t), intent(inout) :: numbers
+      integer, intent(in) :: k
+      real(wp), intent(in) :: value                       !! in the unit of the deck
+
+      if (abs(value - numbers%value(k)) <= 0.0_wp) return
+      numbers%turns = numbers%turns + 1
+      numbers%turn(k) = numbers%turns
+      numbers%value(k) = value
+      numbers%x(k) = value*numbers%unit(k)
+      numbers%is_new = .true.
+   end subroutine put_at
+
+   !> Whether the numbers change what &mirror makes of the points: one leaves the centre plane, or reaches or crosses it. The deck must
+   !> then be read again.
+   pure logical function needs_text(numbers)
+      type(design_numbers_t), intent(in) :: numbers
+      integer :: k
+
+      needs_text = any(abs(numbers%x(numbers%in_plane)) >= plane)
+      do k = 1, size(numbers%beside_plane)
+         associate (x => numbers%x(numbers%beside_plane(k)), first => numbers%first_x(numbers%beside_plane(k)))
+            needs_text = needs_text .or. abs(x) < plane .or. x*first < 0.0_wp
+         end associate
+      end do
+   end function needs_text
+
+   !> Makes the settings in a deck, in the order in which they were made.
+   subroutine apply_settings(numbers, design, deck, error)
+      type(design_numbers_t), intent(in) :: numbers
+      type(design_t), intent(in) :: design                 !! of begin_numbers
+      type(deck_t), intent(inout) :: deck
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      integer :: turn, k, s
+
+      turn = 0
+      do
+         s = next(numbers%settings(:numbers%used)%turn, turn)
+         k = next(numbers%turn, turn)
+         if (s == 0 .and. k == 0) exit
+         if (s > 0 .and. k > 0) then
+            if (numbers%turn(k) < numbers%settings(s)%turn) s = 0
+         end if
+         if (s > 0) then
+            turn = numbers%settings(s)%turn
+            call set_value(deck, numbers%settings(s)%path, shortest(numbers%settings(s)%value), error)
+         else
+            turn = numbers%turn(k)
+            call set_value(deck, parameter_path(design%parameters%list(k), design%records), shortest(numbers%value(k)), error)
+         end if
+         if (allocated(error)) return
+      end do
+
+   contains
+
+      !> The place of the least turn beyond the last one; 0: there is none.
+      pure integer function next(turns, last)
+         integer, intent(in) :: turns(:), last
+         next = 0
+         if (any(turns > last)) next = minloc(turns, dim=1, mask=turns > last)
+      end function next
+
+   end subroutine apply_settings
+
+end module ek_design_numbers

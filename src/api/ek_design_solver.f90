@@ -1,0 +1,229 @@
+!> A deck whose numbers change: its cases are solved, one after the other, at any numbers of its design space.
+!>
+!> The first solution of a case, and any that may have a defect, makes texts (its columns, messages); the others are numbers
+!> only. gfortran keeps the length of a text that a function returns in one place for all threads: the caller lets one thread at a
+!> time make texts (solve_case_fully), and solve_case_again makes none.
+module ek_design_solver
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_model, exit_file
+   use ek_text, only: quoted
+   use ek_deck, only: deck_t
+   use ek_reader, only: design_t, read_design
+   use ek_realise, only: new_design, realise, realise_cases
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, is_mountable
+   use ek_balance, only: balance
+   use ek_diagnosis, only: diagnosis_t
+   use ek_rig, only: mount, mount_case
+   use ek_standard_tests, only: standard_tests
+   use ek_case_result, only: solve_options_t, solve_case, solve_mounted
+   use ek_examination, only: check_inputs, examine_case
+   use ek_sweep_table, only: sweep_columns
+   use ek_table, only: name_length
+   use ek_worker, only: worker_case_t, examine_design, refresh_case
+   implicit none(type, external)
+   private
+   public :: design_solver_t, begin_design_solver, read_checked, put_numbers, solve_case_fully, solve_case_again, &
+      heads_of_case, case_number
+
+   !> A deck, its present numbers, and the last solution of each case.
+   type :: design_solver_t
+      type(design_t) :: design
+      real(wp), allocatable :: x(:)                     !! present numbers [SI, axes of the deck]; changed by put_numbers
+      type(suspension_t) :: raw                         !! with these numbers, not balanced
+      type(suspension_t) :: suspension                  !! balanced
+      type(worker_case_t), allocatable :: cases(:)      !! of the deck, then the standard tests that it does not have; with all columns
+      logical, allocatable, private :: is_sound(:)      !! the case was examined at these numbers
+      logical, private :: is_realised = .false.         !! raw has these numbers
+      logical, private :: is_balanced = .false.         !! so has suspension
+   end type design_solver_t
+
+contains
+
+   !> Reads a deck and lists its cases; reports all mistakes together.
+   subroutine begin_design_solver(deck, solver, error)
+      type(deck_t), intent(in) :: deck
+      type(design_solver_t), intent(out) :: solver
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck
+      type(case_t), allocatable :: tests(:)
+      integer :: own, k
+
+      call read_checked(deck, solver%design, solver%raw, error)
+      if (allocated(error)) return
+      solver%x = solver%design%parameters%x
+      solver%design%cases%has_all = .true.
+      solver%is_realised = .true.
+      allocate (tests(0))
+      if (size(solver%raw%wheels) > 0) call standard_tests(solver%raw, solver%design%cases, tests)
+      own = size(solver%design%cases)
+      allocate (solver%cases(own + count([(is_standard(tests(k)), k=1, size(tests))])))
+      allocate (solver%is_sound(size(solver%cases)), source=.false.)
+      do k = 1, own
+         solver%cases(k)%number = k
+         solver%cases(k)%case = solver%design%cases(k)
+      end do
+      do k = 1, size(tests)
+         if (.not. is_standard(tests(k))) cycle
+         own = own + 1
+         solver%cases(own)%case = tests(k)
+      end do
+      do k = 1, size(solver%cases)
+         allocate (solver%cases(k)%observer)
+      end do
+
+   contains
+
+      !> Whether a test is not a case of the deck.
+      pure logical function is_standard(test)
+         type(case_t), intent(in) :: test
+         integer :: j
+         is_standard = .not. any([(solver%design%cases(j)%name == test%name, j=1, size(solver%design%cases))])
+      end function is_standard
+
+   end subroutine begin_design_solver
+
+   !> The design of a deck and its suspension, with all mistakes of the deck, of the tables and of the targets of its cases.
+   subroutine read_checked(deck, design, suspension, error, needs_tables)
+      type(deck_t), intent(in) :: deck
+      type(design_t), intent(out) :: design
+      type(suspension_t), intent(out) :: suspension
+      type(error_t), allocatable, intent(out) :: error
+      logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
+      type(error_t), allocatable :: fault
+      logical :: is_whole, is_good, needs_all
+
+      needs_all = .false.
+      if (present(needs_tables)) needs_all = needs_tables
+      call read_design(deck, design, error, is_whole)
+      if (is_whole) then
+         call new_design(design%plan, suspension)
+         call realise(design%plan, design%parameters%x, suspension, is_good)
+      end if
+      call check_inputs(suspension, design%cases, fault, is_whole)
+      if (.not. allocated(fault)) return
+      if (allocated(error)) then
+         error%message = error%message//new_line('a')//fault%message
+      else if (fault%code /= exit_file .or. needs_all) then
+         ! a missing file is reported by the case that needs it: the other cases can be run
+         call move_alloc(fault, error)
+      end if
+   end subroutine read_checked
+
+   !> Takes new numbers; the next solution has them.
+   pure subroutine put_numbers(x, solver)
+      real(wp), intent(in) :: x(:)                      !! of all parameters [SI, axes of the deck]
+      type(design_solver_t), intent(inout) :: solver
+
+      solver%x(:) = x
+      solver%is_realised = .false.
+      solver%is_balanced = .false.
+      solver%is_sound = .false.
+   end subroutine put_numbers
+
+   !> Solves a case at the present numbers, with full examination and messages. is_done is .false. if these numbers are outside the
+   !> range of the blueprint: then the design must be read from the text.
+   subroutine solve_case_fully(k, options, solver, is_done, error)
+      integer, intent(in) :: k
+      type(solve_options_t), intent(in) :: options
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_done
+      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: nothing was solved
+      type(diagnosis_t) :: diagnosis
+
+      call take_numbers(solver, is_done)
+      if (.not. is_done) return
+      associate (this => solver%cases(k))
+         call refresh_case(solver%raw, solver%design, this)
+         if (.not. is_mountable(this%case)) then           ! the result tells why
+            call solve_case(solver%raw, this%case, options, this%result)
+            return
+         end if
+         call examine_case(solver%raw, this%case, diagnosis, this%known)
+         if (.not. diagnosis%is_solvable()) then
+            call fail(error, exit_model, 'case '//quoted(this%case%name)//': the model cannot be solved'//new_line('a')// &
+               diagnosis%words())
+            return
+         end if
+         solver%is_sound(k) = .true.
+      end associate
+      call solve_balanced(k, options, .false., solver, error)
+   end subroutine solve_case_fully
+
+   !> Solves a case that was solved before, with the same columns, at the present numbers. No text is made. is_done is .false. if the
+   !> design must be read from the text: a number is outside its range, or the design may have a defect.
+   subroutine solve_case_again(k, options, solver, is_done)
+      integer, intent(in) :: k
+      type(solve_options_t), intent(in) :: options       !! without remarks
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_done
+      type(error_t), allocatable :: error
+
+      call take_numbers(solver, is_done)
+      if (.not. is_done) return
+      if (.not. solver%is_sound(k)) call examine_design(solver%raw, solver%design, solver%cases(k), is_done)
+      if (.not. is_done) return
+      solver%is_sound(k) = .true.
+      call solve_balanced(k, options, .true., solver, error)
+      is_done = .not. allocated(error)
+   end subroutine solve_case_again
+
+   !> Realises the suspension and the cases with the present numbers, unless this was done.
+   subroutine take_numbers(solver, is_done)
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_done
+
+      is_done = .true.
+      if (solver%is_realised) return
+      call realise(solver%design%plan, solver%x, solver%raw, is_done)
+      if (is_done) call realise_cases(solver%design%plan, solver%x, solver%design%cases, is_done)
+      solver%is_realised = is_done
+   end subroutine take_numbers
+
+   !> Balances the suspension, once for all cases (they differ in their tolerance at most), and solves a case.
+   subroutine solve_balanced(k, options, is_terse, solver, error)
+      integer, intent(in) :: k
+      type(solve_options_t), intent(in) :: options
+      logical, intent(in) :: is_terse                      !! no texts
+      type(design_solver_t), intent(inout) :: solver
+      type(error_t), allocatable, intent(out) :: error
+
+      associate (this => solver%cases(k))
+         if (.not. solver%is_balanced) then
+            solver%suspension = solver%raw
+            call balance(solver%suspension, this%case%tolerance, error, is_terse)
+            if (allocated(error)) return
+            solver%is_balanced = .true.
+         end if
+         call mount_case(solver%suspension, this%case, this%result%mounted_case_t)
+         call solve_mounted(options, this%result, observer=this%observer)
+      end associate
+   end subroutine solve_balanced
+
+   !> All columns that the table of a case has.
+   subroutine heads_of_case(k, solver, heads)
+      integer, intent(in) :: k
+      type(design_solver_t), intent(in) :: solver
+      character(name_length), allocatable, intent(out) :: heads(:)
+      type(suspension_t) :: suspension
+      type(case_t) :: case
+
+      if (is_mountable(solver%cases(k)%case)) then
+         call mount(solver%raw, solver%cases(k)%case, suspension, case)
+         call sweep_columns(suspension, case, heads)
+      else
+         call sweep_columns(solver%raw, solver%cases(k)%case, heads)
+      end if
+   end subroutine heads_of_case
+
+   !> The number of a case; '' is the first. 0: there is none of this name.
+   pure integer function case_number(name, solver) result(k)
+      character(*), intent(in) :: name
+      type(design_solver_t), intent(in) :: solver
+
+      do k = 1, size(solver%cases)
+         if (len_trim(name) == 0 .or. solver%cases(k)%case%name == name) return
+      end do
+      k = 0
+   end function case_number
+
+end module ek_design_solver
