@@ -46,7 +46,7 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_column_sign": (c_char_p, [c_void_p, c_int]),
     "ek_values": (c_int, [c_void_p, c_int, _DOUBLES]),
     "ek_remark_count": (c_int, [c_void_p]),
-    "ek_remark": (c_char_p, [c_void_p, c_int]),
+    "ek_remark_text": (c_char_p, [c_void_p, c_int]),
     "ek_remark_severity": (c_char_p, [c_void_p, c_int]),
     "ek_compliance": (c_int, [c_void_p, c_int, c_int, _DOUBLES]),
     "ek_numbers": (c_int, [c_void_p, c_int, _TEXTS, _DOUBLES]),

@@ -62,7 +62,8 @@ class Model:
         model._text = text
         model._changes = []
         model._serial = 0
-        model._headings = {}
+        model._columns = {}
+        model._paths = set()
         model._parameters = None
         try:
             model._check(code)
@@ -77,7 +78,8 @@ class Model:
     _text: str                  # of the deck, for copies
     _changes: list[_Change]
     _serial: int                # of the last solution
-    _headings: dict[str, Heading]
+    _columns: dict[tuple[str | None, ...], tuple[tuple[str, ...], tuple[Heading, ...]]]     # of a case with these columns
+    _paths: set[str]            # set as numbers since then
     _parameters: Parameters | None
 
     # ---- end ----
@@ -169,10 +171,13 @@ class Model:
         with self._lock:
             if isinstance(value, str):
                 self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
-                self._parameters = None
+                self._forget()
             else:
                 value = float(value)
                 self._check(lib.ek_set(self._open, path.encode(), value))
+                if path not in self._paths:     # the library may have read the deck again with it
+                    self._forget()
+                    self._paths.add(path)
             is_relative = isinstance(value, str) and value.lstrip()[:1] in ("*", "+", "-")
             if not is_relative:     # earlier changes of this path have no effect any more
                 self._changes = [change for change in self._changes if change[0] != path]
@@ -203,7 +208,13 @@ class Model:
         with self._lock:
             self._check(lib.ek_reset(self._open))
             self._changes.clear()
-            self._parameters = None
+            self._forget()
+
+    def _forget(self) -> None:
+        """Forgets which parameters and columns there are."""
+        self._parameters = None
+        self._columns.clear()
+        self._paths.clear()
 
     def _make(self, changes: list[_Change]) -> None:
         """Makes changes of the deck that were made before, on this model or on the one of which this is a copy."""
@@ -278,16 +289,14 @@ class Model:
             else:
                 self._check(status)
             n = lib.ek_column_count(handle)
-            names = self._texts(lib.ek_column_name, n)
             values = np.empty((lib.ek_row_count(handle), n))
             self._check(lib.ek_values(handle, values.size, values.ctypes.data))
-            headings = tuple([self._heading(k, name) for k, name in enumerate(names)])
+            names, headings = self._columns_of((case, *wanted), n)
             remarks = tuple([
-                Remark(text_of(lib.ek_remark_severity(handle, k)), text_of(lib.ek_remark(handle, k)))
+                Remark(text_of(lib.ek_remark_severity(handle, k)), text_of(lib.ek_remark_text(handle, k)))
                 for k in range(lib.ek_remark_count(handle))
             ])
-            result = Result(self, self._serial, case or self.cases[0], names, headings, values, remarks, status,
-                            text_of(lib.ek_checksum(handle)))
+            result = Result(self, self._serial, case or self.cases[0], names, headings, values, remarks, status)
             if compliance:
                 for row in range(len(values)):
                     result.compliance(row)
@@ -295,14 +304,17 @@ class Model:
             warnings.warn(message, errors.ConvergenceWarning, stacklevel=2)
         return result
 
-    def _heading(self, k: int, name: str) -> Heading:
-        """Unit, title and sign of column k of the last solution; they depend on its name alone."""
-        if name not in self._headings:
+    def _columns_of(self, key: tuple[str | None, ...], n: int) -> tuple[tuple[str, ...], tuple[Heading, ...]]:
+        """Names and headings of the n columns of the last solution; kept for the next solution of this case with these columns."""
+        if key not in self._columns or len(self._columns[key][0]) != n:
             handle = self._open
-            self._headings[name] = (
-                text_of(lib.ek_column_unit(handle, k)), text_of(lib.ek_column_title(handle, k)), text_of(lib.ek_column_sign(handle, k))
-            )
-        return self._headings[name]
+            names = self._texts(lib.ek_column_name, n)
+            headings = [
+                (text_of(lib.ek_column_unit(handle, k)), text_of(lib.ek_column_title(handle, k)), text_of(lib.ek_column_sign(handle, k)))
+                for k in range(n)
+            ]
+            self._columns[key] = names, tuple(headings)
+        return self._columns[key]
 
     def _compliance(self, serial: int, row: int) -> NDArray[np.float64]:
         with self._lock:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -28,8 +29,6 @@ class Result:
 
     case: str
     """Name of the case."""
-    checksum: str
-    """Of the deck with the numbers that were solved, 16 hexadecimal digits."""
     columns: tuple[str, ...]
     """Names of the columns; a name ends with its unit, as "left_toe_deg"."""
     values: NDArray[np.float64]
@@ -41,14 +40,13 @@ class Result:
 
     def __init__(
         self, model: Model, serial: int, case: str, columns: tuple[str, ...], headings: tuple[Heading, ...],
-        values: NDArray[np.float64], remarks: tuple[Remark, ...], status: int, checksum: str,
+        values: NDArray[np.float64], remarks: tuple[Remark, ...], status: int,
     ) -> None:
         self.case = case
         self.columns = columns
         self.values = values
         self.remarks = remarks
         self.status = status
-        self.checksum = checksum
         self._headings = headings
         self._model: Model | None = model
         self._serial = serial
@@ -111,22 +109,18 @@ class Result:
 
     def to_dataframe(self) -> Any:
         """A pandas DataFrame, one row per state; `attrs["units"]` has the units. Requires pandas."""
-        import pandas
-
-        frame = pandas.DataFrame(self.values, columns=list(self.columns))
+        frame = import_module("pandas").DataFrame(self.values, columns=list(self.columns))
         frame.attrs.update(case=self.case, units=self.units)
         return frame
 
     def to_xarray(self) -> Any:
         """An xarray Dataset over the dimension `state`; each variable has the attributes `units`, `long_name` and `sign`. Requires xarray."""
-        import xarray
-
         data: dict[str, Any] = {}
         for k, (name, heading) in enumerate(zip(self.columns, self._headings)):
             attributes = {key: text for key, text in zip(("units", "long_name", "sign"), heading) if text}
             data[name] = ("state", self.values[:, k].copy(), attributes)
         coordinate = data.pop("state", ("state", np.arange(1, len(self.values) + 1), {}))
-        dataset = xarray.Dataset(data, coords={"state": coordinate}, attrs={"case": self.case, "checksum": self.checksum})
+        dataset = import_module("xarray").Dataset(data, coords={"state": coordinate}, attrs={"case": self.case})
         return dataset.set_coords([name for name in ("factor",) if name in dataset])
 
     def __getstate__(self) -> dict[str, Any]:
