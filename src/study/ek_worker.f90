@@ -8,9 +8,9 @@ module ek_worker
    use ek_error, only: error_t, fail, exit_deck, exit_model
    use ek_text, only: quoted, nearest_name
    use ek_deck, only: deck_t
-   use ek_reader, only: design_t, read_design
+   use ek_reader, only: design_t, read_design, realise_deck
    use ek_parameter, only: choice_t, in_range
-   use ek_realise, only: new_design, realise, realise_cases
+   use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_balance, only: balance
@@ -60,7 +60,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in), optional :: increments          !! of all cases; absent or 0: those of the deck
       type(diagnosis_t) :: diagnosis
-      logical :: is_good
       integer :: k
 
       if (allocated(worker%cases)) then
@@ -72,8 +71,8 @@ contains
       if (present(increments)) then
          if (increments > 0) worker%design%cases%increments = increments
       end if
-      call new_design(worker%design%plan, worker%suspension)
-      call realise(worker%design%plan, worker%design%parameters%x, worker%suspension, is_good)
+      call realise_deck(deck%file, worker%design, worker%suspension, error)
+      if (allocated(error)) return
       worker%x = worker%design%parameters%x
       do k = 1, size(case_names)
          call take_case(deck%file, trim(case_names(k)), worker%design%cases, worker%suspension, worker%cases(k), error)
