@@ -2,7 +2,7 @@
 !>
 !> To add a key: its row here, and the reader of the group, which asks for its value.
 module ek_group
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, pi
    use ek_text, only: quoted, nearest_name
    implicit none(type, external)
    private
@@ -39,6 +39,7 @@ module ek_group
 
    ! legal ranges of a number
    integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3, share = 4
+   integer, parameter, public :: acute = 5     !! an angle, to either side: the only range whose limits have a unit
 
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
    ! group), a vector, and the rest
@@ -143,8 +144,8 @@ module ek_group
       key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar), &
-      key_t(wheel_group, 'toe', number, 1, 1, .false.), &
-      key_t(wheel_group, 'camber', number, 1, 1, .false.), &
+      key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg'), &
+      key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg'), &
       key_t(wheel_group, 'radius', number, 1, 1, .false., positive), &
       key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive), &
       key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive), &
@@ -300,7 +301,8 @@ contains
    !> Whether a number is inside a legal range.
    pure logical function is_inside(range, value)
       integer, intent(in) :: range
-      real(wp), intent(in) :: value
+      real(wp), intent(in) :: value            !! SI; in any unit if the range is not acute
+      real(wp), parameter :: right_angle = 0.5_wp*pi*(1.0_wp - 4.0_wp*epsilon(1.0_wp))     ! 90 in degrees may fall short by rounding
 
       select case (range)
       case (positive)
@@ -311,6 +313,8 @@ contains
          is_inside = abs(value) > 0.0_wp
       case (share)
          is_inside = value >= 0.0_wp .and. value <= 1.0_wp
+      case (acute)
+         is_inside = abs(value) < right_angle
       case default
          is_inside = .true.
       end select
@@ -321,7 +325,8 @@ contains
       type(key_t), intent(in) :: key
       character(*), intent(in) :: shown       !! the value as text
       character(:), allocatable :: words
-      character(*), parameter :: ranges(4) = [character(12) :: 'above 0', '0 or more', 'not be zero', '0 to 1']
+      character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
+         'above -90 and below 90']
 
       words = 'must be '//trim(ranges(key%range))//trim(key%unit)//', found '//shown
       if (key%range == not_zero) words = 'must not be zero'

@@ -9,7 +9,7 @@ module ek_namelist
    use ek_letters, only: bad_byte, visible
    use ek_quantity, only: column_of_stem
    use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, word, prose, number, whole, switch, &
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, acute, word, prose, number, whole, switch, &
       word_length, note_length
    implicit none(type, external)
    private
@@ -116,6 +116,7 @@ contains
       real(wp) :: value
 
       words = ''
+      if (key%range == acute) return         ! here the unit of angles is unknown: `slot` of ek_deck_reading examines it
       read (entry%values(k)%text, *) value
       if (is_inside(key%range, value)) return
       if (key%least == key%most) words = element_text(key, entry%first + k - 1)
