@@ -4,6 +4,7 @@
 module ek_group
    use ek_kinds, only: wp, pi
    use ek_text, only: quoted, nearest_name
+   use ek_quantity, only: name_length
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
@@ -29,9 +30,11 @@ module ek_group
    integer, parameter, public :: number = 3
    integer, parameter, public :: whole = 4     !! whole number
    integer, parameter, public :: switch = 5    !! .true. or .false.
+   integer, parameter, public :: heading = 6   !! quoted, at most name_length characters: columns of the results
 
    integer, parameter, public :: word_length = 63      !! longest name
    integer, parameter, public :: note_length = 2000    !! longest title or note
+   integer, parameter, public :: longest(heading) = [word_length, note_length, 0, 0, 0, name_length]   !! per type; 0: no text
    integer, parameter, public :: max_measures = 8     !! per coupler
    integer, parameter, public :: max_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
    integer, parameter, public :: max_paths = 50       !! of numbers that a factor moves together
@@ -195,7 +198,7 @@ module ek_group
       key_t(study_group, 'end', word, 1, 1, .false.), &
       key_t(study_group, 'methods', word, 1, 3, .false.), &
       key_t(study_group, 'increments', whole, 1, max_values, .false.), &
-      key_t(study_group, 'columns', word, 1, 20, .false.), &
+      key_t(study_group, 'columns', heading, 1, 20, .false.), &
       key_t(study_group, 'samples', whole, 1, 1, .false.), &
       key_t(study_group, 'levels', whole, 1, 1, .false.), &
       key_t(study_group, 'seed', whole, 1, 1, .false.), &
@@ -220,11 +223,11 @@ module ek_group
       key_t(correlation_group, 'factors', word, 2, 2, .true.), &
       key_t(correlation_group, 'value', number, 1, 1, .true.), &
       key_t(response_group, 'case', word, 1, 1, .false.), &
-      key_t(response_group, 'column', word, 1, 1, .true.), &
+      key_t(response_group, 'column', heading, 1, 1, .true.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'side', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
-      key_t(response_group, 'over', word, 1, 1, .false.), &
+      key_t(response_group, 'over', heading, 1, 1, .false.), &
       key_t(response_group, 'window', number, 1, 1, .false., positive), &
       key_t(response_group, 'file', prose, 1, 1, .false.), &
       key_t(response_group, 'lower', number, 1, 1, .false.), &
