@@ -6,7 +6,8 @@
 module ek_worker
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_model
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: quoted
+   use ek_group, only: did_you_mean, word_length
    use ek_deck, only: deck_t
    use ek_reader, only: design_t, read_design, realise_deck
    use ek_parameter, only: choice_t, in_range
@@ -16,7 +17,7 @@ module ek_worker
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_rig, only: mount_case
-   use ek_standard_tests, only: standard_tests
+   use ek_standard_tests, only: standard_tests, cover_rack_travel
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t
    use ek_examination, only: examine_case, known_case_t, check_inputs
@@ -98,6 +99,7 @@ contains
       type(worker_case_t), intent(inout) :: found
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: tests(:)
+      character(word_length), allocatable :: names(:)      !! of all that could be meant
       integer :: k, j
 
       if (allocated(found%observer)) deallocate (found%observer)
@@ -111,7 +113,11 @@ contains
             if (len(name) > 0 .and. tests(j)%name == name) exit
          end do
          if (j > size(tests)) then
-            call fail(error, exit_deck, file//': there is no case '//quoted(name)//suggestion(name, tests))
+            allocate (names(size(tests)))
+            do j = 1, size(tests)
+               names(j) = tests(j)%name
+            end do
+            call fail(error, exit_deck, file//': there is no case '//quoted(name)//did_you_mean(name, names))
             return
          end if
          found%number = 0
@@ -129,24 +135,8 @@ contains
       found%case = cases(k)
    end subroutine take_case
 
-   !> ' (did you mean …)', or a list, for a case that is not there.
-   function suggestion(name, tests) result(words)
-      character(*), intent(in) :: name
-      type(case_t), intent(in) :: tests(:)          !! all that could be named
-      character(:), allocatable :: words
-      character(63), allocatable :: names(:)
-      integer :: k
-
-      allocate (names(size(tests)))
-      do k = 1, size(tests)
-         names(k) = tests(k)%name
-      end do
-      words = nearest_name(name, names)
-      if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
-   end function suggestion
-
-   !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be read from the text:
-   !> a factor is no number of the design space, a value is outside its range, or the design may have a defect.
+   !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be
+   !> read from the text: a factor is no number of the design space, a value is outside its range, or the design may have a defect.
    subroutine change_design(factors, values, worker, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
@@ -169,9 +159,8 @@ contains
       do k = 1, size(worker%cases)
          if (worker%cases(k)%number > 0) then
             worker%cases(k)%case = worker%design%cases(worker%cases(k)%number)
-         else if (worker%cases(k)%case%test == 'steering') then
-            worker%cases(k)%case%to = worker%suspension%steering%travel
-            worker%cases(k)%case%from = -worker%suspension%steering%travel
+         else
+            call cover_rack_travel(worker%suspension, worker%cases(k)%case)
          end if
          is_done = is_mountable(worker%cases(k)%case)
          if (.not. is_done) return
