@@ -30,7 +30,7 @@ module ek_session
    use ek_sweep_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
    use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
-      apply_settings, needs_text
+      apply_settings
    use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, solve_case_again, &
       heads_of_case, case_number
    implicit none(type, external)
@@ -253,7 +253,7 @@ contains
       is_done = .false.
       if (session%numbers%is_new) call put_numbers(session%numbers%x, session%solver)
       session%numbers%is_new = .false.
-      if (k > 0 .and. .not. needs_text(session%numbers)) then
+      if (k > 0) then
          if (is_ready(session%prepared(k), asked)) then
             call solve_case_again(k, session%prepared(k)%options, session%solver, is_done)
             if (is_done) session%solved = k
@@ -286,15 +286,11 @@ contains
       logical :: is_done
       integer :: k
 
-      is_done = .false.
-      if (.not. needs_text(session%numbers)) then
-         call find_case(name, session%solver, session%deck%file, k, error)
-         if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
-         if (.not. allocated(error)) &
-            call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
-         if (allocated(error)) return
-         session%prepared(k)%is_ready = is_done
-      end if
+      call find_case(name, session%solver, session%deck%file, k, error)
+      if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
+      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
+      if (allocated(error)) return
+      session%prepared(k)%is_ready = is_done
       if (.not. is_done) then
          changed = session%deck
          allocate (session%other)
