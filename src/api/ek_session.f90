@@ -17,7 +17,8 @@ module ek_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, nearest_name, is_like
+   use ek_text, only: quoted, is_like
+   use ek_group, only: did_you_mean
    use ek_deck, only: deck_t, read_deck, parse_deck, set_value, deck_checksum
    use ek_parameter, only: choice_t, find_parameters
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
@@ -310,7 +311,6 @@ contains
       integer, intent(out) :: k
       type(error_t), allocatable, intent(out) :: error
       character(name_length) :: names(size(solver%cases))
-      character(:), allocatable :: hint
       integer :: j
 
       k = case_number(name, solver)
@@ -318,13 +318,7 @@ contains
       do j = 1, size(names)
          names(j) = solver%cases(j)%case%name
       end do
-      hint = nearest_name(name, names)
-      if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
-      hint = hint//'; it has'
-      do j = 1, size(names)
-         hint = hint//' '//quoted(trim(names(j)))
-      end do
-      call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//hint)
+      call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
    !> The columns that a case is to have: names with * become those that they fit.
