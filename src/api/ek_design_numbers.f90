@@ -5,15 +5,13 @@
 module ek_design_numbers
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_record, only: single
-   use ek_group, only: group_names, point_group
    use ek_parameter, only: choice_t, parameter_path
    use ek_reader, only: design_t
    use ek_deck, only: deck_t, set_value
    use ek_factor_paths, only: shortest
    implicit none(type, external)
    private
-   public :: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, apply_settings, needs_text
+   public :: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, apply_settings
 
    !> A path that the caller has used.
    type :: path_setting_t
@@ -32,10 +30,7 @@ module ek_design_numbers
       integer, allocatable, private :: turn(:)      !! of numbers set by their position
       type(path_setting_t), allocatable, private :: settings(:)
       integer, private :: used = 0, turns = 0
-      integer, allocatable, private :: in_plane(:), beside_plane(:)   !! y of points of a mirrored deck: in its centre plane, on one side
    end type design_numbers_t
-
-   real(wp), parameter :: plane = 1.0e-9_wp         !! m; as in &mirror: a point closer to y = 0 exists once
 
 contains
 
@@ -46,22 +41,10 @@ contains
       integer :: n, k
 
       n = design%parameters%used
-      associate (list => design%parameters%list(:n), records => design%records)
+      associate (list => design%parameters%list(:n))
          numbers%first_x = design%parameters%x(:n)
          numbers%unit = list%unit
          numbers%first_value = [(written(design%parameters%x(k)/list(k)%unit), k=1, n)]
-         allocate (numbers%in_plane(0), numbers%beside_plane(0))
-         if (any(records%side /= single)) then
-            do k = 1, n
-               if (list(k)%at /= 2 .or. list(k)%key /= 'at') cycle
-               if (records(list(k)%record)%group /= group_names(point_group)) cycle
-               if (records(list(k)%record)%side == single) then
-                  numbers%in_plane = [numbers%in_plane, k]
-               else
-                  numbers%beside_plane = [numbers%beside_plane, k]
-               end if
-            end do
-         end if
       end associate
       allocate (numbers%settings(16))
       call reset_numbers(numbers)
@@ -151,20 +134,6 @@ contains
       numbers%x(k) = value*numbers%unit(k)
       numbers%is_new = .true.
    end subroutine put_at
-
-   !> Whether the numbers change what &mirror makes of the points: one leaves the centre plane, or reaches or crosses it. The deck must
-   !> then be read again.
-   pure logical function needs_text(numbers)
-      type(design_numbers_t), intent(in) :: numbers
-      integer :: k
-
-      needs_text = any(abs(numbers%x(numbers%in_plane)) >= plane)
-      do k = 1, size(numbers%beside_plane)
-         associate (x => numbers%x(numbers%beside_plane(k)), first => numbers%first_x(numbers%beside_plane(k)))
-            needs_text = needs_text .or. abs(x) < plane .or. x*first < 0.0_wp
-         end associate
-      end do
-   end function needs_text
 
    !> Makes the settings in a deck, in the order in which they were made.
    subroutine apply_settings(numbers, design, deck, error)

@@ -8,8 +8,9 @@ module ek_design_solver
    use ek_error, only: error_t, fail, exit_model, exit_file
    use ek_text, only: quoted
    use ek_deck, only: deck_t
-   use ek_reader, only: design_t, read_design
-   use ek_realise, only: new_design, realise, realise_cases
+   use ek_parameter, only: all_in_range
+   use ek_reader, only: design_t, read_design, realise_deck
+   use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_balance, only: balance
@@ -90,14 +91,15 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
       type(error_t), allocatable :: fault
-      logical :: is_whole, is_good, needs_all
+      logical :: is_whole, needs_all
 
       needs_all = .false.
       if (present(needs_tables)) needs_all = needs_tables
       call read_design(deck, design, error, is_whole)
-      if (is_whole) then
-         call new_design(design%plan, suspension)
-         call realise(design%plan, design%parameters%x, suspension, is_good)
+      if (is_whole) call realise_deck(deck%file, design, suspension, fault)
+      if (allocated(fault)) then
+         is_whole = .false.
+         if (.not. allocated(error)) call move_alloc(fault, error)
       end if
       call check_inputs(suspension, design%cases, fault, is_whole)
       if (.not. allocated(fault)) return
@@ -174,7 +176,8 @@ contains
 
       is_done = .true.
       if (solver%is_realised) return
-      call realise(solver%design%plan, solver%x, solver%raw, is_done)
+      is_done = all_in_range(solver%design%parameters, solver%x)
+      if (is_done) call realise(solver%design%plan, solver%x, solver%raw, is_done)
       if (is_done) call realise_cases(solver%design%plan, solver%x, solver%design%cases, is_done)
       solver%is_realised = is_done
    end subroutine take_numbers

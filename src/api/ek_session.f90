@@ -17,7 +17,8 @@ module ek_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, nearest_name, is_like
+   use ek_text, only: quoted, is_like
+   use ek_group, only: did_you_mean
    use ek_deck, only: deck_t, read_deck, parse_deck, set_value, deck_checksum
    use ek_parameter, only: choice_t, find_parameters
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
@@ -30,7 +31,7 @@ module ek_session
    use ek_sweep_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
    use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
-      apply_settings, needs_text
+      apply_settings
    use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, solve_case_again, &
       heads_of_case, case_number
    implicit none(type, external)
@@ -253,7 +254,7 @@ contains
       is_done = .false.
       if (session%numbers%is_new) call put_numbers(session%numbers%x, session%solver)
       session%numbers%is_new = .false.
-      if (k > 0 .and. .not. needs_text(session%numbers)) then
+      if (k > 0) then
          if (is_ready(session%prepared(k), asked)) then
             call solve_case_again(k, session%prepared(k)%options, session%solver, is_done)
             if (is_done) session%solved = k
@@ -286,15 +287,11 @@ contains
       logical :: is_done
       integer :: k
 
-      is_done = .false.
-      if (.not. needs_text(session%numbers)) then
-         call find_case(name, session%solver, session%deck%file, k, error)
-         if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
-         if (.not. allocated(error)) &
-            call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
-         if (allocated(error)) return
-         session%prepared(k)%is_ready = is_done
-      end if
+      call find_case(name, session%solver, session%deck%file, k, error)
+      if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
+      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
+      if (allocated(error)) return
+      session%prepared(k)%is_ready = is_done
       if (.not. is_done) then
          changed = session%deck
          allocate (session%other)
@@ -314,7 +311,6 @@ contains
       integer, intent(out) :: k
       type(error_t), allocatable, intent(out) :: error
       character(name_length) :: names(size(solver%cases))
-      character(:), allocatable :: hint
       integer :: j
 
       k = case_number(name, solver)
@@ -322,13 +318,7 @@ contains
       do j = 1, size(names)
          names(j) = solver%cases(j)%case%name
       end do
-      hint = nearest_name(name, names)
-      if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
-      hint = hint//'; it has'
-      do j = 1, size(names)
-         hint = hint//' '//quoted(trim(names(j)))
-      end do
-      call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//hint)
+      call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
    end subroutine find_case
 
    !> The columns that a case is to have: names with * become those that they fit.

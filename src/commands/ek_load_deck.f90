@@ -1,14 +1,15 @@
 !> From a path and settings to a model: the first step of every command.
 module ek_load_deck
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model, exit_file
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
-   use ek_reader, only: build_model
+   use ek_reader, only: design_t
+   use ek_design_solver, only: read_checked
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, method_names, max_increments
    use ek_command_line, only: command_line_t
-   use ek_examination, only: examination_t, check_inputs, examine_cases
+   use ek_examination, only: examination_t, examine_cases
    implicit none(type, external)
    private
    public :: deck_settings_t, read_deck_settings, load_deck, read_changed, chosen_cases, examine_chosen
@@ -48,21 +49,11 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
       type(deck_t) :: deck
-      type(error_t), allocatable :: fault
-      logical :: is_whole, needs_all
+      type(design_t) :: design
 
-      needs_all = .false.
-      if (present(needs_tables)) needs_all = needs_tables
       call read_changed(settings%file, settings%changes, deck, error)
-      if (allocated(error)) return
-      call build_model(deck, suspension, cases, error, is_whole)
-      call check_inputs(suspension, cases, fault, is_whole)
-      if (allocated(fault) .and. allocated(error)) then
-         error%message = error%message//new_line('a')//fault%message
-      else if (allocated(fault)) then
-         ! a missing file is reported by the case that needs it: the other cases can be run
-         if (fault%code /= exit_file .or. needs_all) call move_alloc(fault, error)
-      end if
+      if (.not. allocated(error)) call read_checked(deck, design, suspension, error, needs_tables)
+      if (allocated(design%cases)) call move_alloc(design%cases, cases)
       if (allocated(error)) return
       checksum = deck_checksum(deck)
    end subroutine load_deck

@@ -7,7 +7,7 @@ module ek_deck_reading
    use ek_kinds, only: wp, units_t
    use ek_text, only: str, lower, quoted
    use ek_record, only: deck_errors_t, place_in, record_t, entry_index, is_given, place_of, line_text
-   use ek_group, only: group_names, record_head, word_length
+   use ek_group, only: group_names, record_head, word_length, key_t, find_key, is_inside, range_text, acute
    use ek_blueprint, only: blueprint_t
    use ek_parameter, only: parameters_t, add_parameter
    implicit none(type, external)
@@ -270,7 +270,22 @@ contains
       do k = 1, elements
          call add_parameter(reading%parameters, reading%records, reading%k, key, k, number_of(reading, key, usual, k)*unit, unit, &
             entry_of(reading, key, k) > 0)
+         if (reading%parameters%list(reading%parameters%used)%range == acute) call check_angle(reading, key)
       end do
    end subroutine slot
+
+   !> Reports the parameter added last if its angle is outside its range.
+   subroutine check_angle(reading, key)
+      type(deck_reading_t), intent(inout) :: reading
+      character(*), intent(in) :: key
+      type(key_t) :: row
+      logical :: is_known
+
+      associate (this => reading%parameters%list(reading%parameters%used), x => reading%parameters%x(reading%parameters%used))
+         if (is_inside(acute, x)) return
+         call find_key(reading%cards(reading%k)%group, key, row, is_known)
+         call complain(reading, key, key//' '//range_text(row, str(x/this%unit)//trim(merge(' rad', ' deg', this%unit >= 1.0_wp))))
+      end associate
+   end subroutine check_angle
 
 end module ek_deck_reading

@@ -2,8 +2,9 @@
 !>
 !> To add a key: its row here, and the reader of the group, which asks for its value.
 module ek_group
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, pi
    use ek_text, only: quoted, nearest_name
+   use ek_quantity, only: name_length
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
@@ -29,9 +30,11 @@ module ek_group
    integer, parameter, public :: number = 3
    integer, parameter, public :: whole = 4     !! whole number
    integer, parameter, public :: switch = 5    !! .true. or .false.
+   integer, parameter, public :: heading = 6   !! quoted, at most name_length characters: columns of the results
 
    integer, parameter, public :: word_length = 63      !! longest name
    integer, parameter, public :: note_length = 2000    !! longest title or note
+   integer, parameter, public :: longest(heading) = [word_length, note_length, 0, 0, 0, name_length]   !! per type; 0: no text
    integer, parameter, public :: max_measures = 8     !! per coupler
    integer, parameter, public :: max_values = 200     !! per factor; also step sizes of a study, points of a curve, names in shared
    integer, parameter, public :: max_paths = 50       !! of numbers that a factor moves together
@@ -39,6 +42,7 @@ module ek_group
 
    ! legal ranges of a number
    integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3, share = 4
+   integer, parameter, public :: acute = 5     !! an angle, to either side: the only range whose limits have a unit
 
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
    ! group), a vector, and the rest
@@ -143,8 +147,8 @@ module ek_group
       key_t(wheel_group, 'centre', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'contact', word, 1, 1, .true., role=point_group), &
       key_t(wheel_group, 'spin_vector', number, 3, 3, .false., role=polar), &
-      key_t(wheel_group, 'toe', number, 1, 1, .false.), &
-      key_t(wheel_group, 'camber', number, 1, 1, .false.), &
+      key_t(wheel_group, 'toe', number, 1, 1, .false., acute, ' deg'), &
+      key_t(wheel_group, 'camber', number, 1, 1, .false., acute, ' deg'), &
       key_t(wheel_group, 'radius', number, 1, 1, .false., positive), &
       key_t(wheel_group, 'tyre_rate', number, 1, 1, .false., positive), &
       key_t(wheel_group, 'tyre_width', number, 1, 1, .false., positive), &
@@ -194,7 +198,7 @@ module ek_group
       key_t(study_group, 'end', word, 1, 1, .false.), &
       key_t(study_group, 'methods', word, 1, 3, .false.), &
       key_t(study_group, 'increments', whole, 1, max_values, .false.), &
-      key_t(study_group, 'columns', word, 1, 20, .false.), &
+      key_t(study_group, 'columns', heading, 1, 20, .false.), &
       key_t(study_group, 'samples', whole, 1, 1, .false.), &
       key_t(study_group, 'levels', whole, 1, 1, .false.), &
       key_t(study_group, 'seed', whole, 1, 1, .false.), &
@@ -219,11 +223,11 @@ module ek_group
       key_t(correlation_group, 'factors', word, 2, 2, .true.), &
       key_t(correlation_group, 'value', number, 1, 1, .true.), &
       key_t(response_group, 'case', word, 1, 1, .false.), &
-      key_t(response_group, 'column', word, 1, 1, .true.), &
+      key_t(response_group, 'column', heading, 1, 1, .true.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'side', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
-      key_t(response_group, 'over', word, 1, 1, .false.), &
+      key_t(response_group, 'over', heading, 1, 1, .false.), &
       key_t(response_group, 'window', number, 1, 1, .false., positive), &
       key_t(response_group, 'file', prose, 1, 1, .false.), &
       key_t(response_group, 'lower', number, 1, 1, .false.), &
@@ -300,7 +304,8 @@ contains
    !> Whether a number is inside a legal range.
    pure logical function is_inside(range, value)
       integer, intent(in) :: range
-      real(wp), intent(in) :: value
+      real(wp), intent(in) :: value            !! SI; in any unit if the range is not acute
+      real(wp), parameter :: right_angle = 0.5_wp*pi*(1.0_wp - 4.0_wp*epsilon(1.0_wp))     ! 90 in degrees may fall short by rounding
 
       select case (range)
       case (positive)
@@ -311,6 +316,8 @@ contains
          is_inside = abs(value) > 0.0_wp
       case (share)
          is_inside = value >= 0.0_wp .and. value <= 1.0_wp
+      case (acute)
+         is_inside = abs(value) < right_angle
       case default
          is_inside = .true.
       end select
@@ -321,7 +328,8 @@ contains
       type(key_t), intent(in) :: key
       character(*), intent(in) :: shown       !! the value as text
       character(:), allocatable :: words
-      character(*), parameter :: ranges(4) = [character(12) :: 'above 0', '0 or more', 'not be zero', '0 to 1']
+      character(*), parameter :: ranges(5) = [character(22) :: 'above 0', '0 or more', 'not be zero', '0 to 1', &
+         'above -90 and below 90']
 
       words = 'must be '//trim(ranges(key%range))//trim(key%unit)//', found '//shown
       if (key%range == not_zero) words = 'must not be zero'

@@ -9,8 +9,7 @@ module ek_namelist
    use ek_letters, only: bad_byte, visible
    use ek_quantity, only: column_of_stem
    use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, word, prose, number, whole, switch, &
-      word_length, note_length
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, acute, longest, number, whole, heading
    implicit none(type, external)
    private
    public :: check_record, value_fault, name_fault, is_legal_name
@@ -18,8 +17,8 @@ module ek_namelist
    integer, parameter :: largest_exponent = 30      !! numbers above 1e30 are mistakes and could overflow later
    integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
    character(*), parameter :: digits = '0123456789'
-   character(*), parameter :: types(switch) = [character(17) :: 'a text in quotes', 'a text in quotes', 'a number', &
-      'a whole number', '.true. or .false.']
+   character(*), parameter :: types(heading) = [character(17) :: 'a text in quotes', 'a text in quotes', 'a number', &
+      'a whole number', '.true. or .false.', 'a text in quotes']
 
 contains
 
@@ -116,6 +115,7 @@ contains
       real(wp) :: value
 
       words = ''
+      if (key%range == acute) return         ! here the unit of angles is unknown: `slot` of ek_deck_reading examines it
       read (entry%values(k)%text, *) value
       if (is_inside(key%range, value)) return
       if (key%least == key%most) words = element_text(key, entry%first + k - 1)
@@ -175,12 +175,11 @@ contains
       fault = ''
       if (value%is_empty) then
          fault = trim(types(type))//', found nothing between the commas'
-      else if (type == word .or. type == prose) then
+      else if (longest(type) > 0) then
          if (.not. value%is_string) then
             fault = trim(types(type))//', found '//value%text//' without quotes'//quote_hint(value%text)
-         else if (len(value%text) > merge(word_length, note_length, type == word)) then
-            fault = 'at most '//str(merge(word_length, note_length, type == word))//' characters long, found '// &
-               str(len(value%text))
+         else if (len(value%text) > longest(type)) then
+            fault = 'at most '//str(longest(type))//' characters long, found '//str(len(value%text))
          else if (value%text == '') then
             fault = trim(types(type))//', found an empty text'
          else if (bad_byte(value%text) > 0) then

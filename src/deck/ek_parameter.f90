@@ -11,7 +11,8 @@ module ek_parameter
       key_t, find_key, is_inside, did_you_mean
    implicit none(type, external)
    private
-   public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range, parameter_path
+   public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range
+   public :: all_in_range, parameter_path
    public :: path_t, split_path, is_meant, change_t, changed
 
    !> One number of the deck.
@@ -230,6 +231,19 @@ contains
 
       in_range = all([(is_inside(parameters%list(found(j)%number)%range, x(found(j)%number)), j=1, size(found))])
    end function in_range
+
+   !> Whether all parameters are inside their legal ranges.
+   pure logical function all_in_range(parameters, x)
+      type(parameters_t), intent(in) :: parameters
+      real(wp), intent(in) :: x(:)
+      integer :: k
+
+      do k = 1, parameters%used
+         all_in_range = is_inside(parameters%list(k)%range, x(k))
+         if (.not. all_in_range) return
+      end do
+      all_in_range = .true.
+   end function all_in_range
 
    !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
    function parameter_path(this, records) result(path)

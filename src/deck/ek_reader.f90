@@ -27,7 +27,7 @@ module ek_reader
    use ek_case, only: case_t
    implicit none(type, external)
    private
-   public :: design_t, read_design, build_model
+   public :: design_t, read_design, realise_deck, build_model
 
    !> The order of reading: what others refer to comes first.
    integer, parameter :: reading_order(*) = [model_group, point_group, curve_group, body_group, mass_group, measure_group, &
@@ -51,16 +51,33 @@ contains
       type(error_t), allocatable, intent(out) :: error
       logical, intent(out), optional :: is_whole             !! the suspension is complete: all mistakes are in cases
       type(design_t) :: design
-      logical :: is_complete, is_good
+      type(error_t), allocatable :: fault
+      logical :: is_complete
 
       call read_design(deck, design, error, is_complete)
       call move_alloc(design%cases, cases)
-      if (is_complete) then
-         call new_design(design%plan, suspension)
-         call realise(design%plan, design%parameters%x, suspension, is_good)
+      if (is_complete) call realise_deck(deck%file, design, suspension, fault)
+      if (allocated(fault)) then
+         is_complete = .false.
+         if (.not. allocated(error)) call move_alloc(fault, error)
       end if
       if (present(is_whole)) is_whole = is_complete
    end subroutine build_model
+
+   !> The suspension with the numbers of the deck. The reader has found no mistake in them; should it have missed one, nobody gets
+   !> the unfinished model.
+   subroutine realise_deck(file, design, suspension, error)
+      character(*), intent(in) :: file                       !! of the deck
+      type(design_t), intent(in) :: design                   !! complete
+      type(suspension_t), intent(out) :: suspension
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck
+      logical :: is_good
+
+      call new_design(design%plan, suspension)
+      call realise(design%plan, design%parameters%x, suspension, is_good)
+      if (.not. is_good) call fail(error, exit_deck, file//': its numbers give no model (an axis without length, a point on '// &
+         'the wrong side, or a number outside its range); please report this deck, as a message should name the line')
+   end subroutine realise_deck
 
    !> The design space of a deck, or all mistakes of the deck.
    subroutine read_design(deck, design, error, is_whole)

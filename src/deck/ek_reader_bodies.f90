@@ -29,11 +29,12 @@ contains
       call slot(reading, 'at', reading%units%length, vector%first, default=0.0_wp, count=3)
       call new_vector(reading, vector, number)
       reading%cards(reading%k)%index = number
-      associate (stays => reading%plan%vectors(number)%stays, side => reading%records(reading%k)%side)
-         if (side == left_side) stays = off_left
-         if (side == right_side) stays = off_right
-         if (side == single .and. abs(reading%vectors(2, number)) < plane .and. any(reading%records%side /= single)) &
-            stays = in_plane
+      ! a setting of one side has the last word and may have taken its point across the plane: no range keeps it then
+      associate (stays => reading%plan%vectors(number)%stays, side => reading%records(reading%k)%side, &
+         y => reading%vectors(2, number))
+         if (side == left_side .and. y <= -plane) stays = off_left
+         if (side == right_side .and. y >= plane) stays = off_right
+         if (side == single .and. abs(y) < plane .and. any(reading%records%side /= single)) stays = in_plane
       end associate
    end subroutine read_point
 

@@ -17,7 +17,7 @@ module ek_setting
    use ek_error, only: error_t, fail, exit_usage
    use ek_record, only: record_t, entry_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
-   use ek_group, only: group_names, is_single, did_you_mean, unknown_key, word, prose, number, word_length
+   use ek_group, only: group_names, is_single, did_you_mean, unknown_key, longest, number, word_length
    use ek_namelist, only: value_fault
    use ek_parameter, only: path_t, split_path, is_meant, change_t, changed
    implicit none(type, external)
@@ -162,7 +162,7 @@ contains
       given%key = path%key
       given%first = path%first
       associate (key => path%row)
-         if ((key%type == word .or. key%type == prose) .and. scan(text, '''"') == 0) then
+         if (longest(key%type) > 0 .and. scan(text, '''"') == 0) then
             call take_bare_words()
          else
             call scan_values(trim(text), given, message)

@@ -9,7 +9,7 @@ module ek_standard_tests
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
    private
-   public :: standard_tests, test_title
+   public :: standard_tests, cover_rack_travel, test_title
 
 contains
 
@@ -69,14 +69,12 @@ contains
          this%load = ''
          this%drive = ''
          this%to = test%reach*swept_unit(test%unit)
-         if (test%action == steers) then
-            this%drive = suspension%steering%driver
-            this%to = suspension%steering%travel
-         end if
+         if (test%action == steers) this%drive = suspension%steering%driver
          this%from = -this%to
          this%increments = test%increments
          this%method = 'equilibrium'
          this%test = trim(test%name)
+         call cover_rack_travel(suspension, this)
          this%vertical = ''
          this%is_anti = is_anti
          this%offset = offset
@@ -92,6 +90,16 @@ contains
       end subroutine append
 
    end subroutine standard_tests
+
+   !> A standard test of steering goes from one end of the rack to the other; all others keep their range.
+   pure subroutine cover_rack_travel(suspension, this)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(inout) :: this
+
+      if (.not. any(rig_tests%action == steers .and. rig_tests%name == this%test)) return
+      this%to = suspension%steering%travel
+      this%from = -this%to
+   end subroutine cover_rack_travel
 
    !> A heading for a case: 'Lateral force, opposed (anti phase), 30 mm behind the patch'.
    pure function test_title(this, wheels) result(title)

@@ -1,10 +1,10 @@
-!> A response that a study reads from the table of a design, and its column name: a value, a slope, a span, an extreme, the
-!> deviation from a given curve, or a gradient of the report.
+!> A response that a study asks for: the columns that it needs, the name of its own column, and why it cannot be read from a
+!> table. Its value is read by ek_response_value.
 !>
 !> A slope has the units of the report: deg/m over wheel travel, per kN over a force, per 100 N m over a moment,
 !> otherwise those of its two columns. The column name ends with the unit.
 module ek_response
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, plural
@@ -12,30 +12,13 @@ module ek_response
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_test_result, only: test_result_t
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
-   use ek_gradient, only: gradient_t, test_gradients, slope_over_window, noise_of
+   use ek_gradient, only: gradient_t, test_gradients, noise_of
    use ek_study, only: response_t, of_names
+   use ek_response_value, only: reading_t, read_response, is_slope, find_window, rounded, place_of_column, an_rms, a_gradient, &
+      no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states
    implicit none(type, external)
    private
-   public :: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
-
-   !> A response, prepared for tables with given columns.
-   type :: reading_t
-      type(response_t) :: asked
-      character(:), allocatable :: over      !! slope: the column over which it is taken
-      character(:), allocatable :: head      !! name of its column, with its unit
-      real(wp) :: size = 1.0_wp              !! factor from the slope in units of the columns
-      real(wp) :: noise = 0.0_wp             !! gradient: change of the column over the window that counts as none
-      integer :: of = 0                      !! what is read, one of those below
-      integer :: at_column = 0, at_over = 0  !! places of the columns in the table of the first design
-      real(wp), allocatable :: curve(:, :)   !! rms: (factor, wanted value; point)
-   end type reading_t
-
-   ! what is read
-   integer, parameter :: a_value = 1, a_slope = 2, a_span = 3, a_least = 4, a_most = 5, an_rms = 6, a_gradient = 7    ! of of_names
-
-   ! why it cannot be read
-   integer, parameter :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, is_flat = 5, &
-      has_few_states = 6
+   public :: needed_columns, no_column, prepare_reading, fault_text
 
    character(*), parameter :: travel = 'wheel_travel_mm'
 
@@ -195,120 +178,6 @@ contains
       curve = table%values([x, y], :)
    end subroutine read_curve
 
-   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window around it, the
-   !> span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points.
-   subroutine read_response(reading, table, value, fault)
-      type(reading_t), intent(in) :: reading
-      type(table_t), intent(in) :: table
-      real(wp), intent(out) :: value             !! nan if there is none
-      integer, intent(out) :: fault              !! 0, or for fault_text
-      real(wp) :: at, centre, mean_x, mean_y, spread
-      integer :: points
-      real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
-      logical :: is_near(size(table%values, 2))
-      integer :: column, over, k
-
-      fault = no_fault
-      value = ieee_value(1.0_wp, ieee_quiet_nan)
-      column = place_of_column(table, reading%asked%column, reading%at_column)
-      over = 2                                   ! the factor
-      if (is_slope(reading)) over = place_of_column(table, reading%over, reading%at_over)
-      if (column == 0) fault = column_is_missing
-      if (over == 0) fault = over_is_missing
-      if (fault /= no_fault) return              ! the model of this design does not define it
-      y = table%values(column, :)
-      x = table%values(2, :)
-      select case (reading%of)
-      case (a_span)
-         value = maxval(y) - minval(y)
-      case (a_least)
-         value = minval(y)
-      case (a_most)
-         value = maxval(y)
-      case (a_gradient)
-         call slope_over_window(table%values(over, :), y, reading%asked%window, value, points)
-         if (.not. ieee_is_finite(value)) fault = merge(has_few_states, is_flat, points < 3)
-         if (fault == no_fault .and. abs(value)*reading%asked%window <= reading%noise) value = 0.0_wp
-         value = value*reading%size
-      case (an_rms)
-         spread = 0.0_wp
-         do k = 1, size(reading%curve, 2)
-            at = between(x, y, rounded(reading%curve(1, k), x))
-            if (reading%curve(1, k) < minval(x) .or. reading%curve(1, k) > maxval(x)) fault = is_outside
-            spread = spread + (at - reading%curve(2, k))**2
-         end do
-         if (fault == no_fault) value = sqrt(spread/size(reading%curve, 2))
-      case default
-         at = rounded(reading%asked%at, x)
-         if (.not. (at >= minval(x) .and. at <= maxval(x))) then
-            fault = is_outside
-            return
-         end if
-         if (reading%of == a_value) then
-            value = between(x, y, at)
-            return
-         end if
-         call find_window(reading, table, over, at, centre, is_near)
-         x = table%values(over, :)
-         if (.not. ieee_is_finite(centre)) return       ! the state did not converge, or the column is undefined there
-         if (count(is_near) < 2) then
-            fault = has_no_slope
-            return
-         end if
-         mean_x = sum(x, mask=is_near)/count(is_near)
-         mean_y = sum(y, mask=is_near)/count(is_near)
-         spread = sum((x - mean_x)**2, mask=is_near)
-         if (spread > 0.0_wp) then
-            value = reading%size*sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
-         else
-            fault = is_flat
-         end if
-      end select
-   end subroutine read_response
-
-   pure logical function is_slope(reading)
-      type(reading_t), intent(in) :: reading
-      is_slope = reading%of == a_slope .or. reading%of == a_gradient
-   end function is_slope
-
-   !> The states in the window of a slope.
-   subroutine find_window(reading, table, over, at, centre, is_near)
-      type(reading_t), intent(in) :: reading
-      type(table_t), intent(in) :: table
-      integer, intent(in) :: over                !! column over which the slope is taken
-      real(wp), intent(in) :: at
-      real(wp), intent(out) :: centre            !! of the window
-      logical, intent(out) :: is_near(:)
-      real(wp), parameter :: rounding = 1.0e-9_wp
-
-      centre = between(table%values(2, :), table%values(over, :), at)
-      is_near = ieee_is_finite(table%values(over, :))
-      where (is_near) is_near = abs(table%values(over, :) - centre) <= reading%asked%window*(1.0_wp + rounding)
-   end subroutine find_window
-
-   !> A swept value that differs from an end of the range by rounding only is that end.
-   pure real(wp) function rounded(at, x)
-      real(wp), intent(in) :: at, x(:)
-      real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
-
-      rounded = at
-      if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) rounded = minval(x)
-      if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) rounded = maxval(x)
-   end function rounded
-
-   !> The place of a column: usually that in the table of the first design.
-   pure integer function place_of_column(table, name, usual) result(place)
-      type(table_t), intent(in) :: table
-      character(*), intent(in) :: name
-      integer, intent(in) :: usual
-
-      place = usual
-      if (place >= 1 .and. place <= size(table%columns)) then
-         if (table%columns(place) == name) return
-      end if
-      place = column_index(table, name)
-   end function place_of_column
-
    !> Why a response cannot be read.
    function fault_text(reading, table, fault) result(text)
       type(reading_t), intent(in) :: reading
@@ -385,24 +254,5 @@ contains
       if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
       words = 'the results have no column '//quoted(name)//words
    end function no_column
-
-   !> y at x = at, linear between the rows; NaN outside their range.
-   pure real(wp) function between(x, y, at)
-      real(wp), intent(in) :: x(:), y(:), at
-      integer :: k
-
-      between = ieee_value(1.0_wp, ieee_quiet_nan)
-      do k = 1, size(x)
-         if (abs(x(k) - at) <= 0.0_wp) then
-            between = y(k)
-            return
-         end if
-         if (k == size(x)) exit
-         if ((x(k) - at)*(x(k + 1) - at) < 0.0_wp) then
-            between = y(k) + (y(k + 1) - y(k))*(at - x(k))/(x(k + 1) - x(k))
-            return
-         end if
-      end do
-   end function between
 
 end module ek_response

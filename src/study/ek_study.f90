@@ -6,6 +6,7 @@ module ek_study
    use ek_text, only: quoted
    use ek_checksum, only: checksum_t
    use ek_group, only: word_length, note_length
+   use ek_quantity, only: name_length
    use ek_distribution, only: new_distribution, from_tolerance, truncate, mean_of, uniform_kind, &
       triangular_kind
    use ek_sampler_kind, only: sampler_kinds, list_kind
@@ -60,7 +61,8 @@ module ek_study
       character(:), allocatable :: name, title, deck, case, plot
       integer :: kind = step_size_kind
       character(:), allocatable :: end            !! step_size: the end of the case to be compared, 'from' or 'to'
-      character(word_length), allocatable :: methods(:), columns(:)
+      character(word_length), allocatable :: methods(:)
+      character(name_length), allocatable :: columns(:)
       integer, allocatable :: increments(:)
       type(study_factor_t), allocatable :: factors(:)
       type(response_t), allocatable :: responses(:)

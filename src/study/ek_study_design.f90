@@ -15,7 +15,8 @@ module ek_study_design
    use ek_table, only: table_t, column_index, name_length
    use ek_quantity, only: head_with_unit
    use ek_study, only: study_t, not_given
-   use ek_response, only: reading_t, needed_columns, no_column, prepare_reading, read_response, fault_text
+   use ek_response, only: needed_columns, no_column, prepare_reading, fault_text
+   use ek_response_value, only: reading_t, read_response
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
    use ek_factor_unit, only: factor_unit, unit_ending
    use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest

@@ -8,7 +8,6 @@ module ek_study_each
    use ek_deck, only: deck_t
    use ek_parameter, only: choice_t, path_t, find_parameters, split_path, parameter_path
    use ek_reader, only: design_t, read_design
-   use ek_group, only: word_length
    use ek_study, only: study_t, study_factor_t, by_scale
    use ek_factor_paths, only: is_held_in_plane
    use ek_worker, only: worker_t, make_worker
@@ -68,7 +67,7 @@ contains
       type(case_t) :: case
       character(name_length), parameter :: never(3) = [character(name_length) :: 'state', 'factor', 'converged']
       character(name_length), allocatable :: heads(:)
-      character(word_length), allocatable :: columns(:)
+      character(name_length), allocatable :: columns(:)
       integer :: c, k, before
 
       if (.not. any(index(study%columns, '*') > 0)) return
@@ -94,7 +93,7 @@ contains
 
       subroutine add(name)
          character(*), intent(in) :: name
-         if (.not. any(columns == name)) columns = [character(word_length) :: columns, name]
+         if (.not. any(columns == name)) columns = [character(name_length) :: columns, name]
       end subroutine add
 
    end subroutine expand_columns

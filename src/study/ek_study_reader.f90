@@ -127,7 +127,7 @@ contains
    subroutine take_study(reading, study)
       type(deck_reading_t), intent(inout) :: reading
       type(study_t), intent(inout) :: study
-      character(word_length) :: texts(20)
+      character(word_length) :: texts(3)
       integer :: c, m
 
       if (findloc(reading%cards%group, study_group, dim=1) < reading%k) then
@@ -154,8 +154,11 @@ contains
       study%list = text_of(reading, 'list')
       call choice(reading, 'format', format_names, c)
       study%format = lower(text_of(reading, 'format'))
-      texts = texts_of(reading, 'columns', size(texts))
-      study%columns = pack(texts, texts /= '')
+      allocate (study%columns(value_count(reading, 'columns')))
+      do c = 1, size(study%columns)
+         study%columns(c) = raw(reading, 'columns', c)
+      end do
+      study%columns = pack(study%columns, study%columns /= '')
       study%increments = [(whole_of(reading, 'increments', 0, m), m=1, value_count(reading, 'increments'))]
       if (any(study%increments < 1 .or. study%increments > max_increments)) call complain(reading, 'increments', &
          'increments must be 1 to '//str(max_increments))

@@ -6,17 +6,18 @@
 module ek_worker
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_model
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: quoted
+   use ek_group, only: did_you_mean, word_length
    use ek_deck, only: deck_t
-   use ek_reader, only: design_t, read_design
+   use ek_reader, only: design_t, read_design, realise_deck
    use ek_parameter, only: choice_t, in_range
-   use ek_realise, only: new_design, realise, realise_cases
+   use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_rig, only: mount_case
-   use ek_standard_tests, only: standard_tests
+   use ek_standard_tests, only: standard_tests, cover_rack_travel
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t
    use ek_examination, only: examine_case, known_case_t, check_inputs
@@ -61,7 +62,6 @@ contains
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in), optional :: increments          !! of all cases; absent or 0: those of the deck
       type(diagnosis_t) :: diagnosis
-      logical :: is_good
       integer :: k
 
       if (allocated(worker%cases)) then
@@ -73,8 +73,8 @@ contains
       if (present(increments)) then
          if (increments > 0) worker%design%cases%increments = increments
       end if
-      call new_design(worker%design%plan, worker%suspension)
-      call realise(worker%design%plan, worker%design%parameters%x, worker%suspension, is_good)
+      call realise_deck(deck%file, worker%design, worker%suspension, error)
+      if (allocated(error)) return
       worker%x = worker%design%parameters%x
       do k = 1, size(case_names)
          call take_case(deck%file, trim(case_names(k)), worker%design%cases, worker%suspension, worker%cases(k), error)
@@ -100,6 +100,7 @@ contains
       type(worker_case_t), intent(inout) :: found
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: tests(:)
+      character(word_length), allocatable :: names(:)      !! of all that could be meant
       integer :: k, j
 
       if (allocated(found%observer)) deallocate (found%observer)
@@ -113,7 +114,11 @@ contains
             if (len(name) > 0 .and. tests(j)%name == name) exit
          end do
          if (j > size(tests)) then
-            call fail(error, exit_deck, file//': there is no case '//quoted(name)//suggestion(name, tests))
+            allocate (names(size(tests)))
+            do j = 1, size(tests)
+               names(j) = tests(j)%name
+            end do
+            call fail(error, exit_deck, file//': there is no case '//quoted(name)//did_you_mean(name, names))
             return
          end if
          found%number = 0
@@ -131,24 +136,8 @@ contains
       found%case = cases(k)
    end subroutine take_case
 
-   !> ' (did you mean …)', or a list, for a case that is not there.
-   function suggestion(name, tests) result(words)
-      character(*), intent(in) :: name
-      type(case_t), intent(in) :: tests(:)          !! all that could be named
-      character(:), allocatable :: words
-      character(63), allocatable :: names(:)
-      integer :: k
-
-      allocate (names(size(tests)))
-      do k = 1, size(tests)
-         names(k) = tests(k)%name
-      end do
-      words = nearest_name(name, names)
-      if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
-   end function suggestion
-
-   !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be read from the text:
-   !> a factor is no number of the design space, a value is outside its range, or the design may have a defect.
+   !> The design with these values of the factors, from the numbers alone, with its cases on the rig. is_done is .false. if it must be
+   !> read from the text: a factor is no number of the design space, a value is outside its range, or the design may have a defect.
    subroutine change_design(factors, values, worker, is_done)
       type(factor_paths_t), intent(in) :: factors(:)
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
@@ -203,9 +192,8 @@ contains
 
       if (this%number > 0) then
          this%case = design%cases(this%number)
-      else if (this%case%test == 'steering') then
-         this%case%to = suspension%steering%travel
-         this%case%from = -suspension%steering%travel
+      else
+         call cover_rack_travel(suspension, this%case)
       end if
    end subroutine refresh_case
 
