@@ -65,17 +65,21 @@ module ek_command
       option_t('run', '--increments N', 'increments of the whole range; overrides the deck'), &
       option_t('run', '--set path=value', 'replace a value of the deck, with the same checks; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
+      option_t('run', '--set-file FILE', 'settings from a file, one per line: path = value; mistakes with file and line'), &
+      option_t('run', '--responses a,b', 'only these key numbers of the report (names as in key_numbers.csv), no other files'), &
+      option_t('run', '--results FILE', 'where --responses are written, one `value name` line each (default: -)'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
+      option_t('check', '--set-file FILE', ''), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
       'travel=15 (mm) roll=1 (deg) force=1000 (N) torque=100 (N m) rack=10 (mm) wheel=20 (deg)'), &
       option_t('report', '--case NAME', 'run this test only'), &
       option_t('report', '--method M', 'as for run'), option_t('report', '--increments N', 'as for run'), &
-      option_t('report', '--set path=value', 'as for run'), &
+      option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
       option_t('report', '--no-plots', no_plots_help), &
       option_t('report', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &

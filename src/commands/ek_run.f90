@@ -16,6 +16,7 @@ module ek_run
    use ek_gnuplot, only: figure_t, run_figures, draw_figures
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
+   use ek_run_numbers, only: run_numbers
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
    implicit none(type, external)
    private
@@ -43,6 +44,10 @@ contains
       integer :: k, failed, code
 
       call read_settings(line, settings, error)
+      if (line%has('--responses') .and. .not. allocated(error)) then
+         call run_numbers(line, settings, error)
+         return
+      end if
       if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
       if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
       if (allocated(error)) return
@@ -91,13 +96,31 @@ contains
       call read_deck_settings(line, settings)
       settings%has_plots = line%has('--plot')
       settings%has_compliance = line%has('--compliance')
-      if (settings%out /= '-') return
+      call refuse_with_responses(line, error)
+      if (settings%out /= '-' .or. allocated(error)) return
       if (settings%has_plots) then
          call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
       else if (settings%has_compliance) then
          call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
       end if
    end subroutine read_settings
+
+   !> Refuses options about tables and figures where only key numbers are written.
+   subroutine refuse_with_responses(line, error)
+      type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: others(*) = [character(12) :: '--out', '--plot', '--compliance', '--columns', '--json']
+      integer :: k
+
+      if (.not. line%has('--responses')) then
+         if (line%has('--results')) call fail(error, exit_usage, '--results needs --responses: the names of key numbers')
+         return
+      end if
+      do k = size(others), 1, -1
+         if (line%has(trim(others(k)))) call fail(error, exit_usage, &
+            '--responses writes key numbers only, and cannot be used with '//trim(others(k)))
+      end do
+   end subroutine refuse_with_responses
 
    !> Refuses a case whose table would have the file name of another case's compliance matrix.
    subroutine refuse_double_files(cases, error)
