@@ -14,7 +14,7 @@ module ek_named_numbers
    use ek_rig_test, only: rig_test_t, rig_test, moves_heights, rolls, steers, of_one_wheel
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_rig, only: mounted_case_t, mount_case
+   use ek_rig, only: mount, mount_case
    use ek_table, only: name_length, new_table
    use ek_sweep_table, only: observer_t, sweep_columns
    use ek_case_result, only: case_result_t, solve_options_t, solve_mounted
@@ -24,7 +24,7 @@ module ek_named_numbers
    use ek_gradient_definition, only: windows_t
    use ek_planned_test, only: planned_tests
    use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design
-   use ek_key_numbers, only: list_key_numbers, number_heads
+   use ek_key_numbers, only: list_key_numbers, number_heads, has_wanted_gradients
    implicit none(type, external)
    private
    public :: named_numbers_t, prepare_numbers, read_numbers, list_numbers, needed_tests, lost_states
@@ -61,45 +61,69 @@ contains
       type(error_t), allocatable, intent(out) :: error  !! exit_usage: all unknown names, with suggestions
       type(key_number_t), allocatable :: listed(:)
       type(test_result_t), allocatable :: tests(:)
-      character(name_length), allocatable :: heads(:, :), known(:)
-      real(wp), allocatable :: units(:)
-      character(:), allocatable :: hint
-      type(message_list_t) :: mistakes
+      character(name_length), allocatable :: heads(:, :)
+      logical :: is_complete
       integer :: k, number, wheel
 
-      call list_all(suspension, cases, tests, listed, units)
-      allocate (heads(2, size(listed)))
-      do k = 1, size(listed)
-         call number_heads(listed(k), size(suspension%wheels) > 1, heads(:, k))
-      end do
+      call list_all(suspension, cases, tests, listed, heads, stems_of(names))
       allocate (numbers%numbers(size(names)), numbers%wheel(size(names)), numbers%cases(size(cases)))
       do k = 1, size(numbers%cases)
          allocate (numbers%cases(k)%options%columns(0))
          numbers%cases(k)%options%has_remarks = .false.
          numbers%cases(k)%options%reach = 0.0_wp
       end do
+      is_complete = .true.
+      do k = 1, size(names)
+         call find(names(k), heads, number, wheel)
+         is_complete = is_complete .and. number > 0
+         if (number == 0) cycle
+         numbers%numbers(k) = listed(number)
+         numbers%wheel(k) = wheel
+         call add_needs(listed(number), suspension, cases, tests, numbers%cases)
+      end do
+      if (.not. is_complete) call explain(names, suspension, cases, error)
+   end subroutine prepare_numbers
+
+   !> The message on unknown names.
+   subroutine explain(names, suspension, cases, error)
+      character(*), intent(in) :: names(:)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: cases(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(key_number_t), allocatable :: listed(:)
+      type(test_result_t), allocatable :: tests(:)
+      character(name_length), allocatable :: heads(:, :), known(:)
+      character(:), allocatable :: hint
+      type(message_list_t) :: mistakes
+      integer :: k, number, wheel
+
+      call list_all(suspension, cases, tests, listed, heads)
       known = pack(heads, heads /= '')
       do k = 1, size(names)
          call find(names(k), heads, number, wheel)
-         if (number > 0) then
-            numbers%numbers(k) = listed(number)
-            numbers%wheel(k) = wheel
-            call add_needs(listed(number), suspension, cases, tests, units, numbers%cases)
-            cycle
-         end if
+         if (number > 0) cycle
          hint = nearest_name(trim(names(k)), known)
-         if (hint == '' .and. any(known == 'left_'//names(k))) hint = 'left_'//trim(names(k))
+         if (any(known == 'left_'//names(k))) hint = 'left_'//trim(names(k))
          if (hint /= '') hint = ' (did you mean '//quoted(hint)//'?)'
          call mistakes%add('there is no key number '//quoted(trim(names(k)))//hint)
       end do
-      if (mistakes%count() == 0) return
       if (size(known) == 0) then
          call mistakes%add('the model has no key numbers: it has no wheel')
       else
          call mistakes%add('key_numbers.csv of the report has all names')
       end if
       call fail(error, exit_usage, mistakes%text())
-   end subroutine prepare_numbers
+   end subroutine explain
+
+   !> Names without left_ and right_.
+   pure function stems_of(names) result(stems)
+      character(*), intent(in) :: names(:)
+      character(name_length) :: stems(size(names))
+
+      stems = names
+      where (index(names, 'left_') == 1) stems = stems(:) (6:)
+      where (index(names, 'right_') == 1) stems = stems(:) (7:)
+   end function stems_of
 
    !> The place of a name; number 0 if there is none.
    pure subroutine find(name, heads, number, wheel)
@@ -122,62 +146,60 @@ contains
       type(message_list_t), intent(out) :: names, units, definitions
       type(key_number_t), allocatable :: listed(:)
       type(test_result_t), allocatable :: tests(:)
-      character(name_length) :: heads(2)
-      real(wp), allocatable :: sizes(:)
+      character(name_length), allocatable :: heads(:, :)
       integer :: k, wheel
 
-      call list_all(suspension, cases, tests, listed, sizes)
+      call list_all(suspension, cases, tests, listed, heads)
       do k = 1, size(listed)
-         call number_heads(listed(k), size(suspension%wheels) > 1, heads)
          do wheel = 1, 2
-            if (heads(wheel) == '') cycle
-            call names%add(trim(heads(wheel)))
+            if (heads(wheel, k) == '') cycle
+            call names%add(trim(heads(wheel, k)))
             call units%add(listed(k)%unit)
             call definitions%add(listed(k)%definition//'; '//listed(k)%condition)
          end do
       end do
    end subroutine list_numbers
 
-   !> The tests with the heads of their tables, and the numbers that they may have.
-   subroutine list_all(suspension, cases, tests, listed, units)
+   !> The tests with the heads of their tables, and the numbers that they may have. The rig adds nothing to what key numbers are read
+   !> from, so that all tests have the heads of the first.
+   subroutine list_all(suspension, cases, tests, listed, names, wanted)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
       type(test_result_t), allocatable, intent(out) :: tests(:)
       type(key_number_t), allocatable, intent(out) :: listed(:)
-      real(wp), allocatable, intent(out) :: units(:)     !! SI value of the unit of each swept value
+      character(name_length), allocatable, intent(out) :: names(:, :)   !! (wheel, number): '' if a wheel does not have it
+      character(*), intent(in), optional :: wanted(:)    !! of names without left_ and right_; absent: all
       type(case_t), allocatable :: all(:)
       type(gradient_t), allocatable :: gradients(:)
-      type(mounted_case_t) :: mounted
       character(name_length), allocatable :: heads(:)
       integer :: k
 
-      allocate (all(size(cases)), units(size(cases)))
+      allocate (all(size(cases)))
       all(:) = cases
-      units = 1.0_wp
       call planned_tests(suspension, all, tests)
       allocate (gradients(0))
       do k = 1, size(all)
-         allocate (heads(0))
-         if (is_mountable(all(k))) then
-            call mount_case(suspension, all(k), mounted)
-            call sweep_columns(mounted%suspension, mounted%case, heads)
-            units(k) = mounted%case%unit
-         end if
+         if (k == 1) call sweep_columns(suspension, all(k), heads)
          tests(k)%table = new_table(heads, 0)
-         deallocate (heads)
          if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+         if (present(wanted)) then
+            if (.not. has_wanted_gradients(tests(k)%kind, wanted)) cycle
+         end if
          call test_gradients(tests(k), windows_t(), gradients)
       end do
-      call list_key_numbers(tests, gradients, listed)
+      call list_key_numbers(tests, gradients, listed, wanted)
+      allocate (names(2, size(listed)))
+      do k = 1, size(listed)
+         call number_heads(listed(k), size(suspension%wheels) > 1, names(:, k))
+      end do
    end subroutine list_all
 
    !> Adds what a number needs of its cases.
-   subroutine add_needs(number, suspension, cases, tests, units, needed)
+   subroutine add_needs(number, suspension, cases, tests, needed)
       type(key_number_t), intent(in) :: number
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: cases(:)
       type(test_result_t), intent(in) :: tests(:)
-      real(wp), intent(in) :: units(:)                  !! SI value of the unit of each swept value
       type(needed_case_t), intent(inout) :: needed(:)
       integer :: k, wheel
       real(wp) :: reach
@@ -192,7 +214,7 @@ contains
             reach = huge(reach)
             if (number%how == at_design) reach = 0.0_wp
             if (.not. needs_path(number%how) .and. number%how /= at_design) &
-               reach = reach_of(suspension, cases(source%test), source, tests(source%test), units(source%test))
+               reach = reach_of(suspension, cases(source%test), source, tests(source%test))
             this%options%reach = max(this%options%reach, reach)
          end associate
       end do
@@ -211,12 +233,13 @@ contains
 
    !> The swept value beyond which no state lies in the window of a gradient. Only where its abscissa is the swept value, up to
    !> a factor, by the way in which the test holds the wheels; otherwise all states are needed.
-   pure real(wp) function reach_of(suspension, case, source, test, unit) result(reach)
+   pure real(wp) function reach_of(suspension, case, source, test) result(reach)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(key_source_t), intent(in) :: source
       type(test_result_t), intent(in) :: test
-      real(wp), intent(in) :: unit                      !! SI value of that of the swept value
+      type(suspension_t) :: on_rig
+      type(case_t) :: this
       type(rig_test_t) :: rig
       character(name_length) :: over
 
@@ -225,7 +248,9 @@ contains
       over = source%over(1)
       if (over == '') over = source%over(2)
       if (over == 'factor') then
-         if (abs(test%factor_size) > 0.0_wp) reach = margin*source%half/abs(test%factor_size)*unit
+         if (.not. (abs(test%factor_size) > 0.0_wp .and. is_mountable(case))) return
+         call mount(suspension, case, on_rig, this)
+         reach = margin*source%half/abs(test%factor_size)*this%unit
       else if (case%vertical /= '') then
          return
       else if (index(over, 'wheel_travel_mm') > 0) then

@@ -68,6 +68,8 @@ module ek_command
       option_t('run', '--set-file FILE', 'settings from a file, one per line: path = value; mistakes with file and line'), &
       option_t('run', '--responses a,b', 'only these key numbers of the report (names as in key_numbers.csv), no other files'), &
       option_t('run', '--results FILE', 'where --responses are written, one `value name` line each (default: -)'), &
+      option_t('run', '--columns a,b,c', 'only these columns, beside state, factor, converged …; left_* stands for many'), &
+      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - only this'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &

@@ -66,7 +66,7 @@ contains
       if (path == '-') then
          call write_standard_output(text, error)
       else
-         call write_whole(path, text, error)
+         call write_whole(path, text, error, can_be_redrawn=.true.)      ! read at once: not worth waiting for the disk
       end if
    end subroutine write_results
 

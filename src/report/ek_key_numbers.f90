@@ -3,7 +3,6 @@
 !> ek_quantity and ek_gradient_definition.
 module ek_key_numbers
    use ek_kinds, only: wp
-   use ek_text, only: lower
    use ek_table, only: column_index
    use ek_quantity, only: quantity_t, quantity_named, without_phase, unit_of, unit_text
    use ek_test_result, only: test_result_t
@@ -14,7 +13,7 @@ module ek_key_numbers
    use ek_place_numbers, only: new_number, add_source, append, place_numbers
    implicit none(type, external)
    private
-   public :: key_number_t, key_numbers, list_key_numbers, number_heads
+   public :: key_number_t, key_numbers, list_key_numbers, number_heads, has_wanted_gradients
 
    !> One number: its group, what it is of, and how it is read.
    type :: entry_t
@@ -121,10 +120,11 @@ contains
    end subroutine key_numbers
 
    !> All key numbers that the tests may have, by the heads of their tables: nothing needs to be solved.
-   subroutine list_key_numbers(tests, gradients, numbers)
+   subroutine list_key_numbers(tests, gradients, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)        !! with the columns of their tables and their wheels
       type(gradient_t), intent(in) :: gradients(:)       !! of these tests
       type(key_number_t), allocatable, intent(out) :: numbers(:)
+      character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       type(key_number_t) :: number
       type(entry_t) :: entry
       logical :: is_steered, is_pair
@@ -135,6 +135,9 @@ contains
       is_pair = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       do k = 1, size(entries)
          entry = entries(k)
+         if (present(wanted)) then
+            if (.not. any(wanted == name_of(entry))) cycle
+         end if
          if (index(entry%name, instant) == 1 .and. (entry%group == elastic .eqv. is_steered)) cycle
          if (entry%how >= slope) then
             call from_gradients(tests, gradients, entry, number)
@@ -150,8 +153,43 @@ contains
          end if
          call append(number, numbers)
       end do
-      call place_numbers(tests, numbers)
+      call place_numbers(tests, numbers, wanted)
    end subroutine list_key_numbers
+
+   !> Whether one of the wanted numbers is a gradient of a kind of test.
+   logical function has_wanted_gradients(kind, wanted)
+      character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
+      integer :: k
+
+      has_wanted_gradients = .true.
+      do k = 1, size(entries)
+         if (entries(k)%how >= slope .and. entries(k)%kind == kind) then
+            if (any(wanted == name_of(entries(k)))) return
+         end if
+      end do
+      has_wanted_gradients = .false.
+   end function has_wanted_gradients
+
+   !> The name of a number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
+   pure character(64) function name_of(entry) result(name)
+      type(entry_t), intent(in) :: entry
+      integer :: k, code
+
+      name = entry%name
+      do k = 1, len_trim(name)                           ! a gradient has words, a column has none of these letters
+         code = iachar(name(k:k))
+         if (scan(name(k:k), ' -') > 0) name(k:k) = '_'
+         if (code >= iachar('A') .and. code <= iachar('Z')) name(k:k) = achar(code + 32)
+      end do
+      select case (entry%how)
+      case (anti_phase)
+         name = trim(name)//'_anti'
+      case (largest)
+         name = 'largest_'//trim(name)
+      case (least)
+         name = 'least_'//trim(name)
+      end select
+   end function name_of
 
    !> The names of a number for programs: one of the axle or of a single wheel, or one per wheel, the left one first; '': the number
    !> does not exist for this wheel.
@@ -183,7 +221,7 @@ contains
       logical :: is_there
 
       call new_number(trim(entry%group), trim(entry%name)//trim(phases(entry%how))//fitted, '', '', entry%how, number)
-      number%name = snake_case(trim(entry%name))//trim(merge('_anti', '     ', entry%how == anti_phase))
+      number%name = trim(name_of(entry))
       do t = 1, size(tests)
          if (tests(t)%kind /= entry%kind) cycle
          if (entry%how > slope .and. (tests(t)%is_anti .neqv. entry%how == anti_phase)) cycle
@@ -232,11 +270,13 @@ contains
       end if
       call new_number(trim(entry%group), trim(quantity%title), unit_text(unit_of(trim(entry%name))), trim(quantity%sign), &
          entry%how, number)
-      number%name = trim(entry%name)
+      number%name = trim(name_of(entry))
       number%condition = 'at design'
       number%definition = trim(entry%name)//sign
-      if (entry%how == largest) call describe('largest', 'maximum')
-      if (entry%how == least) call describe('least', 'minimum')
+      if (entry%how /= at_design) then
+         number%condition = 'test '//trim(entry%kind)//', over all states'
+         number%definition = trim(merge('maximum', 'minimum', entry%how == largest))//' of '//trim(entry%name)//sign
+      end if
       do t = 1, size(tests)
          if (entry%kind /= '' .and. tests(t)%kind /= entry%kind) cycle
          source = key_source_t(test=t)
@@ -251,16 +291,6 @@ contains
          end if
          if (any(source%column /= '')) call add_source(source, number)
       end do
-
-   contains
-
-      subroutine describe(word, extreme)
-         character(*), intent(in) :: word, extreme
-         number%name = word//'_'//trim(entry%name)
-         number%condition = 'test '//trim(entry%kind)//', over all states'
-         number%definition = extreme//' of '//trim(entry%name)//sign
-      end subroutine describe
-
    end subroutine from_tables
 
    !> '; + top outward' behind a definition; nothing without a sign.
@@ -281,17 +311,5 @@ contains
       if (index(column, 'left_') == 1) name = column(6:)
       if (index(column, 'right_') == 1) name = column(7:)
    end function without_side
-
-   !> 'half_track_change' of 'half-track change'.
-   function snake_case(words) result(name)
-      character(*), intent(in) :: words
-      character(:), allocatable :: name
-      integer :: k
-
-      name = lower(words)
-      do k = 1, len(name)
-         if (scan(name(k:k), ' -') > 0) name(k:k) = '_'
-      end do
-   end function snake_case
 
 end module ek_key_numbers

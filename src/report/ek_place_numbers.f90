@@ -11,7 +11,8 @@ module ek_place_numbers
    public :: new_number, add_source, append, place_numbers
 
    real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
-   character(*), parameter :: gap_ending = '_gap_mm', travel = 'wheel_travel_mm', rack_force = 'steering_rack_force_n'
+   character(*), parameter :: gap_ending = '_gap_mm', travel = 'wheel_travel_mm', rack_force = 'steering_rack_force_n', &
+      rack_name = 'largest_rack_force_n', to_stop = 'travel_to_'
 
 contains
 
@@ -41,10 +42,15 @@ contains
    end subroutine add_source
 
    !> Appends these numbers as far as the tables of the tests have their columns.
-   subroutine place_numbers(tests, numbers)
+   subroutine place_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       integer :: t
+
+      if (present(wanted)) then
+         if (.not. any(index(wanted, rack_name) == 1 .or. index(wanted, '_at_20_deg') > 0 .or. index(wanted, to_stop) == 1)) return
+      end if
 
       t = findloc([(tests(t)%kind == 'parallel_travel', t=1, size(tests))], .true., dim=1)
       if (t > 0) call add_stops(tests(t), t, numbers)
@@ -118,7 +124,7 @@ contains
          end if
          call add_source(source, number)
          number%quantity = 'wheel travel to '//spaced(stop)
-         number%name = 'travel_to_'//stop
+         number%name = to_stop//stop
          number%condition = 'test '//test%name//', from design to contact'
          number%definition = 'magnitude of the change of '//travel//' from design to where '//stop//gap_ending// &
             ' is 0, linear between two states'
@@ -156,7 +162,7 @@ contains
       end do
       if (size(number%sources) == 0) return
       number%is_of_axle = .true.
-      number%name = 'largest_rack_force_n'
+      number%name = rack_name
       number%condition = 'all tests'
       number%definition = 'largest magnitude of '//rack_force
       call append(number, numbers)
