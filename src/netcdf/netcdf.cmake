@@ -44,6 +44,6 @@ function(ek_add_netcdf)
   target_compile_options(elastokin-netcdf PRIVATE ${flags})
   target_link_libraries(elastokin-netcdf PRIVATE ek_study ${libraries})
   # optional: a build of the target elastokin alone can be installed too
-  install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
+  install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT netcdf OPTIONAL)
 endfunction()
 ek_add_netcdf()
