@@ -43,8 +43,7 @@ contains
             close (unit, iostat=ignored)
          end if
          if (byte /= first) then
-            call fail(error, exit_file, "cannot append to '"//path//"': it is another file, each line of this one begins with "// &
-               first)
+            call fail(error, exit_file, "cannot append to '"//path//"': it has other contents, its first character is not "//first)
             return
          end if
       end if

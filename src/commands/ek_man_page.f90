@@ -66,7 +66,7 @@ contains
       call add_options(page, trim(command%name), options)
       ending = words_of(command%ending)
       if (index(ending, 'Exit status') == 1) then
-         call page%line('.SH "EXIT STATUS"'//nl//roff(ending(index(ending, ' status') + 1:)))
+         call page%line('.SH "EXIT STATUS"'//nl//roff(ending))
       else if (len(ending) > 0) then
          call page%line('.SH NOTES'//nl//roff(ending))
       end if
@@ -82,6 +82,7 @@ contains
 
       date = date_text()
       call page%line('.TH '//upper(name)//' 1 '//date(:10)//' "elastokin '//version//'" "elastokin manual"')
+      call page%line('.nh'//nl//'.ad l')                     ! names and examples are not divided
       call page%line('.SH NAME'//nl//roff(name)//' '//backslash//'- '//roff(summary)//nl//'.SH SYNOPSIS')
    end subroutine begin_page
 

@@ -3,7 +3,7 @@
 !>
 !>     {"time": "2026-01-31T16:05:09Z", "seconds": 0.31, "status": 0, "host": "node7", "program": "elastokin 0.1.0 (commit …)",
 !>      "folder": "/data/batch", "arguments": ["run", "front.nml", …], "decks": [{"file": "front.nml", "checksum": "…"}],
-!>      "messages": ["warning: …"], "output": ["out/front_bump.csv\n"]}
+!>      "messages": ["warning: …"], "output": ["out/front_bump.csv"]}
 !>
 !> What the console prints is recorded here: the state of this module is one run of the program, and only commands use it.
 module ek_run_log
@@ -62,7 +62,11 @@ contains
    !> Findings, or the path of a result, as printed on standard output.
    subroutine log_output(text)
       character(*), intent(in) :: text
-      if (file%is_open()) call log%output%add(text)
+      integer :: length
+
+      length = len(text)
+      if (length > 0) length = length - merge(1, 0, text(len(text):) == new_line('a'))
+      if (file%is_open()) call log%output%add(text(:length))
    end subroutine log_output
 
    !> A deck that was read.
