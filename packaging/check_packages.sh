@@ -5,6 +5,7 @@
 # it depends on, `elastokin --version`, the man pages, a deck of the library, a user without rights; then the package is purged and
 # nothing of it may be left, and the program of the tarball runs. Requires root, mmdebstrap or debootstrap, and the network; status 77
 # where one of these is missing.
+# shellcheck disable=SC1091,SC2016     # /etc/os-release; expanded inside
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$(realpath "${1:-build/release}")
