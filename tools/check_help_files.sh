@@ -2,7 +2,7 @@
 # check_help_files.sh PROGRAM: man pages and completion of bash, zsh and fish, as the build makes them from the tables of commands.
 #
 # Man pages: no warning of mandoc or groff (what is installed), and every command and option of `--help` in its page. Completion: each
-# shell that is installed is asked what it offers: every command; every option of every command; folders, and words of a list as values.
+# shell that is installed is asked what it offers: every command; every option of every command; folders, and the names of a list as values.
 # Status 77 if none of the tools is installed.
 # shellcheck disable=SC2016,SC2317     # expanded by another shell; called by name
 set -uo pipefail
@@ -43,7 +43,7 @@ for command in "${commands[@]}"; do
   if grep -Pzoq '\.TP\n\.BI? [^\n]*\n(\n|\.TP|\.SH)' "$page"; then bad "elastokin-$command.1: an option without a description"; fi
 done
 
-# ---- completion: each of these prints what a shell offers for the words of a command line, one a line
+# ---- completion: each of these prints what a shell offers for a command line, one per line
 mkdir -p "$work/folder/within" "$work/home"
 touch "$work/folder/deck.nml"
 cd "$work/folder" || exit 1
@@ -81,7 +81,7 @@ zpty -d shell
 END
 offered_by_zsh() { HOME=$work/home timeout 20 zsh -f "$work/complete.zsh" "$work/share/zsh/site-functions" "$*"; }
 
-expect_offer() { # expect_offer SHELL LABEL WANTED…: the offer, in $work/offer, has these words
+expect_offer() { # expect_offer SHELL LABEL WANTED…: the offer, in $work/offer, has these items
   local shell=$1 label=$2 word
   shift 2
   for word; do

@@ -1,5 +1,5 @@
 !> Completion of command lines by bash, zsh and fish, from the tables of commands and options: commands, the options of a command,
-!> folders after `--out`, the words of a list after `--method`, else files.
+!> folders after `--out`, the names of a list after `--method`, else files.
 module ek_completion
    use ek_buffer, only: buffer_t
    use ek_command_line, only: command_t, option_t, option_name
@@ -27,8 +27,8 @@ contains
       names = command_names(commands, ' ')
       call script%line('# completion of bash for elastokin, made from its tables of commands and options')
       call script%line('_elastokin() {')
-      call script%line('  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command= words= k')
-      call script%line('  # bash splits --out=DIR into three words')
+      call script%line('  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command= list= k')
+      call script%line('  # bash splits --out=DIR into three parts')
       call script%line('  if [[ $word == = ]]; then word=; elif [[ $before == = ]]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi')
       call script%line('  for ((k = 1; k < COMP_CWORD; k++)); do')
       call script%line('    case ${COMP_WORDS[k]} in '//command_names(commands, '|')//') command=${COMP_WORDS[k]}; break ;; esac')
@@ -52,30 +52,30 @@ contains
       end do
       call script%line('  esac')
       call script%line('  case $command in')
-      call script%line('    "") words="'//names//option_words(options, '')//'" ;;')
+      call script%line('    "") list="'//names//option_list(options, '')//'" ;;')
       do k = 1, size(commands)
-         call script%line('    '//trim(commands(k)%name)//') words="'//option_words(options, trim(commands(k)%name))//'" ;;')
+         call script%line('    '//trim(commands(k)%name)//') list="'//option_list(options, trim(commands(k)%name))//'" ;;')
       end do
       call script%line('  esac')
       call script%line('  # the files of a command: by the default of bash')
-      call script%line('  if [[ -z $command || $word == -* ]]; then mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word"); fi')
+      call script%line('  if [[ -z $command || $word == -* ]]; then mapfile -t COMPREPLY < <(compgen -W "$list" -- "$word"); fi')
       call script%line('}')
       call script%line('complete -o default -F _elastokin elastokin')
       text = script%text()
    end function bash_completion
 
    !> ' --out --case': the options of a command.
-   pure function option_words(options, command) result(words)
+   pure function option_list(options, command) result(list)
       type(option_t), intent(in) :: options(:)
       character(*), intent(in) :: command
-      character(:), allocatable :: words
+      character(:), allocatable :: list
       integer :: k
 
-      words = ''
+      list = ''
       do k = 1, size(options)
-         if (belongs(options(k), command)) words = words//' '//trim(option_name(options(k)))
+         if (belongs(options(k), command)) list = list//' '//trim(option_name(options(k)))
       end do
-   end function option_words
+   end function option_list
 
    !> 'run:--out', or '*:--log' of every command.
    pure function bash_case(option) result(text)
@@ -111,7 +111,7 @@ contains
       call script%line('case $state in')
       call script%line('  command) _describe -t commands command commands ;;')
       call script%line('  arguments)')
-      call script%line('    case $words[1] in')
+      call script%line('    case $line[1] in')
       do k = 1, size(commands)
          call script%add('      '//trim(commands(k)%name)//') _arguments')
          do j = 1, size(options)

@@ -4,7 +4,7 @@ module ek_man_page
    use ek_buffer, only: buffer_t
    use ek_clock, only: date_text
    use ek_command_line, only: command_t, option_t, option_name
-   use ek_option_help, only: belongs, value_name, description, words_of
+   use ek_option_help, only: belongs, value_name, description, on_one_line
    implicit none(type, external)
    private
    public :: main_page, command_page
@@ -34,7 +34,7 @@ contains
       end do
       call page%line('.SH OPTIONS'//nl//'Every command has these options, and those of its own page.')
       call add_options(page, '', options)
-      call page%line('.SH "EXIT STATUS"'//nl//roff(words_of(exit_status(index(exit_status, ':') + 1:))))
+      call page%line('.SH "EXIT STATUS"'//nl//roff(on_one_line(exit_status(index(exit_status, ':') + 1:))))
       call page%line('.SH "SEE ALSO"')
       do k = 1, size(commands)
          call page%line('.BR elastokin'//roff('-')//trim(commands(k)%name)//' (1)'//merge(',', ' ', k < size(commands)))
@@ -61,10 +61,10 @@ contains
          cut = index(usage, alternative)
       end do
       call add_usage(page, usage)
-      call page%line('.SH DESCRIPTION'//nl//roff(words_of(command%text)))
+      call page%line('.SH DESCRIPTION'//nl//roff(on_one_line(command%text)))
       call page%line('.SH OPTIONS')
       call add_options(page, trim(command%name), options)
-      ending = words_of(command%ending)
+      ending = on_one_line(command%ending)
       if (index(ending, 'Exit status') == 1) then
          call page%line('.SH "EXIT STATUS"'//nl//roff(ending))
       else if (len(ending) > 0) then

@@ -4,7 +4,7 @@ module ek_option_help
    use ek_command_line, only: option_t, option_name
    implicit none(type, external)
    private
-   public :: belongs, is_repeatable, value_name, description, first_line, choices, words_of
+   public :: belongs, is_repeatable, value_name, description, first_line, choices, on_one_line
 
    character(*), parameter :: nl = new_line('a'), bar = ' | '
 
@@ -74,26 +74,26 @@ contains
    end function first_line
 
    !> 'recursive corrected equilibrium' of a description with 'recursive | corrected | equilibrium'; '' without such a list.
-   pure function choices(text) result(words)
+   pure function choices(text) result(list)
       character(*), intent(in) :: text
-      character(:), allocatable :: words, rest
+      character(:), allocatable :: list, rest
       integer :: last
 
-      words = ''
-      rest = words_of(text)
+      list = ''
+      rest = on_one_line(text)
       last = index(rest, bar)
       if (last == 0) return
-      words = rest(index(rest(:last - 1), ' ', back=.true.) + 1:last - 1)
+      list = rest(index(rest(:last - 1), ' ', back=.true.) + 1:last - 1)
       do while (last > 0)
          rest = rest(last + len(bar):)
-         words = words//' '//rest(:scan(rest//' ', ' ;,.') - 1)
+         list = list//' '//rest(:scan(rest//' ', ' ;,.') - 1)
          last = index(rest, bar)
          if (last > scan(rest//' ', ' ;,.')) last = 0
       end do
    end function choices
 
-   !> A text on one line, with one blank between two words.
-   pure function words_of(text) result(line)
+   !> A text on one line, with one blank between two parts.
+   pure function on_one_line(text) result(line)
       character(*), intent(in) :: text
       character(:), allocatable :: line
       integer :: k
@@ -107,7 +107,7 @@ contains
          end if
       end do
       line = trim(line)
-   end function words_of
+   end function on_one_line
 
    !> A text whose lines begin without blanks.
    pure function without_indent(text) result(plain)
