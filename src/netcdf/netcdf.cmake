@@ -45,5 +45,8 @@ function(ek_add_netcdf)
   target_link_libraries(elastokin-netcdf PRIVATE ek_study ${libraries})
   # optional: a build of the target elastokin alone can be installed too
   install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT netcdf OPTIONAL)
+  string(TIMESTAMP ek_date "%Y-%m-%d" UTC)
+  configure_file(${here}/elastokin-netcdf.1.in ${CMAKE_CURRENT_BINARY_DIR}/elastokin-netcdf.1 @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/elastokin-netcdf.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT netcdf)
 endfunction()
 ek_add_netcdf()
