@@ -56,8 +56,11 @@ endforeach()
 
 set(CPACK_GENERATOR TGZ)
 find_program(EK_DPKG_SHLIBDEPS dpkg-shlibdeps)      # names the packages of the shared libraries in use
-if(EK_DPKG_SHLIBDEPS)
+find_program(EK_FILE file)                          # by which cpack finds the programs for it
+if(EK_DPKG_SHLIBDEPS AND EK_FILE)
   list(APPEND CPACK_GENERATOR DEB)
+else()
+  message(STATUS "Packages: the tarball only; Debian packages require dpkg-dev and file")
 endif()
 set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGE_VENDOR "elastokin developers")
