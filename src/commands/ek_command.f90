@@ -13,18 +13,21 @@ module ek_command
    use ek_bench, only: bench
    implicit none(type, external)
    private
-   public :: commands, options, help_text, obey
+   public :: commands, options, exit_status_text, help_text, obey
 
    character(*), parameter :: nl = new_line('a'), indent = nl//repeat(' ', 21)
    character(*), parameter :: quiet_help = 'suppress informational messages; warnings and errors remain'
    character(*), parameter :: no_plots_help = 'tables only; gnuplot is not started'
 
+   character(*), parameter :: exit_status_text = &
+      'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
+      '4 a state did not converge (the converged states are written), 5 files.'
+
    type(command_t), parameter :: commands(*) = [ &
       command_t('run', 'run DECK [options]', 'run DECK', 'sweep the cases of a deck; write CSV files (and plots)', &
       'Sweeps every case of a deck and writes DIR/<model>_<case>.csv, one row per state.'//nl// &
       'DECK may be - (standard input). File paths are printed to standard output, messages to standard error.', &
-      'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
-      '4 a state did not converge (the converged states are written), 5 files.'), &
+      exit_status_text), &
       command_t('check', 'check DECK', 'check DECK', 'examine a deck and its model', &
       'Reads a deck, reports every error with file and line, and examines the model: bodies, unknowns,'//nl// &
       'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points. A remark points'//nl// &
@@ -99,15 +102,19 @@ module ek_command
       option_t('study', '--no-plots', no_plots_help), &
       option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), &
       option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
-      option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado sobol morris line map fan family'//indent// &
-      'histogram scatter parallel convergence'), &
+      option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
+      'family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
       option_t('plot', '--samples N', 'as the study ran'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
-      option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
-      option_t('', '--help', ''), option_t('', '--version', '')]
+      option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
+      ! of every command
+      option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
+      option_t('', '--help', 'print this description'), &
+      option_t('', '--version', 'print the version, the compiler and the libraries in use'), &
+      option_t('', '--help-files DIR', '')]      ! for the build: man pages and completion (ek_help_files)
 
 contains
 
@@ -156,13 +163,13 @@ contains
       text = 'elastokin '//trim(commands(n)%usage)
       lines = ''
       shared = ''
-      do k = 1, size(options) - 1             ! the last belongs to every command
-         if (options(k)%command /= name) cycle
+      do k = 1, size(options) - 1             ! the last is not described
+         if (options(k)%command /= name .and. options(k)%command /= '') cycle
          label = trim(options(k)%label)
          if (options(k)%help == '') then
             text = text//' ['//label//']'
             if (index(label, '=') > 0) text = text//'…'
-         else if (options(k + 1)%command == name .and. options(k + 1)%help == options(k)%help) then
+         else if (options(k + 1)%command == options(k)%command .and. options(k + 1)%help == options(k)%help) then
             shared = shared//label//', '
          else
             shared = shared//label

@@ -8,7 +8,7 @@ module ek_command_line
    use ek_gradient_definition, only: windows_t, set_window
    implicit none(type, external)
    private
-   public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows
+   public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows, argument
 
    !> A command, as --help describes it.
    type :: command_t
@@ -132,7 +132,7 @@ contains
          end if
          if (allocated(error)) return
       end do
-      if (k == 0 .or. line%has('--help') .or. line%has('--version')) return
+      if (k == 0 .or. line%has('--help') .or. line%has('--version') .or. line%has('--help-files')) return
       if (n == 0) then
          call fail(error, exit_usage, 'no command: expected '//names_of(commands))
       else if (line%files%count() < commands(n)%files) then
@@ -142,7 +142,7 @@ contains
       do k = 1, line%names%count()
          word = line%names%line(k)
          if (allocated(error)) return
-         if (.not. any(options%command == line%command .and. option_name(options) == word)) &
+         if (.not. any((options%command == line%command .or. options%command == '') .and. option_name(options) == word)) &
             call fail(error, exit_usage, line%command//' takes no '//word)
       end do
    end subroutine read_command_line

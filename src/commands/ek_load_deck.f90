@@ -11,6 +11,7 @@ module ek_load_deck
    use ek_case, only: case_t, method_names, max_increments
    use ek_command_line, only: command_line_t
    use ek_examination, only: examination_t, examine_cases
+   use ek_run_log, only: is_logging, log_deck
    implicit none(type, external)
    private
    public :: deck_settings_t, read_deck_settings, load_deck, read_changed, chosen_cases, examine_chosen
@@ -91,6 +92,7 @@ contains
          if (.not. allocated(error)) call split_setting(changes%line(k), path, value, error)
          if (.not. allocated(error)) call set_value(deck, path, value, error)
       end do
+      if (is_logging() .and. .not. allocated(error)) call log_deck(file, deck_checksum(deck))
    end subroutine read_changed
 
    !> The cases to run, with --case, --method and --increments applied.
