@@ -116,6 +116,7 @@ module ek_command
       option_t('export', '--driver NAME', 'driver joint that steers (default: that of &steering)'), &
       option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck leaves a choice; NAME'// &
       indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
+      option_t('export', '--vertical WORD', 'what travel is the height of: centre | patch | road (default: patch)'), &
       option_t('export', '--held WORD', 'wheels in the compliance: road | centre | force (default: road with a tyre_rate)'), &
       option_t('export', '--axle WORD', 'front | rear (default: that of &axle)'), &
       option_t('export', '--other DECK', 'matlab-kc: the deck of the other axle'), &

@@ -24,7 +24,7 @@ module ek_export_settings
    end type range_t
 
    type, extends(deck_settings_t) :: export_settings_t
-      character(:), allocatable :: target, map, driver, held, axle, signs, other
+      character(:), allocatable :: target, map, driver, vertical, held, axle, signs, other
       type(message_list_t) :: lengths
       type(range_t) :: travel, steer, loads
       logical :: has_plots = .false.
@@ -50,6 +50,7 @@ contains
       call take_word('--to', targets, settings%target)
       if (.not. line%has('--to')) call mistakes%add('export needs --to '//list(targets))
       call take_word('--map', [character(8) :: 'steer', 'opposite'], settings%map)
+      call take_word('--vertical', [character(6) :: 'centre', 'patch', 'road'], settings%vertical)
       call take_word('--held', [character(6) :: 'road', 'centre', 'force'], settings%held)
       call take_word('--axle', [character(5) :: 'front', 'rear'], settings%axle)
       call take_word('--signs', [character(3) :: 'iso', 'sae'], settings%signs)
@@ -155,10 +156,12 @@ contains
          end if
          call take('--steer', settings%steer, 0.0_wp, 0.0_wp, steer_points, request%second, error)
       end if
+      request%vertical = settings%vertical
+      if (request%vertical == '') request%vertical = 'patch'
       request%held = settings%held
       if (request%held == '') request%held = trim(merge('road  ', 'centre', all(suspension%wheels%tyre_rate > 0.0_wp)))
-      if (request%held == 'road' .and. .not. all(suspension%wheels%tyre_rate > 0.0_wp)) then
-         call fail(error, exit_usage, '--held road: needs tyre_rate of every &wheel; add it, or use --held centre')
+      if ((request%held == 'road' .or. request%vertical == 'road') .and. .not. all(suspension%wheels%tyre_rate > 0.0_wp)) then
+         call fail(error, exit_usage, '--held road, --vertical road: needs tyre_rate of every &wheel; add it, or use centre')
          return
       end if
       call choose_lengths(suspension, settings%lengths, request%choices, error)

@@ -109,7 +109,14 @@ contains
       call add('Suspension kinematics and compliance of '//one_line(map%title))
       call add('model '//map%model//', deck checksum '//checksum)
       call add('x forward, y to the left, z up; m, rad, N; relative to design, rotations with the static angles')
-      call add('comp: travel of the wheel centre relative to the body, positive up')
+      select case (map%vertical)
+      case ('road')
+         call add('comp: height of the road under the tyre rate, positive up; forces of the ground act at the patch')
+      case ('patch')
+         call add('comp: height of the contact patch relative to the body, positive up; forces of the ground act there')
+      case default
+         call add('comp: height of the wheel centre relative to the body, positive up; forces act there')
+      end select
       if (map%kind == over_steer) then
          call add('steer: travel of driver '//map%driver//' times '//str(map%driver_sign)// &
             ', positive: wheels to the left; both wheels at the same travel')

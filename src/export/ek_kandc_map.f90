@@ -30,10 +30,11 @@ module ek_kandc_map
 
    !> What is to be computed.
    type :: map_request_t
-      real(wp), allocatable :: travel(:)      !! of the wheel centre above design, increasing, with 0 [m]
+      real(wp), allocatable :: travel(:)      !! above design, increasing, with 0 [m]
       real(wp), allocatable :: second(:)      !! steer (positive: to the left) or travel of the other wheel, likewise [m, rad]
       integer :: kind = over_none
       character(:), allocatable :: driver     !! joint that steers
+      character(:), allocatable :: vertical   !! travel is the height of the wheel 'centre', the 'patch', or the 'road'
       character(:), allocatable :: held       !! how the wheels are held in the compliance: 'road', 'centre' or 'force'
       type(length_choice_t) :: choices(lengths, 2)
    end type map_request_t
@@ -43,7 +44,7 @@ module ek_kandc_map
       integer :: kind = over_none
       real(wp), allocatable :: travel(:), second(:)
       real(wp) :: driver_sign = 1.0_wp        !! the driver's value is this times steer
-      character(:), allocatable :: driver, held
+      character(:), allocatable :: driver, vertical, held
       real(wp), allocatable :: value(:, :, :, :)   !! (quantity, second, travel, side)
       !> of each side at design, at the wheel centre, wheels held: own loads, opposite loads
       real(wp) :: compliance(6, 12, 2) = 0.0_wp
@@ -123,6 +124,7 @@ contains
       if (map%kind == over_none) map%second = [0.0_wp]
       map%driver = request%driver
       map%held = request%held
+      map%vertical = request%vertical
       map%is_mirrored = wheels == 0
       do side = 1, 2
          if (wheels(side) == 0) cycle
@@ -202,6 +204,7 @@ contains
       type(case_result_t), intent(out) :: result
       type(error_t), allocatable, intent(out) :: error
       type(load_table_t) :: table
+      character(:), allocatable :: vertical
       integer :: wheels(2), side
 
       call left_and_right(suspension, wheels)
@@ -212,7 +215,9 @@ contains
          call add_column(table, prefix_of(suspension, wheels(side))//'travel_mm', wheels(side), 0, heights(side, :))
       end do
       if (request%kind == over_steer) call add_column(table, request%driver, 0, 0, steer)
-      call solve_table(suspension, table, '', result, error)
+      vertical = request%vertical
+      if (vertical == 'centre') vertical = ''        ! the columns of a table hold the centres by themselves
+      call solve_table(suspension, table, vertical, result, error)
    end subroutine solve_rows
 
    pure subroutine add_column(table, name, wheel, component, values)
