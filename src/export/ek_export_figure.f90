@@ -82,7 +82,7 @@ contains
       call script%line("set datafile missing 'nan'")
       call script%line("set border 3 linecolor rgb '#808080'")
       call script%line('set tics out nomirror')
-      call script%line('set key at screen 0.99, screen 0.985 right top horizontal')
+      call script%line('set key left top Left reverse')
       do k = 1, list%used
          call script%line('$curve'//str(k)//' << EOD')
          do i = 1, size(list%panels(k)%x)
@@ -103,7 +103,7 @@ contains
             call script%line('   set ylabel '//gnuplot_text(panel%y_label)//' noenhanced')
             call script%line('   plot $curve'//str(k)//" using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title "// &
                gnuplot_text(trim(merge('solved separately', '                 ', k == 1)))//', \')
-            call script%line('      '//panel%points//' title '//gnuplot_text(trim(merge('file', '    ', k == 1))))
+            call script%line('      '//panel%points//' title '//gnuplot_text(trim(merge('written file', '            ', k == 1))))
          end associate
       end do
       call script%line('   unset multiplot')

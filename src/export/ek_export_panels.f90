@@ -91,7 +91,7 @@ contains
          integer :: n
 
          n = size(map%second)
-         words = ' skip '//str(skc_table_lines(text, sources%side) - 1)//' every ::0::'//str(size(map%travel)*(n + 1) - 2)
+         words = ' skip '//str(skc_table_lines(text, sources%side))//' every ::0:0:'//str(size(map%travel)*(n + 1) - 2)//':0'
       end function rows_of_table
 
    end subroutine carmaker_panels
@@ -196,8 +196,8 @@ contains
          y = source_values(sources, sources%travel, trim(names(k)))
          if (k == 4 .and. sources%side == 2) y = -y
          call add_panel(list, trim(words(k))//', iside '//str(sources%side), travel_label, trim(merge('deg', 'mm ', k < 3)), &
-            gnuplot_text(file)//' skip '//str(par_table_lines(text, trim(words(k)), sources%side) - 1)//' every ::0::'// &
-            str(size(map%travel) - 1)//' using 1:2'//point_style, x, y)
+            gnuplot_text(file)//' skip '//str(par_table_lines(text, trim(words(k)), sources%side))//' every ::0:0:'// &
+            str(size(map%travel) - 1)//':0 using 1:2'//point_style, x, y)
       end do
       section = index(text, 'iside '//str(sources%side))
       sign = merge(-1.0_wp, 1.0_wp, sources%side == 1)
@@ -248,14 +248,14 @@ contains
          read (text(at:), *, iostat=status) gradients(:number)
          slope = gradients(number)
          call add_panel(list, trim(words(k))//'.'//corner, travel_label, trim(merge('deg', 'mm ', k < 4)), &
-            gnuplot_text(file)//' skip '//str(line)//' every ::0::'//str(points - 1)//' using 1:2'//point_style// &
-            ', '//decimal(slope(1))//'*x'//line_style, x, y)
+            decimal(slope(1))//'*x'//line_style//" title '', "//gnuplot_text(file)//' skip '//str(line)//' every ::0:0:'// &
+            str(points - 1)//':0 using 1:2'//point_style, x, y)
       end do
       y = source_values(sources, sources%travel, 'vertical_force_n')
       from = index(text, 'KnCTables.NrmlWhlRates.'//corner//' = [')
       line = count_lines(text(:from)) + 1
-      call add_panel(list, 'NrmlWhlRates.'//corner, travel_label, 'N', gnuplot_text(file)//' skip '//str(line)//' every ::0::'// &
-         str(points - 1)//' using 1:2'//point_style, x, y)
+      call add_panel(list, 'NrmlWhlRates.'//corner, travel_label, 'N', gnuplot_text(file)//' skip '//str(line)//' every ::0:0:'// &
+         str(points - 1)//':0 using 1:2'//point_style, x, y)
    end subroutine mathworks_panels
 
    pure integer function count_lines(text)

@@ -48,6 +48,7 @@ contains
       case%target = ''
       case%method = 'equilibrium'
       case%increments = increments
+      case%has_all = .true.                  ! also the wheel loads
       case%vertical = map%vertical
       case%test = 'parallel_travel'
       if (map%kind == over_opposite) case%test = 'single_travel'

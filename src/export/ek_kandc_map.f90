@@ -76,10 +76,10 @@ contains
       if (to > 0.0_wp) before = min(before, count - 2)
       allocate (values(count), source=0.0_wp)
       do k = 1, before
-         values(k) = from*real(before + 1 - k, wp)/before
+         values(k) = from*(real(before + 1 - k, wp)/before)
       end do
       do k = before + 2, count
-         values(k) = to*real(k - before - 1, wp)/(count - 1 - before)
+         values(k) = to*(real(k - before - 1, wp)/(count - 1 - before))
       end do
    end function grid_values
 
@@ -119,9 +119,14 @@ contains
       if (len(map%title) == 0) map%title = suspension%name
       map%kind = request%kind
       map%travel = request%travel
-      map%second = request%second
-      if (map%kind == over_opposite) map%second = request%travel
-      if (map%kind == over_none) map%second = [0.0_wp]
+      select case (map%kind)
+      case (over_steer)
+         map%second = request%second
+      case (over_opposite)
+         map%second = request%travel
+      case default
+         map%second = [0.0_wp]
+      end select
       map%driver = request%driver
       map%held = request%held
       map%vertical = request%vertical
