@@ -82,7 +82,7 @@ contains
       call script%line("set datafile missing 'nan'")
       call script%line("set border 3 linecolor rgb '#808080'")
       call script%line('set tics out nomirror')
-      call script%line('set key left top Left reverse')
+      call script%line('set key at screen 0.008, screen 0.998 left top Left reverse horizontal')
       do k = 1, list%used
          call script%line('$curve'//str(k)//' << EOD')
          do i = 1, size(list%panels(k)%x)

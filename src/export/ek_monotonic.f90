@@ -1,4 +1,4 @@
-!> Whether the columns of a map rise or fall everywhere over wheel travel, as a simulator demands that inverts them.
+!> Whether the columns of a map rise or fall everywhere over wheel travel, as a simulator requires that inverts them.
 module ek_monotonic
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_model
