@@ -11,6 +11,7 @@ module ek_command
    use ek_study_command, only: run_study_command, run_merge_command
    use ek_plot, only: run_plot_command
    use ek_bench, only: bench
+   use ek_export, only: export
    implicit none(type, external)
    private
    public :: commands, options, exit_status_text, help_text, obey
@@ -55,6 +56,14 @@ module ek_command
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
       'Which figures there are follows from the kind of the study and from its columns and responses.', ''), &
+      command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
+      'tables of kinematics and compliance for other simulators', &
+      'Writes what a simulator takes of the axle of a deck into DIR:'//nl// &
+      '  carmaker   <model>.skc: kinematics over travel and steer (or the other wheel''s travel), compliance'//nl// &
+      '  carsim     <model>_carsim.par: tables over jounce, compliance coefficients'//nl// &
+      '  matlab-kc  <model>_kandc.m and .json: parameters of "Independent Suspension - K and C"'//nl// &
+      '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv, and all of it in _tables.json'//nl// &
+      'docs/EXPORT.md describes each file: frame, signs, units. If a number cannot be computed, nothing is written.', ''), &
       command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
@@ -108,6 +117,23 @@ module ek_command
       option_t('plot', '--samples N', 'as the study ran'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
+      option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
+      option_t('export', '--out DIR', 'output folder (default: out)'), &
+      option_t('export', '--travel from:to:n', 'wheel travel in mm with n points (default: test parallel_travel, 33 points)'), &
+      option_t('export', '--steer from:to:n', 'rack travel in mm, positive to the left (default: test steering, 17 points)'), &
+      option_t('export', '--map KIND', 'steer | opposite: second argument of the map (default: steer if the deck steers)'), &
+      option_t('export', '--driver NAME', 'driver joint that steers (default: that of &steering)'), &
+      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck leaves a choice; NAME'// &
+      indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
+      option_t('export', '--vertical WORD', 'what travel is the height of: centre | patch | road (default: patch)'), &
+      option_t('export', '--held WORD', 'wheels in the compliance: road | centre | force (default: road with a tyre_rate)'), &
+      option_t('export', '--axle WORD', 'front | rear (default: that of &axle)'), &
+      option_t('export', '--other DECK', 'matlab-kc: the deck of the other axle'), &
+      option_t('export', '--signs WORD', 'csv: iso | sae (default: iso)'), &
+      option_t('export', '--loads F:M:n', 'csv: largest force in N and moment in N m, n points (default: 2000:100:21)'), &
+      option_t('export', '--plot', 'also draw the written tables over curves that are solved separately'), &
+      option_t('export', '--set path=value', 'as for run'), &
+      option_t('export', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
@@ -138,6 +164,8 @@ contains
          call run_merge_command(line, error)
       case ('plot')
          call run_plot_command(line, error)
+      case ('export')
+         call export(line, error)
       case ('bench')
          call bench(line, error)
       end select

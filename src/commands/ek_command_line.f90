@@ -16,7 +16,7 @@ module ek_command_line
       character(80) :: usage      !! after 'elastokin'; options without a line of help are appended
       character(15) :: brief      !! the same in the overview
       character(60) :: summary    !! line of the overview
-      character(420) :: text      !! description
+      character(620) :: text      !! description
       character(180) :: ending    !! after the options
       integer :: files = 1        !! 1: one file; 2: two or more
    end type command_t
