@@ -11,6 +11,7 @@ module ek_command
    use ek_study_command, only: run_study_command, run_merge_command
    use ek_plot, only: run_plot_command
    use ek_bench, only: bench
+   use ek_import, only: import
    implicit none(type, external)
    private
    public :: commands, options, help_text, obey
@@ -52,6 +53,10 @@ module ek_command
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
       'Which figures there are follows from the kind of the study and from its columns and responses.', ''), &
+      command_t('import', 'import FILE … [options]', 'import FILE', 'files of Adams/Car or IPGKinematics as a deck', &
+      'Writes files of other programs as a deck: a .kin of IPGKinematics as a whole axle (its .gum bushings beside'//nl// &
+      'it), hardpoints (.sub, .asy, CSV) as points, property files (.bus, .spr, .bum, .reb, .gum) as curves;'//nl// &
+      'a .lcf becomes a table of loads. Every mistake in the files is reported with file and line.', '', 0), &
       command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
@@ -99,6 +104,8 @@ module ek_command
       option_t('plot', '--samples N', 'as the study ran'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
+      option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
+      option_t('import', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
       option_t('', '--help', ''), option_t('', '--version', '')]
@@ -125,6 +132,8 @@ contains
          call run_merge_command(line, error)
       case ('plot')
          call run_plot_command(line, error)
+      case ('import')
+         call import(line, error)
       case ('bench')
          call bench(line, error)
       end select
