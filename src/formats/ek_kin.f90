@@ -114,7 +114,7 @@ contains
       call take_law('federbeiwert [n/mm*', 'federweg*', kin%coil)
       call take_choice('aus = 0, qlu*', 3, kin%bar)
       call take_law('drehfederbeiwert*', 'winkel*', kin%bar_law)
-      call take_law('l*ngssteifigkeit*n/mm*', 'federweg*', kin%rod_law)
+      call take_law('l*ngs*teifigkeit*n/mm*', 'federweg*', kin%rod_law)
       call take_choice('aus = 0, linear*', 2, kin%third)
       call take_choice_of_two('querlenker oben: aufbau*', kin%has_upper_on_subframe)
       call take_mass('beladung*', kin%load)

@@ -2,7 +2,8 @@
 !> or pull rods and rockers, a U-shaped anti-roll bar, masses and wheel loads.
 !>
 !> As there, the design position is an equilibrium under the weights and the wheel loads: the springs get the preloads for it. The mass
-!> of an arm, a tie rod is at the middle of its points, that of the wheel at its centre, that of a rocker at its pivot.
+!> of an arm is in the middle between its ball joint and its pivots, that of a tie rod in its middle, that of a carrier
+!> in the middle between its ball joints and the wheel centre, that of the wheel at its centre, that of a rocker at its pivot.
 module ek_kin_deck
    use ek_kinds, only: wp, millimetre, degree
    use ek_text, only: str
@@ -185,10 +186,10 @@ contains
             call point('bar_centre', [kin%at(1, bar_bearing), 0.0_wp, kin%at(3, bar_bearing)])
          end if
          call deck%blank()
-         call point('lower_arm_mass', middle([lower_ball, lower_front, lower_rear]))
-         call point('upper_arm_mass', middle([upper_ball, upper_front, upper_rear]))
+         call point('lower_arm_mass', middle([lower_ball, lower_ball, lower_front, lower_rear]))
+         call point('upper_arm_mass', middle([upper_ball, upper_ball, upper_front, upper_rear]))
          call point('tie_rod_mass', middle([tie_rod_outer, tie_rod_inner]))
-         call point('carrier_mass', middle([lower_ball, upper_ball]))
+         call point('carrier_mass', middle([wheel_centre, wheel_centre, lower_ball, upper_ball]))
       end subroutine put_points
 
       subroutine body(name, mass, centre, note)
