@@ -161,7 +161,7 @@ contains
       name = legal_name(base_name(path))
       call deck%blank()
       call deck%comment('from '//path)
-      call deck%comment('without ''!'' and with bodies and points:')
+      call deck%comment('the element, to be completed by its bodies and points, is in the comment below')
       if (property%kind == bushing_file) then
          call put_curves(deck, name, property%laws, 'akima')
          call element%begin('bushing')
