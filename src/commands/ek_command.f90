@@ -11,6 +11,7 @@ module ek_command
    use ek_study_command, only: run_study_command, run_merge_command
    use ek_plot, only: run_plot_command
    use ek_bench, only: bench
+   use ek_import, only: import
    use ek_export, only: export
    implicit none(type, external)
    private
@@ -56,6 +57,10 @@ module ek_command
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
       'Which figures there are follows from the kind of the study and from its columns and responses.', ''), &
+      command_t('import', 'import FILE … [options]', 'import FILE', 'files of Adams/Car or IPGKinematics as a deck', &
+      'Writes files of other programs as a deck: a .kin of IPGKinematics as a whole axle (its .gum bushings beside'//nl// &
+      'it), hardpoints (.sub, .asy, CSV) as points, property files (.bus, .spr, .bum, .reb, .gum) as curves;'//nl// &
+      'a .lcf becomes a table of loads. Every mistake in the files is reported with file and line.', '', 0), &
       command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
       'tables of kinematics and compliance for other simulators', &
       'Writes what a simulator takes of the axle of a deck into DIR:'//nl// &
@@ -134,6 +139,8 @@ module ek_command
       option_t('export', '--plot', 'also draw the written tables over curves that are solved separately'), &
       option_t('export', '--set path=value', 'as for run'), &
       option_t('export', '--quiet', quiet_help), &
+      option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
+      option_t('import', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
       option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
@@ -164,6 +171,8 @@ contains
          call run_merge_command(line, error)
       case ('plot')
          call run_plot_command(line, error)
+      case ('import')
+         call import(line, error)
       case ('export')
          call export(line, error)
       case ('bench')

@@ -18,7 +18,7 @@ module ek_command_line
       character(60) :: summary    !! line of the overview
       character(620) :: text      !! description
       character(180) :: ending    !! after the options
-      integer :: files = 1        !! 1: one file; 2: two or more
+      integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
    end type command_t
 
    !> An option that a command takes.
@@ -135,9 +135,9 @@ contains
       if (k == 0 .or. line%has('--help') .or. line%has('--version') .or. line%has('--help-files')) return
       if (n == 0) then
          call fail(error, exit_usage, 'no command: expected '//names_of(commands))
-      else if (line%files%count() < commands(n)%files) then
+      else if (line%files%count() < max(commands(n)%files, 1)) then
          call fail(error, exit_usage, line%command//' needs '//trim(merge('a file              ', 'at least two results', &
-            commands(n)%files == 1))//': elastokin '//trim(commands(n)%brief))
+            commands(n)%files < 2))//': elastokin '//trim(commands(n)%brief))
       end if
       do k = 1, line%names%count()
          word = line%names%line(k)
