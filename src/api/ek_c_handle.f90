@@ -1,7 +1,7 @@
 !> What the C interface keeps for one ek_model: a session, the last message, and the texts that were returned last.
 module ek_c_handle
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
-   use ek_error, only: error_t, exit_usage
+   use ek_error, only: error_t, message_list_t, exit_usage
    use ek_text, only: str
    use ek_session, only: session_t
    implicit none(type, external)
@@ -23,6 +23,7 @@ module ek_c_handle
       character(:), allocatable :: message                   !! of the last call, with its '\0'
       type(text_t) :: texts(kept)                            !! returned last, with their '\0'
       integer :: last = 0                                    !! of them
+      type(message_list_t) :: number_names, number_units, number_definitions      !! of key numbers, made when asked for
    end type handle_t
 
    interface

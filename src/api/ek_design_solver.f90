@@ -12,7 +12,7 @@ module ek_design_solver
    use ek_reader, only: design_t, read_design, realise_deck
    use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, is_mountable
+   use ek_case, only: case_t, is_mountable, default_tolerance
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t
    use ek_rig, only: mount, mount_case
@@ -25,7 +25,7 @@ module ek_design_solver
    implicit none(type, external)
    private
    public :: design_solver_t, begin_design_solver, read_checked, put_numbers, solve_case_fully, solve_case_again, &
-      heads_of_case, case_number
+      settle_fully, settle_again, report_cases, heads_of_case, case_number
 
    !> A deck, its present numbers, and the last solution of each case.
    type :: design_solver_t
@@ -36,7 +36,9 @@ module ek_design_solver
       type(worker_case_t), allocatable :: cases(:)      !! of the deck, then the standard tests that it does not have; with all columns
       logical, allocatable, private :: is_sound(:)      !! the case was examined at these numbers
       logical, private :: is_realised = .false.         !! raw has these numbers
-      logical, private :: is_balanced = .false.         !! so has suspension
+      logical, private :: is_balanced = .false.         !! so has suspension, with this tolerance [m]
+      real(wp), private :: tolerance = 0.0_wp
+      integer, allocatable :: report_order(:)           !! the cases in the order of the report
    end type design_solver_t
 
 contains
@@ -71,6 +73,7 @@ contains
       do k = 1, size(solver%cases)
          allocate (solver%cases(k)%observer)
       end do
+      solver%report_order = [(case_number(tests(k)%name, solver), k=1, size(tests))]
 
    contains
 
@@ -182,7 +185,7 @@ contains
       solver%is_realised = is_done
    end subroutine take_numbers
 
-   !> Balances the suspension, once for all cases (they differ in their tolerance at most), and solves a case.
+   !> Mounts and solves a case of a design that was examined.
    subroutine solve_balanced(k, options, is_terse, solver, error)
       integer, intent(in) :: k
       type(solve_options_t), intent(in) :: options
@@ -190,17 +193,94 @@ contains
       type(design_solver_t), intent(inout) :: solver
       type(error_t), allocatable, intent(out) :: error
 
+      call balance_once(solver%cases(k)%case%tolerance, is_terse, solver, error)
+      if (allocated(error)) return
       associate (this => solver%cases(k))
-         if (.not. solver%is_balanced) then
-            solver%suspension = solver%raw
-            call balance(solver%suspension, this%case%tolerance, error, is_terse)
-            if (allocated(error)) return
-            solver%is_balanced = .true.
-         end if
          call mount_case(solver%suspension, this%case, this%result%mounted_case_t)
          call solve_mounted(options, this%result, observer=this%observer)
       end associate
    end subroutine solve_balanced
+
+   !> Balances the suspension, once for all cases of one tolerance.
+   subroutine balance_once(tolerance, is_terse, solver, error)
+      real(wp), intent(in) :: tolerance                    !! m
+      logical, intent(in) :: is_terse                      !! no texts
+      type(design_solver_t), intent(inout) :: solver
+      type(error_t), allocatable, intent(out) :: error
+
+      if (solver%is_balanced .and. abs(tolerance - solver%tolerance) <= 0.0_wp) return
+      solver%suspension = solver%raw
+      call balance(solver%suspension, tolerance, error, is_terse)
+      solver%is_balanced = .not. allocated(error)
+      solver%tolerance = tolerance
+   end subroutine balance_once
+
+   !> Examines the needed cases of the report at the present numbers and balances the suspension as the report does; with messages.
+   subroutine settle_fully(is_needed, solver, is_solvable, is_done, error)
+      logical, intent(in) :: is_needed(:)                  !! in the order of the report
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_solvable(:)
+      logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
+      type(error_t), allocatable, intent(out) :: error     !! exit_model: no case can be solved
+      type(diagnosis_t) :: diagnosis
+      integer :: j, k
+
+      is_solvable = .true.
+      call take_numbers(solver, is_done)
+      if (.not. is_done) return
+      do j = 1, size(is_needed)
+         k = solver%report_order(j)
+         associate (this => solver%cases(k))
+            call refresh_case(solver%raw, solver%design, this)
+            if (.not. is_needed(j) .or. .not. is_mountable(this%case)) cycle
+            call examine_case(solver%raw, this%case, diagnosis, this%known)
+            is_solvable(j) = diagnosis%is_solvable()
+            solver%is_sound(k) = is_solvable(j)
+            if (is_solvable(j) .or. any(is_solvable(:j) .and. is_needed(:j)) .or. allocated(error)) cycle
+            call fail(error, exit_model, 'case '//quoted(this%case%name)//': the model cannot be solved'//new_line('a')// &
+               diagnosis%words())
+         end associate
+      end do
+      if (any(is_solvable .and. is_needed) .or. .not. any(is_needed)) then
+         if (allocated(error)) deallocate (error)
+         call balance_once(default_tolerance, .false., solver, error)
+      end if
+   end subroutine settle_fully
+
+   !> As settle_fully, for cases that were solved before: no text is made. is_done is .false. if there is a doubt.
+   subroutine settle_again(is_needed, solver, is_done)
+      logical, intent(in) :: is_needed(:)                  !! in the order of the report
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_done
+      type(error_t), allocatable :: error
+      integer :: j, k
+
+      call take_numbers(solver, is_done)
+      do j = 1, size(is_needed)
+         if (.not. is_done) return
+         k = solver%report_order(j)
+         if (.not. is_needed(j)) then
+            call refresh_case(solver%raw, solver%design, solver%cases(k))
+         else if (.not. solver%is_sound(k)) then
+            call examine_design(solver%raw, solver%design, solver%cases(k), is_done)
+            solver%is_sound(k) = is_done
+         end if
+      end do
+      if (is_done) call balance_once(default_tolerance, .true., solver, error)
+      is_done = is_done .and. .not. allocated(error)
+   end subroutine settle_again
+
+   !> The cases in the order of the report, with the present numbers.
+   subroutine report_cases(solver, cases)
+      type(design_solver_t), intent(in) :: solver
+      type(case_t), allocatable, intent(out) :: cases(:)
+      integer :: j
+
+      allocate (cases(size(solver%report_order)))
+      do j = 1, size(cases)
+         cases(j) = solver%cases(solver%report_order(j))%case
+      end do
+   end subroutine report_cases
 
    !> All columns that the table of a case has.
    subroutine heads_of_case(k, solver, heads)

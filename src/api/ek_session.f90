@@ -1,55 +1,22 @@
-!> A deck opened for a program that calls elastokin: change its numbers, solve its cases, read the results. The Fortran interface;
-!> ek_c_model and its neighbours make the C interface of it.
-!>
-!>     type(session_t) :: session
-!>     type(error_t), allocatable :: error
-!>     call open_file('axle.nml', session, error)
-!>     call set_number(session, 'bushing.lca_front.kt(1)', 500.0_wp, error)      in the unit of the deck, as --set
-!>     call solve(session, 'parallel_travel', error)
-!>     result => result_of(session)
-!>     toe = column(result%table, 'left_toe_deg')
-!>
-!> `error` has the message and the exit status of the program for the same fault. Nothing is printed, nothing is kept outside the
-!> session: different sessions may be used by different threads at a time. gfortran keeps the length of a text that a function
-!> returns in one place for all threads, so everything that makes texts is done in the critical section `ek_words`; solutions after the
-!> first of a case are numbers only and run at the same time.
+!> A deck opened for a program that calls elastokin: its numbers. Part of the Fortran interface (ek_api, where it is described).
 module ek_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, is_like
-   use ek_group, only: did_you_mean
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: quoted
    use ek_deck, only: deck_t, read_deck, parse_deck, set_value, deck_checksum
    use ek_parameter, only: choice_t, find_parameters
-   use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
-   use ek_remark, only: remark_t, remark_list_t, note, warning
-   use ek_response, only: no_column
+   use ek_case_result, only: solve_options_t
    use ek_factor_paths, only: shortest
-   use ek_table, only: name_length, column_index
-   use ek_compliance, only: compliance_t, new_compliance
-   use ek_schedule, only: new_schedule
-   use ek_sweep_table, only: state_compliance
-   use ek_wheel_side, only: deck_frame
+   use ek_table, only: name_length
    use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
       apply_settings
-   use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, solve_case_again, &
-      heads_of_case, case_number
+   use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers
+   use ek_named_numbers, only: named_numbers_t
    implicit none(type, external)
    private
-   public :: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, solve, result_of
-   public :: compliance_at, read_remark, checksum_of
-
-   !> A deck, its present numbers, and its last solution.
-   type :: session_t
-      type(deck_t) :: original                      !! as opened
-      type(deck_t) :: deck                          !! with the settings of set_text
-      type(design_solver_t) :: solver               !! of this deck
-      type(design_numbers_t) :: numbers             !! changed since
-      integer :: solved = 0                         !! case of the last solution; 0: there is none
-      type(prepared_t), allocatable, private :: prepared(:)
-      type(design_solver_t), allocatable, private :: other      !! of the deck with the numbers as text, for one solution
-      logical, private :: is_text_changed = .false.
-   end type session_t
+   public :: session_t, prepared_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, take_new_numbers
+   public :: changed_deck, checksum_of
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -57,6 +24,23 @@ module ek_session
       character(name_length), allocatable :: asked(:)      !! as the caller wrote them; of size 0: all
       type(solve_options_t) :: options
    end type prepared_t
+
+   !> A deck, its present numbers, and its last solution. A caller may read the components, and changes them by procedures only.
+   type :: session_t
+      type(deck_t) :: original                      !! as opened
+      type(deck_t) :: deck                          !! with the settings of set_text
+      type(design_solver_t) :: solver               !! of this deck
+      type(design_numbers_t) :: numbers             !! changed since
+      logical, private :: is_text_changed = .false.
+      ! ek_session_solution
+      integer :: solved = 0                         !! case of the last solution; 0: there is none
+      type(prepared_t), allocatable :: prepared(:)  !! of each case
+      type(design_solver_t), allocatable :: other   !! of the deck with the numbers as text, for one solution
+      ! ek_session_numbers
+      type(named_numbers_t) :: named                !! key numbers that were asked for last
+      character(name_length), allocatable :: names(:)
+      logical :: is_named_ready = .false.           !! they were read before: to read them again makes no text
+   end type session_t
 
 contains
 
@@ -99,6 +83,7 @@ contains
       if (allocated(session%prepared)) deallocate (session%prepared)
       allocate (session%prepared(size(solver%cases)))
       call begin_numbers(session%solver%design, session%numbers)
+      session%is_named_ready = .false.
    end subroutine begin
 
    !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. A value outside its
@@ -163,8 +148,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(deck_t) :: changed
 
-      changed = session%deck
-      call apply_settings(session%numbers, session%solver%design, changed, error)
+      call changed_deck(session, changed, error)
       if (.not. allocated(error)) call set_value(changed, path, text, error)
       if (.not. allocated(error)) call begin(changed, session, error)
       if (.not. allocated(error)) session%is_text_changed = .true.
@@ -234,184 +218,23 @@ contains
       end if
    end subroutine reset
 
-   !> Solves a case at the present numbers: of the deck, or a standard test. Its table has all columns, or `state`, `factor`, those named
-   !> (in the order of the program's tables) and the last ones on convergence.
-   subroutine solve(session, name, error, columns)
+   !> Gives the solver the numbers that were changed since.
+   subroutine take_new_numbers(session)
       type(session_t), intent(inout) :: session
-      character(*), intent(in) :: name                         !! '': the first case of the deck
-      type(error_t), allocatable, intent(out) :: error         !! exit_usage, exit_deck, exit_model: there is no result;
-      !!                                                          exit_convergence: there is one, with the states that converged
-      character(*), intent(in), optional :: columns(:)         !! * stands for any characters; absent or of size 0: all
-      character(name_length), allocatable :: asked(:)
-      logical :: is_done
-      integer :: k
 
-      session%solved = 0
-      if (allocated(session%other)) deallocate (session%other)
-      allocate (asked(0))
-      if (present(columns)) asked = columns
-      k = case_number(name, session%solver)
-      is_done = .false.
       if (session%numbers%is_new) call put_numbers(session%numbers%x, session%solver)
       session%numbers%is_new = .false.
-      if (k > 0) then
-         if (is_ready(session%prepared(k), asked)) then
-            call solve_case_again(k, session%prepared(k)%options, session%solver, is_done)
-            if (is_done) session%solved = k
-         end if
-      end if
-      !$omp critical (ek_words)
-      if (.not. is_done) call solve_with_words(session, name, asked, error)
-      if (session%solved > 0) call end_solution(session, error)
-      !$omp end critical (ek_words)
-   end subroutine solve
+   end subroutine take_new_numbers
 
-   !> Whether a case was solved before with these columns.
-   pure logical function is_ready(prepared, asked)
-      type(prepared_t), intent(in) :: prepared
-      character(name_length), intent(in) :: asked(:)
-
-      is_ready = prepared%is_ready
-      if (is_ready) is_ready = size(asked) == size(prepared%asked)
-      if (is_ready) is_ready = all(asked == prepared%asked)
-   end function is_ready
-
-   !> A first solution, or one that may fail.
-   subroutine solve_with_words(session, name, asked, error)
-      type(session_t), intent(inout) :: session
-      character(*), intent(in) :: name
-      character(name_length), intent(in) :: asked(:)
+   !> The deck with its present numbers as settings. One thread at a time.
+   subroutine changed_deck(session, deck, error)
+      type(session_t), intent(in) :: session
+      type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
-      type(deck_t) :: changed
-      type(prepared_t) :: prepared
-      logical :: is_done
-      integer :: k
 
-      call find_case(name, session%solver, session%deck%file, k, error)
-      if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
-      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
-      if (allocated(error)) return
-      session%prepared(k)%is_ready = is_done
-      if (.not. is_done) then
-         changed = session%deck
-         allocate (session%other)
-         call apply_settings(session%numbers, session%solver%design, changed, error)
-         if (.not. allocated(error)) call begin_design_solver(changed, session%other, error)
-         if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
-         if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
-         if (.not. allocated(error)) call solve_case_fully(k, prepared%options, session%other, is_done, error)
-         if (allocated(error)) return
-      end if
-      session%solved = k
-   end subroutine solve_with_words
-
-   subroutine find_case(name, solver, file, k, error)
-      character(*), intent(in) :: name, file
-      type(design_solver_t), intent(in) :: solver
-      integer, intent(out) :: k
-      type(error_t), allocatable, intent(out) :: error
-      character(name_length) :: names(size(solver%cases))
-      integer :: j
-
-      k = case_number(name, solver)
-      if (k > 0) return
-      do j = 1, size(names)
-         names(j) = solver%cases(j)%case%name
-      end do
-      call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
-   end subroutine find_case
-
-   !> The columns that a case is to have: names with * become those that they fit.
-   subroutine prepare(solver, k, asked, prepared, error)
-      type(design_solver_t), intent(in) :: solver
-      integer, intent(in) :: k
-      character(name_length), intent(in) :: asked(:)
-      type(prepared_t), intent(out) :: prepared
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: columns that the case does not have
-      type(message_list_t) :: mistakes
-      character(name_length), allocatable :: heads(:)
-      logical, allocatable :: is_wanted(:), fits(:)
-      integer :: j, h
-
-      prepared%options%has_remarks = .false.
-      prepared%asked = asked
-      if (size(asked) == 0) return
-      call heads_of_case(k, solver, heads)
-      allocate (is_wanted(size(heads)), source=.false.)
-      do j = 1, size(asked)
-         fits = [(is_like(trim(heads(h)), trim(asked(j))), h=1, size(heads))]
-         if (.not. any(fits)) call mistakes%add('case '//quoted(solver%cases(k)%case%name)//': '//no_column(trim(asked(j)), heads))
-         is_wanted = is_wanted .or. fits
-      end do
-      if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
-      prepared%options%columns = pack(heads, is_wanted)
-   end subroutine prepare
-
-   !> Remarks on the last solution, and its failures as an error.
-   subroutine end_solution(session, error)
-      type(session_t), intent(inout), target :: session
-      type(error_t), allocatable, intent(inout) :: error
-      type(solve_options_t) :: options
-      type(case_result_t), pointer :: result
-
-      result => result_of(session)
-      if (result%is_run()) call add_remarks(options, result)
-      call failure_of(result, error)
-      if (.not. result%is_run()) session%solved = 0
-   end subroutine end_solution
-
-   !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
-   !> Not associated if there is none.
-   function result_of(session) result(last)
-      type(session_t), intent(inout), target :: session
-      type(case_result_t), pointer :: last
-
-      nullify (last)
-      if (session%solved == 0) return
-      if (allocated(session%other)) then
-         last => session%other%cases(session%solved)%result
-      else
-         last => session%solver%cases(session%solved)%result
-      end if
-   end function result_of
-
-   !> A remark on a solution: its text, and 'note', 'warning' or 'failure'.
-   subroutine read_remark(remarks, k, text, severity)
-      type(remark_list_t), intent(in) :: remarks
-      integer, intent(in) :: k
-      character(:), allocatable, intent(out) :: text, severity
-      type(remark_t) :: remark
-
-      remark = remarks%item(k)
-      text = remark%whole()
-      severity = 'failure'
-      if (remark%severity == note) severity = 'note'
-      if (remark%severity == warning) severity = 'warning'
-   end subroutine read_remark
-
-   !> The compliance matrix at the wheel centres in one row of a solution, left before right, frame of the deck: displacements
-   !> x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
-   subroutine compliance_at(result, row, c)
-      type(case_result_t), intent(inout) :: result
-      integer, intent(in) :: row
-      real(wp), intent(out) :: c(:, :)                     !! 6 × wheels
-      type(compliance_t) :: compliance
-      real(wp) :: arm(3, size(c, 1)/6), frame(3)
-      integer :: state, i, j
-
-      state = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
-      c = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. result%path%is_reached(state)) return
-      compliance = new_compliance(result%suspension, .false.)
-      call state_compliance(result%suspension, new_schedule(result%suspension, result%case), result%path, state, result%kkt, &
-         compliance, c, arm)
-      frame = deck_frame(result%suspension)
-      do j = 1, size(c, 2)
-         do i = 1, size(c, 1)
-            c(i, j) = frame(mod(i - 1, 3) + 1)*frame(mod(j - 1, 3) + 1)*c(i, j)
-         end do
-      end do
-   end subroutine compliance_at
+      deck = session%deck
+      call apply_settings(session%numbers, session%solver%design, deck, error)
+   end subroutine changed_deck
 
    !> The checksum of the deck with its present numbers.
    subroutine checksum_of(session, digits, error)
@@ -421,8 +244,7 @@ contains
       type(deck_t) :: changed
 
       !$omp critical (ek_words)
-      changed = session%deck
-      call apply_settings(session%numbers, session%solver%design, changed, error)
+      call changed_deck(session, changed, error)
       digits = deck_checksum(changed)
       !$omp end critical (ek_words)
    end subroutine checksum_of

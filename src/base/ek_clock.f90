@@ -5,7 +5,7 @@ module ek_clock
    use ek_posix, only: c_time, c_gmtime, c_localtime, c_strftime
    implicit none(type, external)
    private
-   public :: seconds, seconds_since_1970, date_text
+   public :: seconds, seconds_since_1970, date_text, universal_time
 
 contains
 
@@ -43,6 +43,19 @@ contains
       length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%d %H:%M'//c_null_char, fields)
       words = transfer(letters(:length), words)
    end function date_text
+
+   !> '2026-01-31T16:05:09Z': the time now in UTC (ISO 8601), to compare what several machines have done.
+   function universal_time() result(words)
+      character(20) :: words
+      character(kind=c_char) :: letters(21)
+      integer(c_long) :: fields(16)
+      type(c_ptr) :: ignored
+      integer(c_size_t) :: length
+
+      ignored = c_gmtime(c_time(c_null_ptr), fields)
+      length = c_strftime(letters, size(letters, kind=c_size_t), '%Y-%m-%dT%H:%M:%SZ'//c_null_char, fields)
+      words = transfer(letters(:length), words)
+   end function universal_time
 
    !> Reads SOURCE_DATE_EPOCH if it is a whole number of seconds within the years 1970 to 9999.
    subroutine read_set_date(epoch, is_set)

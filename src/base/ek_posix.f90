@@ -2,7 +2,8 @@
 !>
 !> Only POSIX functions without variable argument lists are used, and no structure is looked into, so no structure layout and
 !> no processor-dependent constant is needed. `__errno_location` is the name of errno in glibc and musl. `flock` is not in
-!> POSIX, but in every Linux and BSD. Users of this module: ek_system, ek_writer, ek_process, ek_file, ek_clock.
+!> POSIX, but in every Linux and BSD. Users of this module: ek_system, ek_writer, ek_process, ek_file,
+!> ek_append_file, ek_loaded_library, ek_clock.
 module ek_posix
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t
    implicit none(type, external)
@@ -11,7 +12,7 @@ module ek_posix
    public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
       c_close
    public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw, c_readlink
-   public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym, c_time, c_gmtime, c_localtime, c_strftime
+   public :: c_signal, c_gethostname, c_errno, c_strerror, c_strlen, c_dlsym, c_dladdr, c_time, c_gmtime, c_localtime, c_strftime
 
    ! Only procedures without `value` arguments: gfortran 12 passes these by reference from the second call on
    abstract interface
@@ -179,6 +180,11 @@ module ek_posix
          type(c_ptr), value :: handle
          character(kind=c_char), intent(in) :: name(*)
       end function c_dlsym
+      integer(c_int) function c_dladdr(address, facts) bind(c, name='dladdr')      ! POSIX since 2024
+         import :: c_int, c_funptr, c_ptr
+         type(c_funptr), value :: address
+         type(c_ptr), intent(out) :: facts(4)         ! Dl_info: four addresses on every system
+      end function c_dladdr
       integer(c_long) function c_time(place) bind(c, name='time')
          import :: c_long, c_ptr
          type(c_ptr), value :: place

@@ -15,7 +15,7 @@ module ek_system
    private
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
    public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, system_reason, set_signal
-   public :: program_folder
+   public :: program_folder, host_name
    public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_remarks
    public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
@@ -169,7 +169,6 @@ contains
    function machine_tag() result(tag)
       character(8) :: tag
       character(64) :: text
-      character(kind=c_char) :: letters(65)
       integer :: unit, status, k, filled
 
       text = ''
@@ -178,11 +177,7 @@ contains
          read (unit, '(a)', iostat=status) text
          close (unit, iostat=k)
       end if
-      if (status /= 0 .or. len_trim(text) < 8) then
-         letters = c_null_char
-         text = ''
-         if (c_gethostname(letters, 64_c_size_t) == 0) text = text_of(letters)
-      end if
+      if (status /= 0 .or. len_trim(text) < 8) text = host_name()
       tag = '00000000'
       filled = 0
       do k = 1, len_trim(text)
@@ -192,6 +187,16 @@ contains
          tag(filled:filled) = text(k:k)
       end do
    end function machine_tag
+
+   !> The name of this machine; '' if it is unknown.
+   function host_name() result(name)
+      character(:), allocatable :: name
+      character(kind=c_char) :: letters(65)
+
+      letters = c_null_char
+      name = ''
+      if (c_gethostname(letters, 64_c_size_t) == 0) name = text_of(letters)
+   end function host_name
 
    !> The working folder; '.' if it has no path.
    function working_folder() result(path)

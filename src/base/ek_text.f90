@@ -5,7 +5,7 @@ module ek_text
    use ek_letters, only: visible, printable
    implicit none(type, external)
    private
-   public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable, spaced
+   public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable, spaced, replace
 
    !> A number as text, in the shortest form a person would write.
    interface str
@@ -183,5 +183,21 @@ contains
       end do
       distance = row(len(b))
    end function edit_distance
+
+   !> Replaces every occurrence of a text by another.
+   pure subroutine replace(text, old, new)
+      character(:), allocatable, intent(inout) :: text
+      character(*), intent(in) :: old, new
+      integer :: first, at
+
+      first = 1
+      do
+         at = index(text(first:), old)
+         if (at == 0) return
+         at = first + at - 1
+         text = text(:at - 1)//new//text(at + len(old):)
+         first = at + len(new)
+      end do
+   end subroutine replace
 
 end module ek_text

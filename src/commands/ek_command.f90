@@ -11,20 +11,25 @@ module ek_command
    use ek_study_command, only: run_study_command, run_merge_command
    use ek_plot, only: run_plot_command
    use ek_bench, only: bench
+   use ek_import, only: import
+   use ek_export, only: export
    implicit none(type, external)
    private
-   public :: commands, options, help_text, obey
+   public :: commands, options, exit_status_text, help_text, obey
 
    character(*), parameter :: nl = new_line('a'), indent = nl//repeat(' ', 21)
    character(*), parameter :: quiet_help = 'suppress informational messages; warnings and errors remain'
    character(*), parameter :: no_plots_help = 'tables only; gnuplot is not started'
 
+   character(*), parameter :: exit_status_text = &
+      'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
+      '4 a state did not converge (the converged states are written), 5 files.'
+
    type(command_t), parameter :: commands(*) = [ &
       command_t('run', 'run DECK [options]', 'run DECK', 'sweep the cases of a deck; write CSV files (and plots)', &
       'Sweeps every case of a deck and writes DIR/<model>_<case>.csv, one row per state.'//nl// &
       'DECK may be - (standard input). File paths are printed to standard output, messages to standard error.', &
-      'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
-      '4 a state did not converge (the converged states are written), 5 files.'), &
+      exit_status_text), &
       command_t('check', 'check DECK', 'check DECK', 'examine a deck and its model', &
       'Reads a deck, reports every error with file and line, and examines the model: bodies, unknowns,'//nl// &
       'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points. A remark points'//nl// &
@@ -52,6 +57,18 @@ module ek_command
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
       'Which figures there are follows from the kind of the study and from its columns and responses.', ''), &
+      command_t('import', 'import FILE … [options]', 'import FILE', 'files of Adams/Car or IPGKinematics as a deck', &
+      'Writes files of other programs as a deck: a .kin of IPGKinematics as a whole axle (its .gum bushings beside'//nl// &
+      'it), hardpoints (.sub, .asy, CSV) as points, property files (.bus, .spr, .bum, .reb, .gum) as curves;'//nl// &
+      'a .lcf becomes a table of loads. Every mistake in the files is reported with file and line.', '', 0), &
+      command_t('export', 'export DECK --to TARGET [options]', 'export DECK', &
+      'tables of kinematics and compliance for other simulators', &
+      'Writes what a simulator takes of the axle of a deck into DIR:'//nl// &
+      '  carmaker   <model>.skc: kinematics over travel and steer (or the other wheel''s travel), compliance'//nl// &
+      '  carsim     <model>_carsim.par: tables over jounce, compliance coefficients'//nl// &
+      '  matlab-kc  <model>_kandc.m and .json: parameters of "Independent Suspension - K and C"'//nl// &
+      '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv, and all of it in _tables.json'//nl// &
+      'docs/EXPORT.md describes each file: frame, signs, units. If a number cannot be computed, nothing is written.', ''), &
       command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
       'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
@@ -65,17 +82,23 @@ module ek_command
       option_t('run', '--increments N', 'increments of the whole range; overrides the deck'), &
       option_t('run', '--set path=value', 'replace a value of the deck, with the same checks; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
+      option_t('run', '--set-file FILE', 'settings from a file, one per line: path = value; mistakes with file and line'), &
+      option_t('run', '--responses a,b', 'only these key numbers of the report (names as in key_numbers.csv), no other files'), &
+      option_t('run', '--results FILE', 'where --responses are written, one `value name` line each (default: -)'), &
+      option_t('run', '--columns a,b,c', 'only these columns, beside state, factor, converged …; left_* stands for many'), &
+      option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - only this'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
+      option_t('check', '--set-file FILE', ''), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
       'travel=15 (mm) roll=1 (deg) force=1000 (N) torque=100 (N m) rack=10 (mm) wheel=20 (deg)'), &
       option_t('report', '--case NAME', 'run this test only'), &
       option_t('report', '--method M', 'as for run'), option_t('report', '--increments N', 'as for run'), &
-      option_t('report', '--set path=value', 'as for run'), &
+      option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
       option_t('report', '--no-plots', no_plots_help), &
       option_t('report', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
@@ -93,15 +116,38 @@ module ek_command
       option_t('study', '--no-plots', no_plots_help), &
       option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), &
       option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
-      option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado sobol morris line map fan family'//indent// &
-      'histogram scatter parallel convergence'), &
+      option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
+      'family | histogram | scatter | parallel | convergence'), &
       option_t('plot', '--out DIR', 'folder of the tables (default: out, next to the study)'), &
       option_t('plot', '--samples N', 'as the study ran'), &
       option_t('plot', '--set path=value', 'the change of the deck with which the study ran'), &
       option_t('plot', '--quiet', quiet_help), &
+      option_t('export', '--to TARGET', 'carmaker | carsim | matlab-kc | csv'), &
+      option_t('export', '--out DIR', 'output folder (default: out)'), &
+      option_t('export', '--travel from:to:n', 'wheel travel in mm with n points (default: test parallel_travel, 33 points)'), &
+      option_t('export', '--steer from:to:n', 'rack travel in mm, positive to the left (default: test steering, 17 points)'), &
+      option_t('export', '--map KIND', 'steer | opposite: second argument of the map (default: steer if the deck steers)'), &
+      option_t('export', '--driver NAME', 'driver joint that steers (default: that of &steering)'), &
+      option_t('export', '--length what=NAME', 'spring, damper, stop or bar of a wheel, where the deck leaves a choice; NAME'// &
+      indent//'without left_ and right_, or LEFT,RIGHT; may be repeated: --length spring=coil'), &
+      option_t('export', '--vertical WORD', 'what travel is the height of: centre | patch | road (default: patch)'), &
+      option_t('export', '--held WORD', 'wheels in the compliance: road | centre | force (default: road with a tyre_rate)'), &
+      option_t('export', '--axle WORD', 'front | rear (default: that of &axle)'), &
+      option_t('export', '--other DECK', 'matlab-kc: the deck of the other axle'), &
+      option_t('export', '--signs WORD', 'csv: iso | sae (default: iso)'), &
+      option_t('export', '--loads F:M:n', 'csv: largest force in N and moment in N m, n points (default: 2000:100:21)'), &
+      option_t('export', '--plot', 'also draw the written tables over curves that are solved separately'), &
+      option_t('export', '--set path=value', 'as for run'), &
+      option_t('export', '--quiet', quiet_help), &
+      option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
+      option_t('import', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
-      option_t('bench', '--json', ''), option_t('bench', '--quiet', ''), &
-      option_t('', '--help', ''), option_t('', '--version', '')]
+      option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
+      ! of every command
+      option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
+      option_t('', '--help', 'print this description'), &
+      option_t('', '--version', 'print the version, the compiler and the libraries in use'), &
+      option_t('', '--help-files DIR', '')]      ! for the build: man pages and completion (ek_help_files)
 
 contains
 
@@ -125,6 +171,10 @@ contains
          call run_merge_command(line, error)
       case ('plot')
          call run_plot_command(line, error)
+      case ('import')
+         call import(line, error)
+      case ('export')
+         call export(line, error)
       case ('bench')
          call bench(line, error)
       end select
@@ -150,13 +200,13 @@ contains
       text = 'elastokin '//trim(commands(n)%usage)
       lines = ''
       shared = ''
-      do k = 1, size(options) - 1             ! the last belongs to every command
-         if (options(k)%command /= name) cycle
+      do k = 1, size(options) - 1             ! the last is not described
+         if (options(k)%command /= name .and. options(k)%command /= '') cycle
          label = trim(options(k)%label)
          if (options(k)%help == '') then
             text = text//' ['//label//']'
             if (index(label, '=') > 0) text = text//'…'
-         else if (options(k + 1)%command == name .and. options(k + 1)%help == options(k)%help) then
+         else if (options(k + 1)%command == options(k)%command .and. options(k + 1)%help == options(k)%help) then
             shared = shared//label//', '
          else
             shared = shared//label

@@ -8,7 +8,7 @@ module ek_command_line
    use ek_gradient_definition, only: windows_t, set_window
    implicit none(type, external)
    private
-   public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows
+   public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows, argument
 
    !> A command, as --help describes it.
    type :: command_t
@@ -16,9 +16,9 @@ module ek_command_line
       character(80) :: usage      !! after 'elastokin'; options without a line of help are appended
       character(15) :: brief      !! the same in the overview
       character(60) :: summary    !! line of the overview
-      character(420) :: text      !! description
+      character(620) :: text      !! description
       character(180) :: ending    !! after the options
-      integer :: files = 1        !! 1: one file; 2: two or more
+      integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
    end type command_t
 
    !> An option that a command takes.
@@ -132,17 +132,17 @@ contains
          end if
          if (allocated(error)) return
       end do
-      if (k == 0 .or. line%has('--help') .or. line%has('--version')) return
+      if (k == 0 .or. line%has('--help') .or. line%has('--version') .or. line%has('--help-files')) return
       if (n == 0) then
          call fail(error, exit_usage, 'no command: expected '//names_of(commands))
-      else if (line%files%count() < commands(n)%files) then
+      else if (line%files%count() < max(commands(n)%files, 1)) then
          call fail(error, exit_usage, line%command//' needs '//trim(merge('a file              ', 'at least two results', &
-            commands(n)%files == 1))//': elastokin '//trim(commands(n)%brief))
+            commands(n)%files < 2))//': elastokin '//trim(commands(n)%brief))
       end if
       do k = 1, line%names%count()
          word = line%names%line(k)
          if (allocated(error)) return
-         if (.not. any(options%command == line%command .and. option_name(options) == word)) &
+         if (.not. any((options%command == line%command .or. options%command == '') .and. option_name(options) == word)) &
             call fail(error, exit_usage, line%command//' takes no '//word)
       end do
    end subroutine read_command_line

@@ -1,4 +1,5 @@
-!> Output on the console: messages on standard error; findings and the paths of results on standard output.
+!> Output on the console: messages on standard error; findings and the paths of results on standard output. All of it also goes
+!> into the log of the run.
 module ek_console
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural, printable
@@ -9,6 +10,7 @@ module ek_console
    use ek_balance, only: balance_remarks
    use ek_plausibility, only: doubt
    use ek_remark, only: remark_t, remark_list_t, note, warning, patch_remarks, spring_remarks, preload_remarks
+   use ek_run_log, only: log_message, log_output
    implicit none(type, external)
    private
    public :: print_note, print_warning, print_error, print_text, print_path, print_model_remarks, print_remarks, &
@@ -21,6 +23,7 @@ contains
       logical, intent(in) :: quiet
       character(*), intent(in) :: text
       if (.not. quiet) call print_message(text)
+      if (quiet) call log_message(printable(text))
    end subroutine print_note
 
    !> A warning: results may be unreliable.
@@ -39,6 +42,7 @@ contains
    subroutine print_message(text)
       character(*), intent(in) :: text
       call write_standard_error(printable(text)//new_line('a'))
+      call log_message(printable(text))
    end subroutine print_message
 
    !> Prints findings on standard output.
@@ -46,6 +50,7 @@ contains
       character(*), intent(in) :: text                          !! including its line ends
       type(error_t), allocatable, intent(out) :: error          !! exit_file
       call write_standard_output(printable(text), error)
+      call log_output(printable(text))
    end subroutine print_text
 
    !> Prints the path of a result on standard output. If standard output is full or closed the work continues, because the
@@ -55,6 +60,7 @@ contains
       type(error_t), allocatable, intent(inout) :: unprinted      !! exit_file
       type(error_t), allocatable :: error
 
+      call log_output(path//new_line('a'))
       if (allocated(unprinted)) return
       call write_standard_output(path//new_line('a'), error)
       if (.not. allocated(error)) return

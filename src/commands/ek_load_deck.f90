@@ -4,12 +4,14 @@ module ek_load_deck
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
+   use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file
    use ek_reader, only: design_t
    use ek_design_solver, only: read_checked
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, method_names, max_increments
    use ek_command_line, only: command_line_t
    use ek_examination, only: examination_t, examine_cases
+   use ek_run_log, only: is_logging, log_deck
    implicit none(type, external)
    private
    public :: deck_settings_t, read_deck_settings, load_deck, read_changed, chosen_cases, examine_chosen
@@ -23,6 +25,7 @@ module ek_load_deck
       integer :: increments = 0                  !! 0: as in the deck
       logical :: is_quiet = .false.
       type(message_list_t) :: changes            !! --set path=value
+      type(message_list_t) :: set_files          !! --set-file FILE: settings that come before those of --set
    end type deck_settings_t
 
 contains
@@ -38,6 +41,7 @@ contains
       settings%increments = line%number('--increments')
       settings%is_quiet = line%has('--quiet')
       settings%changes = line%values('--set')
+      settings%set_files = line%values('--set-file')
    end subroutine read_deck_settings
 
    !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
@@ -50,28 +54,45 @@ contains
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
       type(deck_t) :: deck
       type(design_t) :: design
+      type(set_file_t), allocatable :: files(:)
+      integer :: k
 
-      call read_changed(settings%file, settings%changes, deck, error)
-      if (.not. allocated(error)) call read_checked(deck, design, suspension, error, needs_tables)
-      if (allocated(design%cases)) call move_alloc(design%cases, cases)
+      allocate (files(settings%set_files%count()))
+      do k = 1, size(files)
+         if (.not. allocated(error)) call read_set_file(settings%set_files%line(k), files(k), error)
+      end do
+      if (.not. allocated(error)) call read_changed(settings%file, settings%changes, deck, error, files)
+      if (allocated(error)) return
+      call read_checked(deck, design, suspension, error, needs_tables)
+      call move_alloc(design%cases, cases)
+      do k = 1, size(files)
+         if (allocated(error)) call show_set_file(files(k), error%message)
+      end do
       if (allocated(error)) return
       checksum = deck_checksum(deck)
    end subroutine load_deck
 
-   !> Reads a deck and applies --set path=value in the order given.
-   subroutine read_changed(file, changes, deck, error)
+   !> Reads a deck and applies files of settings, then --set path=value, in the order given.
+   subroutine read_changed(file, changes, deck, error, set_files)
       character(*), intent(in) :: file
       type(message_list_t), intent(in) :: changes
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
+      type(set_file_t), intent(in), optional :: set_files(:)
       character(:), allocatable :: path, value
       integer :: k
 
       call read_deck(file, deck, error)
+      if (present(set_files)) then
+         do k = 1, size(set_files)
+            if (.not. allocated(error)) call apply_set_file(set_files(k), deck, error)
+         end do
+      end if
       do k = 1, changes%count()
          if (.not. allocated(error)) call split_setting(changes%line(k), path, value, error)
          if (.not. allocated(error)) call set_value(deck, path, value, error)
       end do
+      if (is_logging() .and. .not. allocated(error)) call log_deck(file, deck_checksum(deck))
    end subroutine read_changed
 
    !> The cases to run, with --case, --method and --increments applied.

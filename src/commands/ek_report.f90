@@ -1,19 +1,22 @@
 !> elastokin report: deck → tests → gradients, charts, picture → one page and its files.
 module ek_report
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
-   use ek_text, only: str, plural, spaced
+   use ek_text, only: str, plural
    use ek_version, only: version
    use ek_clock, only: date_text
    use ek_file, only: make_folder, write_whole, join_path, remove_file
-   use ek_suspension, only: suspension_t, load_number
+   use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_examination, only: examination_t
-   use ek_standard_tests, only: standard_tests, test_title
+   use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t, new_table
    use ek_test_charts, only: test_charts
    use ek_gradient, only: test_gradients, write_gradients
-   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, test_line, table_file
+   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, numbers_file, test_line
+   use ek_planned_test, only: planned_tests
+   use ek_key_numbers, only: key_number_t, key_numbers
+   use ek_key_number_table, only: write_key_numbers
    use ek_report_page, only: report_t, report_page, add_fact
    use ek_report_pictures, only: draw_pictures
    use ek_gradient_definition, only: windows_t
@@ -28,7 +31,7 @@ module ek_report
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    implicit none(type, external)
    private
-   public :: report, planned_tests, run_planned, kind_of_case
+   public :: report, run_planned
 
    type, extends(deck_settings_t) :: settings_t
       type(windows_t) :: windows                     !! of gradients
@@ -47,6 +50,7 @@ contains
       type(suspension_t) :: suspension
       type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)      ! of the deck; those of this report
       type(examination_t) :: found
+      type(key_number_t), allocatable :: numbers(:)
       type(message_list_t) :: warnings
       type(error_t), allocatable :: undrawn, unprinted, incomplete
       character(:), allocatable :: checksum, message
@@ -77,6 +81,12 @@ contains
       if (allocated(error)) return
       call print_path(join_path(page%folder, gradients_file), unprinted)
       call print_path(join_path(page%folder, 'gradients.json'), unprinted)
+      call key_numbers(page%tests, page%gradients, numbers)
+      call write_key_numbers(numbers, size(suspension%wheels) > 1, suspension%name, checksum, &
+         join_path(page%folder, numbers_file), join_path(page%folder, 'key_numbers.json'), error)
+      if (allocated(error)) return
+      call print_path(join_path(page%folder, numbers_file), unprinted)
+      call print_path(join_path(page%folder, 'key_numbers.json'), unprinted)
       call write_contents(page%tests, join_path(page%folder, contents_file), error)
       if (allocated(error)) return
 
@@ -191,85 +201,6 @@ contains
       call add_fact(page, 'Program', 'elastokin '//version)
       call add_fact(page, 'Date', date_text())
    end subroutine set_head
-
-   !> Name, kind and title of every test before it is run.
-   subroutine planned_tests(suspension, cases, tests)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(inout) :: cases(:)      !! their results have all columns
-      type(test_result_t), allocatable, intent(out) :: tests(:)
-      integer :: k
-
-      allocate (tests(size(cases)))
-      cases%has_all = .true.
-      do k = 1, size(cases)
-         associate (test => tests(k), case => cases(k))
-            test%name = case%name
-            test%file = table_file(case%name)
-            test%is_iso = suspension%is_iso
-            allocate (test%prefixes(0), test%sides(0))
-            if (len(case%test) > 0) then
-               test%kind = case%test
-               test%title = test_title(case, size(suspension%wheels))
-               test%is_anti = case%is_anti
-            else
-               call kind_of_case(suspension, case, test%kind, test%factor_size)
-               test%title = title_of(case%name)
-            end if
-         end associate
-      end do
-   end subroutine planned_tests
-
-   !> The kind of test that a case of a deck amounts to, from its drive or load.
-   subroutine kind_of_case(suspension, case, kind, factor_size)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      character(:), allocatable, intent(out) :: kind
-      real(wp), intent(out) :: factor_size      !! load at `factor` = 1 [N or N m]
-      real(wp), parameter :: mostly = 0.99_wp   ! share of the load along one axis
-      character(15), parameter :: kinds(6) = [character(15) :: 'braking', 'lateral_force', 'vertical_force', '', '', &
-         'aligning_torque']
-      real(wp) :: load(6)
-      integer :: k, axis
-
-      kind = 'other'
-      factor_size = 1.0_wp
-      if (case%drive == 'wheel_travel') then
-         kind = 'parallel_travel'
-         if (size(suspension%wheels) > 1) kind = 'single_travel'
-      end if
-      k = load_number(suspension, case%load)
-      if (k == 0) return
-      load = [suspension%loads(k)%force, suspension%loads(k)%moment]
-      if (norm2(load(:3)) > 0.0_wp .and. norm2(load(4:)) > 0.0_wp) return
-      axis = maxloc(abs(load), dim=1)
-      if (.not. abs(load(axis)) > mostly*norm2(load) .or. kinds(axis) == '') return
-      factor_size = load(axis)
-      kind = trim(kinds(axis))
-      if (axis /= 1 .or. .not. is_at_centre(suspension, k)) return
-      kind = 'traction'
-      factor_size = -load(1)
-   end subroutine kind_of_case
-
-   !> Whether a load acts at the centre of a wheel.
-   pure logical function is_at_centre(suspension, load)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: load
-      real(wp), parameter :: same = 1.0e-6_wp     ! m
-      integer :: k
-
-      is_at_centre = any([(suspension%wheels(k)%body == suspension%loads(load)%body .and. &
-         norm2(suspension%wheels(k)%centre - suspension%loads(load)%arm) < same, k=1, size(suspension%wheels))])
-   end function is_at_centre
-
-   !> 'Wheel travel sweep' of 'wheel_travel_sweep'.
-   pure function title_of(name) result(title)
-      character(*), intent(in) :: name
-      character(:), allocatable :: title
-
-      title = spaced(name)
-      if (len(title) == 0) return
-      if (title(1:1) >= 'a' .and. title(1:1) <= 'z') title(1:1) = achar(iachar(title(1:1)) - 32)
-   end function title_of
 
    !> Runs one test. Its remarks report every failure to converge; `error` then has exit_convergence (or exit_model if the
    !> model cannot be solved), and the table has the states before it.

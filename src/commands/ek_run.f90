@@ -12,17 +12,22 @@ module ek_run
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_sweep_table, only: compliance_table
    use ek_target, only: target_t, find_target
-   use ek_table, only: table_t, print_csv
+   use ek_table, only: table_t, print_csv, name_length
+   use ek_json, only: json_t
    use ek_gnuplot, only: figure_t, run_figures, draw_figures
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
+   use ek_run_numbers, only: run_numbers
+   use ek_run_columns, only: choose_columns
+   use ek_run_json, only: begin_run_json, add_run_json, write_run_json
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
    implicit none(type, external)
    private
    public :: run
 
    type, extends(deck_settings_t) :: settings_t
-      logical :: has_plots = .false., has_compliance = .false.
+      logical :: has_plots = .false., has_compliance = .false., has_json = .false.
+      character(name_length), allocatable :: columns(:)     !! of the tables; not allocated: all
    end type settings_t
 
    character(*), parameter :: compliance_ending = '_compliance.csv'
@@ -39,14 +44,21 @@ contains
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
+      type(json_t) :: json
       character(:), allocatable :: checksum, words
       integer :: k, failed, code
 
       call read_settings(line, settings, error)
+      if (line%has('--responses') .and. .not. allocated(error)) then
+         call run_numbers(line, settings, error)
+         return
+      end if
       if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
       if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
+      if (.not. allocated(error) .and. line%has('--columns')) &
+         call choose_columns(line%value('--columns'), suspension, chosen, settings%columns, error)
       if (allocated(error)) return
-      if (settings%out == '-' .and. size(chosen) > 1) then
+      if (settings%out == '-' .and. size(chosen) > 1 .and. .not. settings%has_json) then
          call fail(error, exit_usage, '--out - writes one table, but '//settings%file//' has '//str(size(chosen))// &
             ' cases; name one with --case')
          return
@@ -60,27 +72,29 @@ contains
 
       failed = 0
       code = exit_convergence
+      call begin_run_json(suspension%name, checksum, json)
       do k = 1, size(chosen)
-         call run_case(settings, suspension, chosen(k), found%faults%line(k), checksum, unprinted, trouble)
+         call run_case(settings, suspension, chosen(k), found%faults%line(k), checksum, json, unprinted, trouble)
          if (.not. allocated(trouble)) cycle
-         if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
-            call move_alloc(trouble, error)
-            return
-         end if
-         call print_error(trouble%message)
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
+         if (trouble%code /= exit_convergence .and. size(chosen) == 1) then
+            call move_alloc(trouble, error)
+         else
+            call print_error(trouble%message)
+         end if
       end do
-      if (failed == 0) then
-         call move_alloc(unprinted, error)
-         return
-      end if
       words = str(failed)//' of '//plural(size(chosen), 'case', 'cases')
-      if (code == exit_convergence) then
+      if (allocated(error)) then
+         continue
+      else if (failed == 0) then
+         call move_alloc(unprinted, error)
+      else if (code == exit_convergence) then
          call fail(error, code, words//' did not converge at every state; the converged states were written')
       else
          call fail(error, code, words//' failed (see above); the others were written')
       end if
+      if (settings%has_json) call write_run_json(json, merge(code, 0, failed > 0), settings%out, suspension%name, error)
    end subroutine run
 
    subroutine read_settings(line, settings, error)
@@ -91,13 +105,36 @@ contains
       call read_deck_settings(line, settings)
       settings%has_plots = line%has('--plot')
       settings%has_compliance = line%has('--compliance')
-      if (settings%out /= '-') return
+      settings%has_json = line%has('--json')
+      if (settings%has_plots .and. line%has('--columns')) then
+         call fail(error, exit_usage, '--plot draws all columns and cannot be used with --columns')
+         return
+      end if
+      call refuse_with_responses(line, error)
+      if (settings%out /= '-' .or. allocated(error)) return
       if (settings%has_plots) then
          call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
       else if (settings%has_compliance) then
          call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
       end if
    end subroutine read_settings
+
+   !> Refuses options about tables and figures where only key numbers are written.
+   subroutine refuse_with_responses(line, error)
+      type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: others(*) = [character(12) :: '--out', '--plot', '--compliance', '--columns', '--json']
+      integer :: k
+
+      if (.not. line%has('--responses')) then
+         if (line%has('--results')) call fail(error, exit_usage, '--results needs --responses: the names of key numbers')
+         return
+      end if
+      do k = size(others), 1, -1
+         if (line%has(trim(others(k)))) call fail(error, exit_usage, &
+            '--responses writes key numbers only, and cannot be used with '//trim(others(k)))
+      end do
+   end subroutine refuse_with_responses
 
    !> Refuses a case whose table would have the file name of another case's compliance matrix.
    subroutine refuse_double_files(cases, error)
@@ -115,12 +152,13 @@ contains
    end subroutine refuse_double_files
 
    !> One case: solve, report, write, draw.
-   subroutine run_case(settings, base, wanted, fault, checksum, unprinted, error)
+   subroutine run_case(settings, base, wanted, fault, checksum, json, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
       character(*), intent(in) :: checksum
+      type(json_t), intent(inout) :: json
       type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
@@ -131,14 +169,16 @@ contains
 
       options%fault = fault
       options%checksum = checksum
+      if (allocated(settings%columns)) options%columns = settings%columns
       call solve_case(base, wanted, options, result, show_progress)
       if (result%path%states > 1000) call clear_progress()
       call print_remarks(settings%is_quiet, result%remarks)
       call failure_of(result, error)
+      if (settings%has_json) call add_run_json(result, wanted, json)
       if (.not. result%is_run()) return
       name = join_path(settings%out, result%suspension%name//'_'//wanted%name)
       if (settings%out == '-') then
-         call print_csv(result%table, trouble)
+         if (.not. settings%has_json) call print_csv(result%table, trouble)
       else
          call write_table(result%table, name//'.csv', unprinted, trouble)
          if (settings%has_plots .and. .not. allocated(trouble)) call draw(settings, result, name, undrawn)

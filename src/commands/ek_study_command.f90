@@ -16,6 +16,7 @@ module ek_study_command
    use ek_study_progress, only: show_state, end_state, print_status
    use ek_study_outcome, only: write_results, write_step_size, show_results
    use ek_console, only: print_note
+   use ek_run_log, only: drop_log
    implicit none(type, external)
    private
    public :: run_study_command, run_merge_command
@@ -33,6 +34,7 @@ contains
 
       if (line%value('--shard') == '') call start_ranks(ranks, error)      ! a shard is one process
       is_first = ranks%is_first
+      if (.not. is_first) call drop_log()
       if (.not. allocated(error)) call run_as_rank(line, ranks, error)
       call end_ranks(ranks)
       if (.not. is_first .and. allocated(error)) deallocate (error)

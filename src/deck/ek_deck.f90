@@ -4,8 +4,8 @@
 !> stored here, and `build_model` reports it together with all other mistakes.
 !> Therefore `error` is set only if the file cannot be read (exit_file) or is empty (exit_deck).
 !>
-!> Order of processing: text, included files, settings of records in the deck, &mirror, settings of records
-!> created by &mirror.
+!> Order of processing: text, included files, &hardpoints, settings of records in the deck, property files, &mirror, settings of
+!> records created by the last two.
 module ek_deck
    use, intrinsic :: iso_fortran_env, only: input_unit, iostat_eor
    use ek_buffer, only: buffer_t
@@ -18,6 +18,8 @@ module ek_deck
       add_record, place_of
    use ek_scanner, only: scan_text
    use ek_mirror, only: mirror_records
+   use ek_hardpoint_records, only: attach_hardpoints
+   use ek_property_records, only: attach_properties
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
@@ -34,8 +36,8 @@ module ek_deck
       type(record_t), allocatable :: records(:)  !! the first `used` are filled, in the order of the text
       integer :: used = 0
       type(deck_errors_t) :: deck_errors           !! syntax mistakes
-      type(setting_t), allocatable :: late(:)    !! settings to be made after &mirror
-      logical :: is_mirrored = .false.
+      type(setting_t), allocatable :: late(:)    !! settings to be made after property files and &mirror
+      logical :: is_finished = .false.
    end type deck_t
 
    ! &include: the record itself stays in the list, so that its keys are checked like all others; the records of the file follow
@@ -93,6 +95,7 @@ contains
          allocate (deck%records(32))
          files%open(0)%path = deck%file
          call take_text(text, 0, files, deck)
+         call attach_hardpoints(deck%records, deck%used, deck%deck_errors)
       end if
       call name_tests(deck)
       if (deck%used == 0 .and. deck%deck_errors%count() == 0) &
@@ -153,22 +156,30 @@ contains
       call fail(error, exit_usage, visible(message))
    end subroutine set_value
 
-   !> The deck with both sides written out and the settings of single sides applied; without &mirror, a copy. Mistakes are added
-   !> to its list.
+   !> The deck with its property files read, both sides written out, and the settings of what these created applied. Mistakes are
+   !> added to its list.
    subroutine finish_deck(deck, whole)
       type(deck_t), intent(in) :: deck
       type(deck_t), intent(out) :: whole
+      type(record_t), allocatable :: half(:)
       character(:), allocatable :: message
       type(place_t) :: place
       logical :: is_found
-      integer :: k
+      integer :: k, half_used
 
       whole = deck
-      if (deck%is_mirrored .or. .not. any([(deck%records(k)%group == 'mirror', k=1, deck%used)])) return
-      whole%is_mirrored = .true.
-      call mirror_records(deck%records, deck%used, whole%records, whole%used, whole%deck_errors)
+      if (deck%is_finished) return
+      whole%is_finished = .true.
+      call attach_properties(whole%records, whole%used, whole%deck_errors)
+      if (any([(whole%records(k)%group == 'mirror', k=1, whole%used)])) then
+         half_used = whole%used
+         call move_alloc(whole%records, half)
+         call mirror_records(half, half_used, whole%records, whole%used, whole%deck_errors)
+      end if
       do k = 1, size(deck%late)
          call apply_setting(whole%records, whole%used, deck%late(k)%path, deck%late(k)%text, message, is_found)
+         if (index(deck%late(k)%path, '.property_') > 0) message = '--set '//trim(deck%late(k)%path)//'='// &
+            trim(deck%late(k)%text)//': a property file belongs to both sides; omit left_ or right_'
          if (message == '') cycle      ! a later setting has removed the record to which this one refers
          place%words = '--set '//trim(deck%late(k)%path)//'='//trim(deck%late(k)%text)
          place%source = huge(place%source)
@@ -196,11 +207,11 @@ contains
       integer :: k, e, v
 
       do k = 1, size(records)
-         if (records(k)%group == 'include') cycle
+         if (records(k)%group == 'include' .or. records(k)%group == 'hardpoints') cycle
          call include(sum, '&'//records(k)%group)
          do e = 1, records(k)%used
             associate (entry => records(k)%entries(e))
-               if (any([character(6) :: 'note', 'title', 'format'] == entry%key)) cycle
+               if (any([character(13) :: 'note', 'title', 'format', 'property_file'] == entry%key)) cycle
                call include(sum, ';'//entry%key//'('//str(entry%first)//')')
                do v = 1, entry%used
                   call include(sum, merge("'", ',', entry%values(v)%is_string)//entry%values(v)%text)

@@ -14,10 +14,10 @@ module ek_group
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
-      mass_group = 22, correlation_group = 23
-   character(*), parameter :: group_names(23) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
+      mass_group = 22, correlation_group = 23, hardpoints_group = 24
+   character(*), parameter :: group_names(24) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
-      'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation']
+      'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints']
 
    integer, parameter :: every_group = 0      !! in the table of keys
    integer, parameter :: spring_groups(4) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
@@ -53,7 +53,7 @@ module ek_group
 
    type :: key_t
       integer :: group
-      character(14) :: name
+      character(15) :: name
       integer :: type
       integer :: least, most     !! number of values
       logical :: is_required
@@ -112,6 +112,10 @@ module ek_group
       key_t(bushing_group, 'kt', number, 3, 3, .false., not_negative), &
       key_t(bushing_group, 'kr', number, 3, 3, .false., not_negative), &
       key_t(bushing_group, 'curve', word, 1, 6, .false., role=curves), &
+      key_t(bushing_group, 'property_file', prose, 1, 1, .false.), &
+      key_t(bushing_group, 'property_scale', number, 1, 6, .false., positive), &
+      key_t(bushing_group, 'property_offset', number, 1, 6, .false.), &
+      key_t(bushing_group, 'property_kind', word, 1, 1, .false.), &
       key_t(bushing_group, 'preload_force', number, 3, 3, .false., role=polar), &
       key_t(bushing_group, 'preload_moment', number, 3, 3, .false., role=axial), &
       key_t(spring_group, 'bodies', word, 2, 2, .false., role=body_group), &
@@ -119,6 +123,10 @@ module ek_group
       key_t(spring_group, 'measure', word, 1, 1, .false., role=measure_group), &
       key_t(spring_group, 'rate', number, 1, 1, .false., not_negative), &
       key_t(spring_group, 'curve', word, 1, 1, .false.), &
+      key_t(spring_group, 'property_file', prose, 1, 1, .false.), &
+      key_t(spring_group, 'property_scale', number, 1, 1, .false., positive), &
+      key_t(spring_group, 'property_offset', number, 1, 1, .false.), &
+      key_t(spring_group, 'property_kind', word, 1, 1, .false.), &
       key_t(spring_group, 'preload', number, 1, 1, .false.), &
       key_t(spring_group, 'balance', switch, 1, 1, .false.), &
       key_t(spring_group, 'free_length', number, 1, 1, .false., positive), &
@@ -135,6 +143,10 @@ module ek_group
       key_t(stop_group, 'clearance', number, 1, 1, .true., not_negative), &
       key_t(stop_group, 'rate', number, 1, 1, .false., not_negative), &
       key_t(stop_group, 'curve', word, 1, 1, .false.), &
+      key_t(stop_group, 'property_file', prose, 1, 1, .false.), &
+      key_t(stop_group, 'property_scale', number, 1, 1, .false., positive), &
+      key_t(stop_group, 'property_offset', number, 1, 1, .false.), &
+      key_t(stop_group, 'property_kind', word, 1, 1, .false.), &
       key_t(stop_group, 'rounding', number, 1, 1, .false., positive), &
       key_t(torsion_group, 'bodies', word, 2, 2, .true., role=body_group), &
       key_t(torsion_group, 'axis', word, 2, 2, .false., role=point_group), &
@@ -233,6 +245,10 @@ module ek_group
       key_t(response_group, 'lower', number, 1, 1, .false.), &
       key_t(response_group, 'upper', number, 1, 1, .false.), &
       key_t(include_group, 'file', prose, 1, 1, .true.), &
+      key_t(hardpoints_group, 'file', prose, 1, 1, .true.), &
+      key_t(hardpoints_group, 'length', word, 1, 1, .false.), &
+      key_t(hardpoints_group, 'axes', word, 1, 1, .false.), &
+      key_t(hardpoints_group, 'side', word, 1, 1, .false.), &
       key_t(mirror_group, 'shared', word, 1, max_values, .false.), &
       key_t(every_group, 'note', prose, 1, 1, .false.)]
 
@@ -350,11 +366,11 @@ contains
       integer, intent(in) :: group
       character(*), intent(in) :: name
       character(:), allocatable :: words
-      character(14) :: names(count(keys%group == group))
+      character(15) :: names(count(keys%group == group))
 
       names = pack(keys%name, keys%group == group)
       words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))// &
-         did_you_mean(name, [character(14) :: names(:1), 'note', names(2:)])
+         did_you_mean(name, [character(15) :: names(:1), 'note', names(2:)])
    end function unknown_key
 
    !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.

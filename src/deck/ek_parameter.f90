@@ -7,7 +7,8 @@ module ek_parameter
    use ek_contract, only: are_checked, require
    use ek_text, only: str, lower, quoted, is_like
    use ek_record, only: record_t, right_side, element, own_name, sign_of_image
-   use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, point_group, &
+   use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, hardpoints_group, &
+      point_group, &
       key_t, find_key, is_inside, did_you_mean
    implicit none(type, external)
    private
@@ -81,6 +82,8 @@ contains
          message = 'there is no group '//quoted(text(:dot - 1))//did_you_mean(text(:dot - 1), names_of_groups(of_deck=.true.))
       else if (path%group == include_group) then
          message = '--set cannot change an &include'
+      else if (path%group == hardpoints_group) then
+         message = '--set cannot change &hardpoints; change the points: point.name.z'
       else if (is_single(path%group) .and. dot /= last) then
          message = 'expected '//trim(group_names(path%group))//'.key=value'
       else if (.not. is_single(path%group) .and. dot == last) then

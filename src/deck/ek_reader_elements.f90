@@ -201,7 +201,7 @@ contains
 
       if (has_key(reading, 'rate') .and. has_key(reading, 'curve')) then
          call complain(reading, 'curve', 'give either rate or curve, not both')
-      else if (.not. (has_key(reading, 'rate') .or. has_key(reading, 'curve'))) then
+      else if (.not. (has_key(reading, 'rate') .or. has_key(reading, 'curve') .or. has_key(reading, 'property_file'))) then
          call complain(reading, '', "give 'rate' or 'curve'")
       end if
       call find_curve(reading, 'curve', text_of(reading, 'curve'), plan%curve)
@@ -237,7 +237,8 @@ contains
 
       call find_bodies(reading, number)
       call find_ends(reading, .true., plan%ends)
-      if (.not. (has_key(reading, 'kt') .or. has_key(reading, 'kr') .or. has_key(reading, 'curve'))) &
+      if (.not. (has_key(reading, 'kt') .or. has_key(reading, 'kr') .or. has_key(reading, 'curve') .or. &
+         has_key(reading, 'property_file'))) &
          call complain(reading, '', "give 'kt', 'kr' or 'curve'")
       call find_laws(reading, plan, element%bushing)
       call find_axes(reading, plan)

@@ -71,18 +71,18 @@ contains
 
    !> Sweeps a case; failures are returned in path%failure and never stop the program. States of a linear method that are not
    !> on the path from design are rejected.
-   subroutine sweep(suspension, case, path, kkt, progress)
+   subroutine sweep(suspension, case, path, kkt, progress, reach)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(out) :: path
       type(kkt_t), intent(inout) :: kkt                        !! of new_kkt
       procedure(progress_procedure), optional :: progress
-
+      real(wp), intent(in), optional :: reach                  !! states beyond this place on either side of design are left out
       integer, allocatable :: ends(:, :)
       integer :: w
 
       call new_path(suspension, case, path)
-      call walk(suspension, case, path, kkt, progress)
+      call walk(suspension, case, path, kkt, progress, reach)
       if (case%method == 'equilibrium' .or. path%is_table) return      ! the rows of a table do not form one path
       ends = ways(path)
       do w = 1, size(ends, 2)
@@ -143,17 +143,20 @@ contains
       end if
    end function ways
 
-   !> Follows the whole path of new_path.
-   subroutine walk(suspension, case, path, kkt, progress)
+   !> Follows the whole path of new_path, or one of equilibria around design as far as `reach`: its states are the same to the bit.
+   subroutine walk(suspension, case, path, kkt, progress, reach)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
+      real(wp), intent(in), optional :: reach      !! place; 0: the design state only
       type(walk_t) :: self
       integer, allocatable :: ends(:, :)
+      real(wp) :: far
       integer :: w
-
+      far = huge(far)
+      if (present(reach) .and. path%start > 0 .and. case%method == 'equilibrium' .and. .not. case%follows_arc) far = reach
       call start(self, suspension, case, path, kkt)
       if (.not. path%is_settled) return
       if (path%is_table) then
@@ -162,6 +165,7 @@ contains
          if (path%start > 0) call keep(self, suspension, case, path%start, path, kkt, progress)
          ends = ways(path)
          do w = 1, size(ends, 2)
+            if (.not. far > 0.0_wp) exit
             if (self%is_along_arc) then
                call walk_arc(self, suspension, case, ends(1, w), ends(2, w), path, kkt, path%failure(w), progress)
             else
@@ -213,6 +217,7 @@ contains
             call keep(self, suspension, case, first, path, kkt, progress)
          end if
          do k = first + direction, last, direction
+            if (abs(path%value(k)) > far .and. abs(k - first) >= depth) exit     ! `depth`: seed uses these states
             call advance(self, suspension, case, path%value(k), k, path, kkt, failure)
             if (failure%state > 0) return
             call keep(self, suspension, case, k, path, kkt, progress)

@@ -37,6 +37,7 @@ module ek_case_result
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
+      real(wp) :: reach = huge(1.0_wp)             !! swept value beyond which on either side of design no state is needed
       character(:), allocatable :: checksum        !! of the deck, for the header of the table; not allocated: no header
    end type solve_options_t
 
@@ -106,7 +107,7 @@ contains
             plural(result%case%increments, 'increment', 'increments')))
          return
       end if
-      call sweep(result%suspension, result%case, result%path, result%kkt, progress)
+      call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
       if (any(result%path%failure%state > 0)) result%outcome = partly_solved
       if (options%has_remarks) call add_remarks(options, result)

@@ -17,7 +17,7 @@ module ek_gradient
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_quantity, only: slope_unit, unit_text
-   use ek_table, only: row_count, column_index, name_length
+   use ek_table, only: table_t, row_count, column_index, name_length
    use ek_test_result, only: test_result_t, unfolded_rows, wheel_column
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, window_of
    use ek_error, only: error_t, fail, exit_file
@@ -27,7 +27,8 @@ module ek_gradient
    use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
    implicit none(type, external)
    private
-   public :: gradient_t, test_gradients, slope_over_window, noise_of, gradients_csv, gradients_json, write_gradients, read_gradients
+   public :: gradient_t, test_gradients, fit_slope, slope_over_window, noise_of
+   public :: gradients_csv, gradients_json, write_gradients, read_gradients
 
    integer, parameter :: min_points = 3     !! fewer points define no fit
 
@@ -42,6 +43,7 @@ module ek_gradient
       real(wp) :: window_half = 0.0_wp         !! mm, deg, N or N m
       real(wp) :: value = 0.0_wp               !! in `unit`; not a number if there is a note
       real(wp) :: turn = 1.0_wp                !! s_y/s_x
+      real(wp) :: size = 1.0_wp                !! unit of the value per unit of the slope
       integer :: points = 0                    !! states in the window
       character(:), allocatable :: note        !! reason of a missing value, otherwise ''
    end type gradient_t
@@ -92,11 +94,9 @@ contains
       integer, intent(in) :: wheel, place
       logical, intent(in) :: is_of_axle
       type(gradient_t) :: gradient
-      real(wp), allocatable :: x(:), y(:)
-      logical :: is_good(row_count(test%table))
       character(8) :: unit
       character(:), allocatable :: slope_ending
-      real(wp) :: slope, factor
+      real(wp) :: slope
       integer :: over, side
 
       over = wheel_column(test, wheel, trim(definition%over))
@@ -109,17 +109,11 @@ contains
       gradient%column = trim(test%table%columns(place))
       gradient%over = trim(test%table%columns(over))
       call window_of(test%kind, definition%over, windows, gradient%window_half, unit)
-      call slope_unit(trim(definition%column), trim(definition%over), trim(unit), slope_ending, factor)
+      call slope_unit(trim(definition%column), trim(definition%over), trim(unit), slope_ending, gradient%size)
       gradient%unit = unit_text(slope_ending)
       gradient%window = '±'//str(gradient%window_half)//' '//trim(unit)
 
-      is_good = unfolded_rows(test%table)
-      x = pack(test%table%values(over, :), is_good)
-      y = pack(test%table%values(place, :), is_good)
-      if (definition%over == 'factor') then
-         where (ieee_is_finite(x)) x = x*test%factor_size
-      end if
-      call slope_over_window(x, y, gradient%window_half, slope, gradient%points)
+      call fit_slope(test%table, place, over, test%factor_size, gradient%window_half, slope, gradient%points)
       gradient%note = ''
       gradient%turn = turn_of(test, definition, side)
       gradient%value = slope
@@ -130,9 +124,30 @@ contains
          if (gradient%points >= min_points) gradient%note = trim(gradient%over)//' does not change'
          return
       end if
-      if (abs(slope)*gradient%window_half <= noise_of(gradient%column)) slope = 0.0_wp
-      gradient%value = slope*factor*gradient%turn
+      gradient%value = slope*(gradient%size*gradient%turn)
    end function one_gradient
+
+   !> The slope of a column over another one in the units of both, 0 if it is within the noise; makes no text.
+   subroutine fit_slope(table, place, over, factor_size, half, slope, points)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: place, over           !! of the columns
+      real(wp), intent(in) :: factor_size          !! load or displacement at `factor` = 1, if that is the abscissa
+      real(wp), intent(in) :: half                 !! of the window
+      real(wp), intent(out) :: slope               !! not a number if it has too few states
+      integer, intent(out) :: points               !! states in the window
+      logical :: is_good(row_count(table))
+      real(wp), allocatable :: x(:), y(:)
+
+      is_good = unfolded_rows(table)
+      x = pack(table%values(over, :), is_good)
+      y = pack(table%values(place, :), is_good)
+      if (table%columns(over) == 'factor') then
+         where (ieee_is_finite(x)) x = x*factor_size
+      end if
+      call slope_over_window(x, y, half, slope, points)
+      if (.not. ieee_is_finite(slope)) return
+      if (abs(slope)*half <= noise_of(table%columns(place))) slope = 0.0_wp
+   end subroutine fit_slope
 
    !> Numerical noise in the unit of a column, by its ending: travel is driven to 1e-7 mm, which corresponds to 1e-8 deg at a
    !> lever of 500 mm and 1e-3 N at 10 kN/mm; ten times that.

@@ -2,29 +2,28 @@
 !> anti-dive, anti-lift, anti-squat, steering. Numbers without a column or test are omitted. Titles, units and signs are those of
 !> ek_quantity and ek_gradient_definition.
 module ek_key_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_table, only: column_index
    use ek_quantity, only: quantity_t, quantity_named, without_phase, unit_of, unit_text
-   use ek_test_result, only: test_result_t, design_row
+   use ek_test_result, only: test_result_t
    use ek_gradient, only: gradient_t
    use ek_gradient_definition, only: fitted
-   use ek_place_numbers, only: key_number_t, new_number, nothing, set_value, append, is_good, place_numbers
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, at_design, largest, least, slope, &
+      in_phase, anti_phase
+   use ek_place_numbers, only: new_number, add_source, append, place_numbers
    implicit none(type, external)
    private
-   public :: key_number_t, key_numbers
+   public :: key_number_t, key_numbers, list_key_numbers, number_heads, has_wanted_gradients
 
    !> One number: its group, what it is of, and how it is read.
    type :: entry_t
       character(32) :: group = ''
       character(44) :: name = ''        !! a column, or a gradient without its ending
       character(15) :: kind = ''        !! of the test; '': the first that has the column
-      integer :: how = 0                !! at_design …
+      integer :: how = at_design        !! at_design to anti_phase of ek_key_number
       character(38) :: title = ''       !! of an extreme; otherwise that of the column or gradient
    end type entry_t
 
-   ! a column at design; its maximum and minimum over the test; a gradient, also of parallel or opposed loads alone
-   integer, parameter :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5
    character(*), parameter :: phases(slope:anti_phase) = [character(25) :: '', ', parallel (in phase)', ', opposed (anti phase)']
 
    character(*), parameter :: attitude = 'Attitude at design', rates = 'Rates', ride = 'Ride', roll = 'Roll', &
@@ -87,14 +86,48 @@ module ek_key_numbers
 
 contains
 
-   !> All key numbers that the tests provide.
+   !> All key numbers that the tests provide, with their values.
    subroutine key_numbers(tests, gradients, numbers)
-      type(test_result_t), intent(in) :: tests(:)
-      type(gradient_t), intent(in) :: gradients(:)
+      type(test_result_t), intent(in) :: tests(:)        !! solved
+      type(gradient_t), intent(in) :: gradients(:)       !! of these tests
       type(key_number_t), allocatable, intent(out) :: numbers(:)
+      type(key_number_t), allocatable :: listed(:)
+      logical, allocatable :: is_there(:)
+      real(wp) :: values(2)
+      logical :: is_final
+      integer :: k, j
+
+      call list_key_numbers(tests, gradients, listed)
+      allocate (is_there(size(listed)))
+      do k = 1, size(listed)
+         values = nothing()
+         do j = 1, size(listed(k)%sources)
+            call read_source(listed(k)%how, listed(k)%sources(j), tests(listed(k)%sources(j)%test)%table, values, is_final)
+            if (is_final) exit
+         end do
+         listed(k)%left = values(1)
+         listed(k)%right = values(2)
+         ! a slope without a value remains, with the reason among the gradients
+         is_there(k) = has_value(listed(k)) .or. (listed(k)%how >= slope .and. listed(k)%how <= anti_phase)
+      end do
+      allocate (numbers(count(is_there)))
+      j = 0
+      do k = 1, size(listed)
+         if (.not. is_there(k)) cycle
+         j = j + 1
+         numbers(j) = listed(k)
+      end do
+   end subroutine key_numbers
+
+   !> All key numbers that the tests may have, by the heads of their tables: nothing needs to be solved.
+   subroutine list_key_numbers(tests, gradients, numbers, wanted)
+      type(test_result_t), intent(in) :: tests(:)        !! with the columns of their tables and their wheels
+      type(gradient_t), intent(in) :: gradients(:)       !! of these tests
+      type(key_number_t), allocatable, intent(out) :: numbers(:)
+      character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       type(key_number_t) :: number
       type(entry_t) :: entry
-      logical :: is_steered, is_pair, is_there
+      logical :: is_steered, is_pair
       integer :: k
 
       allocate (numbers(0))
@@ -102,64 +135,131 @@ contains
       is_pair = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       do k = 1, size(entries)
          entry = entries(k)
+         if (present(wanted)) then
+            if (.not. any(wanted == name_of(entry))) cycle
+         end if
          if (index(entry%name, instant) == 1 .and. (entry%group == elastic .eqv. is_steered)) cycle
          if (entry%how >= slope) then
-            call from_gradients(tests, gradients, entry, number, is_there)
+            call from_gradients(tests, gradients, entry, number)
          else
-            call from_tables(tests, entry, is_steered, number, is_there)
+            call from_tables(tests, entry, is_steered, number)
          end if
-         if (.not. is_there) cycle
+         if (size(number%sources) == 0) cycle
          if (.not. is_pair) then
             number%quantity = without_phase(number%quantity)
             number%sign = without_phase(number%sign)
+            number%definition = without_phase(number%definition)
+            if (index(number%definition//'|', '; |') > 0) number%definition = number%definition(:len(number%definition) - 2)
          end if
          call append(number, numbers)
       end do
-      call place_numbers(tests, numbers)
-   end subroutine key_numbers
+      call place_numbers(tests, numbers, wanted)
+   end subroutine list_key_numbers
 
-   !> A gradient of the first test of the kind and phase.
-   subroutine from_gradients(tests, gradients, entry, number, is_there)
+   !> Whether one of the wanted numbers is a gradient of a kind of test.
+   logical function has_wanted_gradients(kind, wanted)
+      character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
+      integer :: k
+
+      has_wanted_gradients = .true.
+      do k = 1, size(entries)
+         if (entries(k)%how >= slope .and. entries(k)%kind == kind) then
+            if (any(wanted == name_of(entries(k)))) return
+         end if
+      end do
+      has_wanted_gradients = .false.
+   end function has_wanted_gradients
+
+   !> The name of a number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
+   pure character(64) function name_of(entry) result(name)
+      type(entry_t), intent(in) :: entry
+      integer :: k, code
+
+      name = entry%name
+      do k = 1, len_trim(name)                           ! a gradient has words, a column has none of these letters
+         code = iachar(name(k:k))
+         if (scan(name(k:k), ' -') > 0) name(k:k) = '_'
+         if (code >= iachar('A') .and. code <= iachar('Z')) name(k:k) = achar(code + 32)
+      end do
+      select case (entry%how)
+      case (anti_phase)
+         name = trim(name)//'_anti'
+      case (largest)
+         name = 'largest_'//trim(name)
+      case (least)
+         name = 'least_'//trim(name)
+      end select
+   end function name_of
+
+   !> The names of a number for programs: one of the axle or of a single wheel, or one per wheel, the left one first; '': the number
+   !> does not exist for this wheel.
+   subroutine number_heads(number, is_pair, heads)
+      type(key_number_t), intent(in) :: number
+      logical, intent(in) :: is_pair                     !! the model has two wheels
+      character(*), intent(out) :: heads(2)
+      integer :: wheel, k
+
+      heads = ''
+      if (number%is_of_axle .or. .not. is_pair) then
+         heads(1) = number%name
+         return
+      end if
+      do wheel = 1, 2
+         if (any([(number%sources(k)%column(wheel) /= '', k=1, size(number%sources))])) &
+            heads(wheel) = trim(merge('left_ ', 'right_', wheel == 1))//number%name
+      end do
+   end subroutine number_heads
+
+   !> A gradient of the tests of the kind and phase; the first that was run counts.
+   subroutine from_gradients(tests, gradients, entry, number)
       type(test_result_t), intent(in) :: tests(:)
       type(gradient_t), intent(in) :: gradients(:)
       type(entry_t), intent(in) :: entry
       type(key_number_t), intent(out) :: number
-      logical, intent(out) :: is_there
-      integer :: t, k
+      type(key_source_t) :: source
+      integer :: t, k, wheel
+      logical :: is_there
 
-      is_there = .false.
-      call new_number(trim(entry%group), trim(entry%name)//trim(phases(entry%how))//fitted, '', '', number)
+      call new_number(trim(entry%group), trim(entry%name)//trim(phases(entry%how))//fitted, '', '', entry%how, number)
+      number%name = trim(name_of(entry))
       do t = 1, size(tests)
          if (tests(t)%kind /= entry%kind) cycle
          if (entry%how > slope .and. (tests(t)%is_anti .neqv. entry%how == anti_phase)) cycle
+         is_there = .false.
+         source = key_source_t(test=t, factor_size=tests(t)%factor_size)
          do k = 1, size(gradients)
             if (gradients(k)%test /= tests(t)%name .or. gradients(k)%quantity /= trim(entry%name)//fitted) cycle
             is_there = .true.
+            wheel = merge(2, 1, gradients(k)%side == 'right')
+            source%column(wheel) = gradients(k)%column
+            source%over(wheel) = gradients(k)%over
+            source%half = gradients(k)%window_half
+            source%size(wheel) = gradients(k)%size*gradients(k)%turn
+            if (size(number%sources) > 0) cycle
             number%unit = gradients(k)%unit
             number%sign = gradients(k)%sign//' (over '//gradients(k)%window//')'
-            if (gradients(k)%side == 'right') then
-               number%right = gradients(k)%value
-            else
-               number%left = gradients(k)%value
-               number%is_of_axle = len(gradients(k)%side) == 0 .and. size(tests(t)%prefixes) > 1
-            end if
+            number%is_of_axle = len(gradients(k)%side) == 0 .and. size(tests(t)%prefixes) > 1
+            number%condition = 'test '//tests(t)%name//', within '//gradients(k)%window//' of design'
+            number%definition = 'least-squares slope of '//without_side(gradients(k)%column)//' over '// &
+               without_side(gradients(k)%over)//sign_of(gradients(k)%sign)
          end do
-         if (is_there) return
+         if (is_there) call add_source(source, number)
       end do
    end subroutine from_gradients
 
-   !> A column at design, or its maximum or minimum, in the first test that has it.
-   subroutine from_tables(tests, entry, is_steered, number, is_there)
+   !> A column at design, or its maximum or minimum, in the tests that have it.
+   subroutine from_tables(tests, entry, is_steered, number)
       type(test_result_t), intent(in) :: tests(:)
       type(entry_t), intent(in) :: entry
       logical, intent(in) :: is_steered                 !! the instant axis is that of the steering, not of the elasticity
       type(key_number_t), intent(out) :: number
-      logical, intent(out) :: is_there
       type(quantity_t) :: quantity
-      integer :: t, wheel, place, at
-      real(wp) :: value
+      type(key_source_t) :: source
+      character(:), allocatable :: sign
+      integer :: t, k, at
 
       quantity = quantity_named(entry%name)
+      sign = sign_of(trim(quantity%sign))
       if (entry%how == at_design) then
          quantity%title(1:1) = achar(iachar(quantity%title(1:1)) + 32)
          at = index(quantity%title, instant)
@@ -168,42 +268,48 @@ contains
          quantity%title = entry%title
          quantity%sign = 'over the test'
       end if
-      call new_number(trim(entry%group), trim(quantity%title), unit_text(unit_of(trim(entry%name))), trim(quantity%sign), number)
-      is_there = .false.
+      call new_number(trim(entry%group), trim(quantity%title), unit_text(unit_of(trim(entry%name))), trim(quantity%sign), &
+         entry%how, number)
+      number%name = trim(name_of(entry))
+      number%condition = 'at design'
+      number%definition = trim(entry%name)//sign
+      if (entry%how /= at_design) then
+         number%condition = 'test '//trim(entry%kind)//', over all states'
+         number%definition = trim(merge('maximum', 'minimum', entry%how == largest))//' of '//trim(entry%name)//sign
+      end if
       do t = 1, size(tests)
          if (entry%kind /= '' .and. tests(t)%kind /= entry%kind) cycle
-         do wheel = 1, size(tests(t)%prefixes)
-            place = column_index(tests(t)%table, trim(tests(t)%prefixes(wheel))//entry%name)
-            if (place == 0) cycle
-            value = value_of(tests(t), place, entry%how)
-            if (.not. ieee_is_finite(value)) cycle
-            is_there = .true.
-            call set_value(number, tests(t), wheel, value)
+         source = key_source_t(test=t)
+         do k = 1, size(tests(t)%prefixes)
+            if (column_index(tests(t)%table, trim(tests(t)%prefixes(k))//entry%name) == 0) cycle
+            at = merge(2, 1, tests(t)%sides(k) > 0 .and. size(tests(t)%prefixes) > 1)
+            source%column(at) = trim(tests(t)%prefixes(k))//entry%name
          end do
-         place = column_index(tests(t)%table, entry%name)
-         if (.not. is_there .and. place > 0) then
-            number%left = value_of(tests(t), place, entry%how)
-            is_there = ieee_is_finite(number%left)
-            number%is_of_axle = size(tests(t)%prefixes) > 1
+         if (all(source%column == '') .and. column_index(tests(t)%table, entry%name) > 0) then
+            source%column(1) = entry%name
+            if (size(number%sources) == 0) number%is_of_axle = size(tests(t)%prefixes) > 1
          end if
-         if (is_there) return
+         if (any(source%column /= '')) call add_source(source, number)
       end do
    end subroutine from_tables
 
-   !> A column at design, or its maximum or minimum over the converged states; not a number if there is none.
-   pure real(wp) function value_of(test, place, how) result(value)
-      type(test_result_t), intent(in) :: test
-      integer, intent(in) :: place, how
-      integer :: row
+   !> '; + top outward' behind a definition; nothing without a sign.
+   function sign_of(sign) result(text)
+      character(*), intent(in) :: sign
+      character(:), allocatable :: text
 
-      value = nothing()
-      if (how == at_design) then
-         row = design_row(test%table)
-         if (row > 0) value = test%table%values(place, row)
-      else if (any(is_good(test, place))) then
-         if (how == largest) value = maxval(test%table%values(place, :), mask=is_good(test, place))
-         if (how == least) value = minval(test%table%values(place, :), mask=is_good(test, place))
-      end if
-   end function value_of
+      text = ''
+      if (sign /= '') text = '; '//sign
+   end function sign_of
+
+   !> A column without the name of its wheel.
+   function without_side(column) result(name)
+      character(*), intent(in) :: column
+      character(:), allocatable :: name
+
+      name = column
+      if (index(column, 'left_') == 1) name = column(6:)
+      if (index(column, 'right_') == 1) name = column(7:)
+   end function without_side
 
 end module ek_key_numbers

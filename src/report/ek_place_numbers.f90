@@ -1,105 +1,106 @@
 !> Key numbers at particular states of a test: ratio and Ackermann with the inner wheel at 20 deg, wheel travel to the contact
 !> of a stop, and the maximum force on the rack over all tests.
 module ek_place_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_text, only: spaced
    use ek_table, only: column_index
-   use ek_test_result, only: test_result_t, design_row, unfolded_rows
+   use ek_test_result, only: test_result_t
+   use ek_key_number, only: key_number_t, key_source_t, nothing, at_place, to_contact, largest_of_all
    implicit none(type, external)
    private
-   public :: key_number_t, new_number, nothing, set_value, append, is_good, place_numbers
+   public :: new_number, add_source, append, place_numbers
 
    real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
-   character(*), parameter :: gap_ending = '_gap_mm'
-
-   !> One key number of a report.
-   type :: key_number_t
-      character(:), allocatable :: group, quantity, unit, sign
-      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
-      logical :: is_of_axle = .false.                !! one number, in `left`
-   end type key_number_t
+   character(*), parameter :: gap_ending = '_gap_mm', travel = 'wheel_travel_mm', rack_force = 'steering_rack_force_n', &
+      rack_name = 'largest_rack_force_n', to_stop = 'travel_to_'
 
 contains
 
-   !> The value of a missing number.
-   pure real(wp) function nothing()
-      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function nothing
-
-   !> A number without values.
-   subroutine new_number(group, quantity, unit, sign, number)
+   !> A number without values and sources.
+   subroutine new_number(group, quantity, unit, sign, how, number)
       character(*), intent(in) :: group, quantity, unit, sign
+      integer, intent(in) :: how
       type(key_number_t), intent(out) :: number
 
       number%group = group
       number%quantity = quantity
       number%unit = unit
       number%sign = sign
+      number%name = ''
+      number%condition = ''
+      number%definition = ''
+      number%how = how
       number%left = nothing()
       number%right = nothing()
+      allocate (number%sources(0))
    end subroutine new_number
 
-   !> Sets the value of a wheel: a single wheel has it in `left`.
-   pure subroutine set_value(number, test, wheel, value)
+   subroutine add_source(source, number)
+      type(key_source_t), intent(in) :: source
       type(key_number_t), intent(inout) :: number
-      type(test_result_t), intent(in) :: test
-      integer, intent(in) :: wheel
-      real(wp), intent(in) :: value
+      number%sources = [number%sources, source]
+   end subroutine add_source
 
-      if (test%sides(wheel) > 0 .and. size(test%prefixes) > 1) then
-         number%right = value
-      else
-         number%left = value
-      end if
-   end subroutine set_value
-
-   pure logical function has_value(number)
-      type(key_number_t), intent(in) :: number
-      has_value = ieee_is_finite(number%left) .or. ieee_is_finite(number%right)
-   end function has_value
-
-   !> Appends these numbers as far as the tests provide them.
-   subroutine place_numbers(tests, numbers)
+   !> Appends these numbers as far as the tables of the tests have their columns.
+   subroutine place_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       integer :: t
 
+      if (present(wanted)) then
+         if (.not. any(index(wanted, rack_name) == 1 .or. index(wanted, '_at_20_deg') > 0 .or. index(wanted, to_stop) == 1)) return
+      end if
+
       t = findloc([(tests(t)%kind == 'parallel_travel', t=1, size(tests))], .true., dim=1)
-      if (t > 0) call add_stops(tests(t), numbers)
+      if (t > 0) call add_stops(tests(t), t, numbers)
       t = findloc([(tests(t)%kind == 'steering', t=1, size(tests))], .true., dim=1)
       if (t > 0) then
-         call add_at_steer(tests(t), 'steering_ratio', 'steering ratio at 20 deg', '–', numbers)
-         call add_at_steer(tests(t), 'ackermann_percent', 'Ackermann at 20 deg', '%', numbers)
+         call add_at_steer(tests(t), t, 'steering_ratio', 'steering ratio at 20 deg', 'steering_ratio_at_20_deg', '–', numbers)
+         call add_at_steer(tests(t), t, 'ackermann_percent', 'Ackermann at 20 deg', 'ackermann_at_20_deg', '%', numbers)
       end if
       call add_rack_force(tests, numbers)
    end subroutine place_numbers
 
    !> A column with the inner wheel at 20 deg: `left` is the turn to the left, with the left wheel inside.
-   subroutine add_at_steer(test, column, quantity, unit, numbers)
+   subroutine add_at_steer(test, place, column, quantity, name, unit, numbers)
       type(test_result_t), intent(in) :: test
-      character(*), intent(in) :: column, quantity, unit
+      integer, intent(in) :: place                 !! of the test
+      character(*), intent(in) :: column, quantity, name, unit
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       type(key_number_t) :: number
-      real(wp) :: value
-      integer :: k
+      type(key_source_t) :: source
+      integer :: k, wheel
 
-      call new_number('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', number)
+      call new_number('Steering', quantity, unit, 'inner wheel at 20 deg: left in a turn to the left', at_place, number)
+      if (column_index(test%table, column) == 0) return
       do k = 1, size(test%prefixes)
-         value = value_where(test, trim(test%prefixes(k))//'steer_deg', -test%sides(k)*inner_steer, column)
-         call set_value(number, test, k, value)
+         wheel = merge(2, 1, test%sides(k) > 0 .and. size(test%prefixes) > 1)
+         if (column_index(test%table, trim(test%prefixes(k))//'steer_deg') == 0) cycle
+         source%column(wheel) = column
+         source%over(wheel) = trim(test%prefixes(k))//'steer_deg'
+         source%wanted(wheel) = -test%sides(k)*inner_steer
       end do
-      if (has_value(number)) call append(number, numbers)
+      source%test = place
+      call add_source(source, number)
+      number%name = name
+      number%condition = 'test '//test%name//', where the inner wheel is steered by 20 deg (left: turn to the left)'
+      number%definition = column//' at this steer angle, linear between two states'
+      call append(number, numbers)
    end subroutine add_at_steer
 
    !> Wheel travel from design to the contact of a stop on its side, both wheels in parallel.
-   subroutine add_stops(test, numbers)
+   subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
+      integer, intent(in) :: place                 !! of the test
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       type(key_number_t) :: number
+      type(key_source_t) :: source
       character(:), allocatable :: stop
+      logical :: is_pair
       integer :: c, ends
 
+      is_pair = size(test%prefixes) > 1
       do c = 1, size(test%table%columns)
          ends = len_trim(test%table%columns(c)) - len(gap_ending)
          if (ends < 1) cycle
@@ -107,96 +108,65 @@ contains
          stop = test%table%columns(c) (:ends)
          if (column_index(test%table, stop//'_force_n') == 0) cycle
          ! with the left one
-         if (index(stop, 'right_') == 1 .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle
-         call new_number('Ride', '', 'mm', 'from design to contact, parallel travel', number)
-         if (index(stop, 'right_') == 1) then
-            number%right = travel_to(test, stop, 'right_')
+         if (is_pair .and. index(stop, 'right_') == 1 .and. column_index(test%table, 'left_'//stop(7:)//gap_ending) > 0) cycle
+         call new_number('Ride', '', 'mm', 'from design to contact, parallel travel', to_contact, number)
+         source = key_source_t(test=place)
+         if (is_pair .and. index(stop, 'right_') == 1) then
+            call read_at(2, stop, 'right_')
             stop = stop(7:)
-         else if (index(stop, 'left_') == 1) then
+         else if (is_pair .and. index(stop, 'left_') == 1) then
             stop = stop(6:)
-            number%left = travel_to(test, 'left_'//stop, 'left_')
-            number%right = travel_to(test, 'right_'//stop, 'right_')
+            call read_at(1, 'left_'//stop, 'left_')
+            if (column_index(test%table, 'right_'//stop//gap_ending) > 0) call read_at(2, 'right_'//stop, 'right_')
          else
-            number%left = travel_to(test, stop, '')
-            number%is_of_axle = size(test%prefixes) > 1
+            call read_at(1, stop, '')
+            number%is_of_axle = is_pair
          end if
+         call add_source(source, number)
          number%quantity = 'wheel travel to '//spaced(stop)
-         if (has_value(number)) call append(number, numbers)
+         number%name = to_stop//stop
+         number%condition = 'test '//test%name//', from design to contact'
+         number%definition = 'magnitude of the change of '//travel//' from design to where '//stop//gap_ending// &
+            ' is 0, linear between two states'
+         call append(number, numbers)
       end do
+
+   contains
+
+      !> The gap of a stop, and the travel of its side.
+      subroutine read_at(wheel, element, prefix)
+         integer, intent(in) :: wheel
+         character(*), intent(in) :: element, prefix       !! prefix: side of the stop, or ''
+
+         source%over(wheel) = element//gap_ending
+         source%column(wheel) = prefix//travel
+         if (column_index(test%table, prefix//travel) == 0) source%column(wheel) = trim(test%prefixes(1))//travel
+      end subroutine read_at
+
    end subroutine add_stops
-
-   !> Wheel travel between design and the contact of a stop [mm], never negative; not a number without contact.
-   real(wp) function travel_to(test, stop, prefix) result(travel)
-      type(test_result_t), intent(in) :: test
-      character(*), intent(in) :: stop, prefix       !! prefix: side of the stop, or ''
-      character(:), allocatable :: column
-      integer :: row
-
-      column = prefix//'wheel_travel_mm'
-      if (column_index(test%table, column) == 0) column = trim(test%prefixes(1))//'wheel_travel_mm'
-      row = design_row(test%table)
-      travel = nothing()
-      if (row == 0) return
-      travel = abs(value_where(test, stop//gap_ending, 0.0_wp, column) - test%table%values(column_index(test%table, column), row))
-   end function travel_to
 
    !> The maximum magnitude of the force on the rack over all states of all tests.
    subroutine add_rack_force(tests, numbers)
       type(test_result_t), intent(in) :: tests(:)
       type(key_number_t), allocatable, intent(inout) :: numbers(:)
       type(key_number_t) :: number
-      integer :: t, place
+      type(key_source_t) :: source
+      integer :: t
 
-      call new_number('Steering', 'maximum rack force', 'N', 'magnitude, over all tests', number)
+      call new_number('Steering', 'maximum rack force', 'N', 'magnitude, over all tests', largest_of_all, number)
+      source%column(1) = rack_force
       do t = 1, size(tests)
-         place = column_index(tests(t)%table, 'steering_rack_force_n')
-         if (place == 0) cycle
-         associate (force => tests(t)%table%values(place, :))
-            if (.not. any(is_good(tests(t), place))) cycle
-            if (.not. ieee_is_finite(number%left)) number%left = 0.0_wp
-            number%left = max(number%left, maxval(abs(force), mask=is_good(tests(t), place)))
-         end associate
+         if (column_index(tests(t)%table, rack_force) == 0) cycle
+         source%test = t
+         call add_source(source, number)
       end do
+      if (size(number%sources) == 0) return
       number%is_of_axle = .true.
-      if (has_value(number)) call append(number, numbers)
+      number%name = rack_name
+      number%condition = 'all tests'
+      number%definition = 'largest magnitude of '//rack_force
+      call append(number, numbers)
    end subroutine add_rack_force
-
-   !> A column at the point where another one has a given value, interpolated linearly between two neighbouring states; of
-   !> several such points the one nearest to design. Not a number if there is none.
-   real(wp) function value_where(test, over, wanted, column) result(value)
-      type(test_result_t), intent(in) :: test
-      character(*), intent(in) :: over, column
-      real(wp), intent(in) :: wanted
-      real(wp) :: share, nearest
-      logical, allocatable :: is_usable(:)
-      integer :: x, y, f, k
-
-      value = nothing()
-      x = column_index(test%table, over)
-      y = column_index(test%table, column)
-      f = column_index(test%table, 'factor')
-      if (min(x, y, f) == 0) return
-      is_usable = is_good(test, x) .and. is_good(test, y)
-      nearest = huge(nearest)
-      do k = 1, size(is_usable) - 1
-         if (.not. all(is_usable(k:k + 1))) cycle
-         associate (from => test%table%values(:, k), to => test%table%values(:, k + 1))
-            if ((from(x) - wanted)*(to(x) - wanted) > 0.0_wp .or. .not. abs(to(x) - from(x)) > 0.0_wp) cycle
-            share = (wanted - from(x))/(to(x) - from(x))
-            if (abs(from(f) + share*(to(f) - from(f))) >= nearest) cycle
-            nearest = abs(from(f) + share*(to(f) - from(f)))
-            value = from(y) + share*(to(y) - from(y))
-         end associate
-      end do
-   end function value_where
-
-   !> The states that converged and have a number in a column.
-   pure function is_good(test, place)
-      type(test_result_t), intent(in) :: test
-      integer, intent(in) :: place
-      logical :: is_good(size(test%table%values, 2))
-      is_good = unfolded_rows(test%table) .and. ieee_is_finite(test%table%values(place, :))
-   end function is_good
 
    !> Inserts a number behind the last of its group.
    subroutine append(number, numbers)

@@ -15,10 +15,10 @@ module ek_report_files
    implicit none(type, external)
    private
    public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file, &
-      compliance_file
+      compliance_file, numbers_file
 
    character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
-      compliance_file = 'compliance.csv'
+      compliance_file = 'compliance.csv', numbers_file = 'key_numbers.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = '(anti phase)'
 
    !> Results to be compared: a report folder or one table.
@@ -51,7 +51,8 @@ contains
       character(:), allocatable :: file
 
       file = name//'.csv'
-      if (any(lower(file) == [character(14) :: contents_file, gradients_file, compliance_file])) file = name//'-case.csv'
+      if (any(lower(file) == [character(15) :: contents_file, gradients_file, compliance_file, numbers_file])) &
+         file = name//'-case.csv'
    end function table_file
 
    !> tests.csv: the tests of a report and their files.

@@ -1,4 +1,4 @@
-!> A small JSON writer (RFC 8259): objects and lists in order, indented, one item per line.
+!> A small JSON writer (RFC 8259): objects and lists in order, indented, one item per line, or all on one line.
 !>
 !>     call json%open('{')
 !>     call json%item('unit', json_string('deg/m'))
@@ -11,9 +11,11 @@ module ek_json
    use ek_kinds, only: wp
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
+   use ek_error, only: message_list_t
+   use ek_letters, only: as_utf8
    implicit none(type, external)
    private
-   public :: json_t, json_string, json_number, json_numbers
+   public :: json_t, json_string, json_strings, json_number, json_numbers
 
    character(*), parameter :: line_end = new_line('a')
 
@@ -21,6 +23,7 @@ module ek_json
       private
       type(buffer_t) :: buffer
       integer :: depth = 0
+      logical, public :: is_one_line = .false.     !! blanks instead of lines and indents; set before the first item
       logical :: is_empty = .true.     !! the innermost list or object has no item yet
    contains
       procedure :: open => json_open, close => json_close, item => json_item, text => json_text
@@ -46,12 +49,12 @@ contains
       character(1), intent(in) :: bracket
 
       self%depth = self%depth - 1
-      if (.not. self%is_empty) call self%buffer%add(line_end//repeat('  ', self%depth))
+      if (.not. self%is_empty .and. .not. self%is_one_line) call begin_line(self)
       call self%buffer%add(bracket)
       self%is_empty = .false.
    end subroutine json_close
 
-   !> Add an item: `literal` is made by json_string, json_number, json_numbers, or str for an integer.
+   !> Add an item: `literal` is made by json_string, json_strings, json_number, json_numbers, or str for an integer.
    pure subroutine json_item(self, key, literal)
       class(json_t), intent(inout) :: self
       character(*), intent(in) :: key, literal
@@ -73,10 +76,21 @@ contains
       character(*), intent(in), optional :: key
 
       if (.not. self%is_empty) call self%buffer%add(',')
-      if (self%depth > 0) call self%buffer%add(line_end//repeat('  ', self%depth))
+      if (self%depth > 0) call begin_line(self)
       if (present(key)) call self%buffer%add(json_string(key)//': ')
       self%is_empty = .false.
    end subroutine begin_item
+
+   !> A new line, with its indent.
+   pure subroutine begin_line(self)
+      class(json_t), intent(inout) :: self
+
+      if (.not. self%is_one_line) then
+         call self%buffer%add(line_end//repeat('  ', self%depth))
+      else if (.not. self%is_empty) then
+         call self%buffer%add(' ')
+      end if
+   end subroutine begin_line
 
    !> A text between quotes: quote, backslash and control characters escaped, all other characters (UTF-8) unchanged.
    pure function json_string(text) result(literal)
@@ -114,18 +128,36 @@ contains
       if (ieee_is_finite(value)) literal = decimal(value)
    end function json_number
 
+   !> A list of texts on one line, each as UTF-8.
+   pure function json_strings(texts) result(literal)
+      type(message_list_t), intent(in) :: texts
+      character(:), allocatable :: literal
+      type(buffer_t) :: list
+      integer :: k
+
+      call list%add('[')
+      do k = 1, texts%count()
+         if (k > 1) call list%add(', ')
+         call list%add(json_string(as_utf8(texts%line(k))))
+      end do
+      call list%add(']')
+      literal = list%text()
+   end function json_strings
+
    !> A list of numbers on one line.
    pure function json_numbers(values) result(literal)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: literal
+      type(buffer_t) :: buffer
       integer :: k
 
-      literal = '['
+      call buffer%add('[')
       do k = 1, size(values)
-         if (k > 1) literal = literal//', '
-         literal = literal//json_number(values(k))
+         if (k > 1) call buffer%add(', ')
+         call buffer%add(json_number(values(k)))
       end do
-      literal = literal//']'
+      call buffer%add(']')
+      literal = buffer%text()
    end function json_numbers
 
 end module ek_json

@@ -7,7 +7,7 @@ module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
-   use ek_text, only: str, quoted
+   use ek_text, only: str, quoted, replace
    use ek_deck, only: deck_t, set_value
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of
    use ek_sweep_table, only: sweep_columns
@@ -371,21 +371,5 @@ contains
       if (words%count() == 0) call words%add('a response has no value')
       call add_reason(chunk, k, words%text())
    end subroutine explain
-
-   !> Replaces every occurrence of a text by another.
-   pure subroutine replace(text, old, new)
-      character(:), allocatable, intent(inout) :: text
-      character(*), intent(in) :: old, new
-      integer :: first, at
-
-      first = 1
-      do
-         at = index(text(first:), old)
-         if (at == 0) return
-         at = first + at - 1
-         text = text(:at - 1)//new//text(at + len(old):)
-         first = at + len(new)
-      end do
-   end subroutine replace
 
 end module ek_study_design

@@ -1,6 +1,6 @@
 # What the tests share: random poses, difference quotients, models of the reference solutions, readings of a state,
 # tables of a deck on the rig, plane linkages, a folder for files of a test, the program as its user runs it, its text against kept text,
-# studies put together by a test.
+# studies put together by a test, maps of decks for other simulators and what their files say.
 set(ek_laws_dir ${CMAKE_CURRENT_LIST_DIR})
 add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_orientation_matrix.f90
@@ -18,9 +18,10 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_program.f90
   ${ek_laws_dir}/ek_reference_text.f90
   ${ek_laws_dir}/ek_small_study.f90
+  ${ek_laws_dir}/ek_exported.f90
   ${ek_laws_dir}/ek_probe.f90)
 set_target_properties(ek_test_laws PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws
   INTERPROCEDURAL_OPTIMIZATION OFF)
 target_include_directories(ek_test_laws PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
-target_link_libraries(ek_test_laws PUBLIC ek_study ek_kandc ek_deck ek_equilibrium)
+target_link_libraries(ek_test_laws PUBLIC ek_study ek_export ek_kandc ek_deck ek_equilibrium)

@@ -1,0 +1,111 @@
+!> A deck opened for a program that calls elastokin: key numbers by name. Part of the Fortran interface (ek_api).
+module ek_session_numbers
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_convergence
+   use ek_deck, only: deck_t
+   use ek_case, only: case_t
+   use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, lost_states
+   use ek_design_solver, only: design_solver_t, begin_design_solver, settle_fully, settle_again, report_cases
+   use ek_session, only: session_t, take_new_numbers, changed_deck
+   implicit none(type, external)
+   private
+   public :: read_key_numbers
+
+contains
+
+   !> Key numbers of the report by name, at the present numbers: only the tests that they need are solved, as far as needed. The last
+   !> solution stays.
+   subroutine read_key_numbers(session, names, values, error)
+      type(session_t), intent(inout) :: session
+      character(*), intent(in) :: names(:)
+      real(wp), intent(out) :: values(:)                   !! in the units of key_numbers.csv
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck, exit_model: none has a value; exit_convergence:
+      !!                                                      some have none (not a number), or belong to a path that lost a state
+      type(case_t), allocatable :: cases(:)
+      logical :: is_done, is_whole
+      integer :: k
+
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      call take_new_numbers(session)
+      is_done = session%is_named_ready
+      if (is_done) is_done = size(names) == size(session%names)
+      do k = 1, size(names)
+         if (is_done) is_done = session%names(k) == names(k)
+      end do
+      if (is_done) call settle_again(needed_tests(session%named), session%solver, is_done)
+      if (is_done) then
+         call report_cases(session%solver, cases)
+         call read_numbers(session%named, session%solver%suspension, cases, values, is_whole)
+         if (is_whole) return
+      end if
+      !$omp critical (ek_words)
+      if (is_done) then
+         call lost_numbers(session%named, names, values, error)
+      else
+         call read_with_words(session, names, values, error)
+      end if
+      !$omp end critical (ek_words)
+   end subroutine read_key_numbers
+
+   !> Key numbers for the first time, or of a design that may have a defect.
+   subroutine read_with_words(session, names, values, error)
+      type(session_t), intent(inout) :: session
+      character(*), intent(in) :: names(:)
+      real(wp), intent(inout) :: values(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(design_solver_t) :: other
+      type(named_numbers_t) :: named
+      type(deck_t) :: changed
+      logical :: is_done
+
+      session%is_named_ready = .false.
+      session%names = names
+      call read_of(session%solver, session%named, is_done)
+      if (allocated(error)) return
+      session%is_named_ready = is_done
+      if (is_done) return
+      call changed_deck(session, changed, error)
+      if (.not. allocated(error)) call begin_design_solver(changed, other, error)
+      if (.not. allocated(error)) call read_of(other, named, is_done)
+
+   contains
+
+      subroutine read_of(solver, numbers, is_done)
+         type(design_solver_t), intent(inout) :: solver
+         type(named_numbers_t), intent(inout) :: numbers
+         logical, intent(out) :: is_done
+         type(case_t), allocatable :: cases(:)
+         logical :: is_solvable(size(solver%report_order)), is_whole
+
+         call report_cases(solver, cases)
+         call prepare_numbers(names, solver%raw, cases, numbers, error)
+         is_done = .false.
+         if (.not. allocated(error)) call settle_fully(needed_tests(numbers), solver, is_solvable, is_done, error)
+         if (allocated(error) .or. .not. is_done) return
+         call report_cases(solver, cases)                 ! with the present numbers
+         call read_numbers(numbers, solver%suspension, cases, values, is_whole, is_solvable)
+         if (.not. is_whole) call lost_numbers(numbers, names, values, error)
+      end subroutine read_of
+
+   end subroutine read_with_words
+
+   !> Why key numbers have no value.
+   subroutine lost_numbers(named, names, values, error)
+      type(named_numbers_t), intent(inout) :: named
+      character(*), intent(in) :: names(:)
+      real(wp), intent(in) :: values(:)
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: words
+      integer :: k
+
+      call lost_states(named, error)
+      if (allocated(error)) return
+      words = 'the model does not define'
+      do k = 1, size(names)
+         if (.not. ieee_is_finite(values(k))) words = words//' '//trim(names(k))
+      end do
+      call fail(error, exit_convergence, words)
+   end subroutine lost_numbers
+
+end module ek_session_numbers

@@ -1,0 +1,202 @@
+!> A deck opened for a program that calls elastokin: the solution of a case. Part of the Fortran interface (ek_api).
+module ek_session_solution
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_usage
+   use ek_text, only: quoted, is_like
+   use ek_group, only: did_you_mean
+   use ek_deck, only: deck_t
+   use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
+   use ek_remark, only: remark_t, remark_list_t, note, warning
+   use ek_response, only: no_column
+   use ek_table, only: name_length, column_index
+   use ek_compliance, only: compliance_t, new_compliance
+   use ek_schedule, only: new_schedule
+   use ek_sweep_table, only: state_compliance
+   use ek_wheel_side, only: deck_frame
+   use ek_design_solver, only: design_solver_t, begin_design_solver, solve_case_fully, solve_case_again, heads_of_case, case_number
+   use ek_session, only: session_t, prepared_t, take_new_numbers, changed_deck
+   implicit none(type, external)
+   private
+   public :: solve, result_of, read_remark, compliance_at
+
+contains
+
+   !> Solves a case at the present numbers: of the deck, or a standard test. Its table has all columns, or `state`, `factor`, those named
+   !> (in the order of the program's tables) and the last ones on convergence.
+   subroutine solve(session, name, error, columns)
+      type(session_t), intent(inout) :: session
+      character(*), intent(in) :: name                         !! '': the first case of the deck
+      type(error_t), allocatable, intent(out) :: error         !! exit_usage, exit_deck, exit_model: there is no result;
+      !!                                                          exit_convergence: there is one, with the states that converged
+      character(*), intent(in), optional :: columns(:)         !! * stands for any characters; absent or of size 0: all
+      character(name_length), allocatable :: asked(:)
+      logical :: is_done
+      integer :: k
+
+      session%solved = 0
+      if (allocated(session%other)) deallocate (session%other)
+      allocate (asked(0))
+      if (present(columns)) asked = columns
+      k = case_number(name, session%solver)
+      is_done = .false.
+      call take_new_numbers(session)
+      if (k > 0) then
+         if (is_ready(session%prepared(k), asked)) then
+            call solve_case_again(k, session%prepared(k)%options, session%solver, is_done)
+            if (is_done) session%solved = k
+         end if
+      end if
+      !$omp critical (ek_words)
+      if (.not. is_done) call solve_with_words(session, name, asked, error)
+      if (session%solved > 0) call end_solution(session, error)
+      !$omp end critical (ek_words)
+   end subroutine solve
+
+   !> Whether a case was solved before with these columns.
+   pure logical function is_ready(prepared, asked)
+      type(prepared_t), intent(in) :: prepared
+      character(name_length), intent(in) :: asked(:)
+
+      is_ready = prepared%is_ready
+      if (is_ready) is_ready = size(asked) == size(prepared%asked)
+      if (is_ready) is_ready = all(asked == prepared%asked)
+   end function is_ready
+
+   !> A first solution, or one that may fail.
+   subroutine solve_with_words(session, name, asked, error)
+      type(session_t), intent(inout) :: session
+      character(*), intent(in) :: name
+      character(name_length), intent(in) :: asked(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: changed
+      type(prepared_t) :: prepared
+      logical :: is_done
+      integer :: k
+
+      call find_case(name, session%solver, session%deck%file, k, error)
+      if (.not. allocated(error)) call prepare(session%solver, k, asked, session%prepared(k), error)
+      if (.not. allocated(error)) call solve_case_fully(k, session%prepared(k)%options, session%solver, is_done, error)
+      if (allocated(error)) return
+      session%prepared(k)%is_ready = is_done
+      if (.not. is_done) then
+         allocate (session%other)
+         call changed_deck(session, changed, error)
+         if (.not. allocated(error)) call begin_design_solver(changed, session%other, error)
+         if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
+         if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
+         if (.not. allocated(error)) call solve_case_fully(k, prepared%options, session%other, is_done, error)
+         if (allocated(error)) return
+      end if
+      session%solved = k
+   end subroutine solve_with_words
+
+   subroutine find_case(name, solver, file, k, error)
+      character(*), intent(in) :: name, file
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(out) :: k
+      type(error_t), allocatable, intent(out) :: error
+      character(name_length) :: names(size(solver%cases))
+      integer :: j
+
+      k = case_number(name, solver)
+      if (k > 0) return
+      do j = 1, size(names)
+         names(j) = solver%cases(j)%case%name
+      end do
+      call fail(error, exit_usage, 'no case '//quoted(name)//' in '//file//did_you_mean(name, names))
+   end subroutine find_case
+
+   !> The columns that a case is to have: names with * become those that they fit.
+   subroutine prepare(solver, k, asked, prepared, error)
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(in) :: k
+      character(name_length), intent(in) :: asked(:)
+      type(prepared_t), intent(out) :: prepared
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: columns that the case does not have
+      type(message_list_t) :: mistakes
+      character(name_length), allocatable :: heads(:)
+      logical, allocatable :: is_wanted(:), fits(:)
+      integer :: j, h
+
+      prepared%options%has_remarks = .false.
+      prepared%asked = asked
+      if (size(asked) == 0) return
+      call heads_of_case(k, solver, heads)
+      allocate (is_wanted(size(heads)), source=.false.)
+      do j = 1, size(asked)
+         fits = [(is_like(trim(heads(h)), trim(asked(j))), h=1, size(heads))]
+         if (.not. any(fits)) call mistakes%add('case '//quoted(solver%cases(k)%case%name)//': '//no_column(trim(asked(j)), heads))
+         is_wanted = is_wanted .or. fits
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
+      prepared%options%columns = pack(heads, is_wanted)
+   end subroutine prepare
+
+   !> Remarks on the last solution, and its failures as an error.
+   subroutine end_solution(session, error)
+      type(session_t), intent(inout), target :: session
+      type(error_t), allocatable, intent(inout) :: error
+      type(solve_options_t) :: options
+      type(case_result_t), pointer :: result
+
+      result => result_of(session)
+      if (result%is_run()) call add_remarks(options, result)
+      call failure_of(result, error)
+      if (.not. result%is_run()) session%solved = 0
+   end subroutine end_solution
+
+   !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
+   !> Not associated if there is none.
+   function result_of(session) result(last)
+      type(session_t), intent(inout), target :: session
+      type(case_result_t), pointer :: last
+
+      nullify (last)
+      if (session%solved == 0) return
+      if (allocated(session%other)) then
+         last => session%other%cases(session%solved)%result
+      else
+         last => session%solver%cases(session%solved)%result
+      end if
+   end function result_of
+
+   !> A remark on a solution: its text, and 'note', 'warning' or 'failure'.
+   subroutine read_remark(remarks, k, text, severity)
+      type(remark_list_t), intent(in) :: remarks
+      integer, intent(in) :: k
+      character(:), allocatable, intent(out) :: text, severity
+      type(remark_t) :: remark
+
+      remark = remarks%item(k)
+      text = remark%whole()
+      severity = 'failure'
+      if (remark%severity == note) severity = 'note'
+      if (remark%severity == warning) severity = 'warning'
+   end subroutine read_remark
+
+   !> The compliance matrix at the wheel centres in one row of a solution, left before right, frame of the deck: displacements
+   !> x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
+   subroutine compliance_at(result, row, c)
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: row
+      real(wp), intent(out) :: c(:, :)                     !! 6 × wheels
+      type(compliance_t) :: compliance
+      real(wp) :: arm(3, size(c, 1)/6), frame(3)
+      integer :: state, i, j
+
+      state = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
+      c = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. result%path%is_reached(state)) return
+      compliance = new_compliance(result%suspension, .false.)
+      call state_compliance(result%suspension, new_schedule(result%suspension, result%case), result%path, state, result%kkt, &
+         compliance, c, arm)
+      frame = deck_frame(result%suspension)
+      do j = 1, size(c, 2)
+         do i = 1, size(c, 1)
+            c(i, j) = frame(mod(i - 1, 3) + 1)*frame(mod(j - 1, 3) + 1)*c(i, j)
+         end do
+      end do
+   end subroutine compliance_at
+
+end module ek_session_solution

@@ -1,0 +1,243 @@
+!> elastokin export: deck → kinematics and compliance as tables → files that another simulator reads.
+module ek_export
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_file, only: make_folder, write_whole, join_path
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, default_tolerance
+   use ek_balance, only: balance
+   use ek_table, only: table_t
+   use ek_command_line, only: command_line_t
+   use ek_load_deck, only: load_deck
+   use ek_console, only: print_path, print_note, print_model_remarks, write_table
+   use ek_export_settings, only: export_settings_t, read_export_settings, make_request, front_of
+   use ek_kandc_map, only: kandc_map_t, map_request_t, load_table_result_t, solve_map, solve_loads
+   use ek_carmaker, only: carmaker_text
+   use ek_carsim, only: carsim_text
+   use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json
+   use ek_plain_tables, only: kinematics_table, loads_table, compliance_of_map, tables_json
+   use ek_export_sources, only: sources_t, solve_sources
+   use ek_export_figure, only: panel_list_t, draw_export
+   use ek_export_panels, only: carmaker_panels, carsim_panels, mathworks_panels, csv_panels
+   implicit none(type, external)
+   private
+   public :: export
+
+   !> A deck, what is to be solved for it, and its map.
+   type :: axle_map_t
+      type(suspension_t) :: suspension
+      type(map_request_t) :: request
+      type(kandc_map_t) :: map
+      character(:), allocatable :: checksum
+      logical :: is_front = .true.
+   end type axle_map_t
+
+contains
+
+   !> Solves everything first: where a number cannot be computed, no file is written.
+   subroutine export(line, error)
+      type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      type(export_settings_t) :: settings
+      type(axle_map_t) :: axle
+      type(error_t), allocatable :: unprinted
+      type(panel_list_t) :: panels
+      type(sources_t) :: sources
+      character(:), allocatable :: message, name
+      character(1) :: separator
+
+      call read_export_settings(line, settings, error)
+      if (.not. allocated(error)) call solve_axle(settings, axle, error)
+      if (.not. allocated(error) .and. settings%has_plots) call solve_sources(axle%suspension, axle%request, axle%map, &
+         settings%target /= 'carmaker', sources, error)
+      if (allocated(error)) return
+      separator = ','
+      select case (settings%target)
+      case ('carmaker')
+         separator = ' '
+         call write_carmaker(settings, axle, sources, panels, unprinted, error)
+         name = axle%map%model//'_carmaker'
+      case ('carsim')
+         call write_carsim(settings, axle, sources, panels, unprinted, error)
+         name = axle%map%model//'_carsim'
+      case ('matlab-kc')
+         separator = ' '
+         call write_mathworks(settings, axle, sources, panels, unprinted, error)
+         name = axle%map%model//'_kandc'
+      case default
+         call write_tables(settings, axle, sources, panels, unprinted, error)
+         name = axle%map%model//'_tables'
+      end select
+      if (allocated(error)) return
+      if (settings%has_plots) then
+         call draw_export(panels, settings%out, name, axle%map%title//': '//settings%target, separator, message, error)
+         if (allocated(error)) return
+         if (len(message) > 0) then
+            call print_note(settings%is_quiet, message)
+         else
+            call print_path(join_path(settings%out, name//'.png'), unprinted)
+         end if
+      end if
+      if (allocated(unprinted)) call move_alloc(unprinted, error)
+   end subroutine export
+
+   !> Reads, balances and solves the deck of the settings.
+   subroutine solve_axle(settings, axle, error)
+      type(export_settings_t), intent(in) :: settings
+      type(axle_map_t), intent(out) :: axle
+      type(error_t), allocatable, intent(out) :: error
+      type(case_t), allocatable :: cases(:)
+
+      call load_deck(settings, axle%suspension, cases, axle%checksum, error)
+      if (.not. allocated(error)) call make_request(settings, axle%suspension, cases, axle%request, error)
+      if (.not. allocated(error) .and. (settings%target == 'carmaker' .or. settings%target == 'matlab-kc')) &
+         call front_of(settings, axle%suspension, axle%is_front, error)
+      if (.not. allocated(error)) call balance(axle%suspension, default_tolerance, error)
+      if (allocated(error)) return
+      call print_model_remarks(settings%is_quiet, axle%suspension, cases, cases)
+      call solve_map(axle%suspension, axle%request, axle%map, error)
+   end subroutine solve_axle
+
+   !> Writes a text and prints its path.
+   subroutine write_text(settings, name, text, unprinted, error)
+      type(export_settings_t), intent(in) :: settings
+      character(*), intent(in) :: name, text
+      type(error_t), allocatable, intent(inout) :: unprinted      !! a path could not be printed
+      type(error_t), allocatable, intent(out) :: error            !! exit_file
+
+      call make_folder(settings%out, error)
+      if (.not. allocated(error)) call write_whole(join_path(settings%out, name), text, error)
+      if (.not. allocated(error)) call print_path(join_path(settings%out, name), unprinted)
+   end subroutine write_text
+
+   subroutine write_carmaker(settings, axle, sources, panels, unprinted, error)
+      type(export_settings_t), intent(in) :: settings
+      type(axle_map_t), intent(in) :: axle
+      type(sources_t), intent(in) :: sources
+      type(panel_list_t), intent(out) :: panels
+      type(error_t), allocatable, intent(inout) :: unprinted
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: text
+
+      call carmaker_text(axle%map, axle%is_front, axle%checksum, text, error)
+      if (.not. allocated(error)) call write_text(settings, axle%map%model//'.skc', text, unprinted, error)
+      if (allocated(error) .or. .not. settings%has_plots) return
+      call carmaker_panels(axle%map, sources, axle%map%model//'.skc', text, panels)
+   end subroutine write_carmaker
+
+   subroutine write_carsim(settings, axle, sources, panels, unprinted, error)
+      type(export_settings_t), intent(in) :: settings
+      type(axle_map_t), intent(in) :: axle
+      type(sources_t), intent(in) :: sources
+      type(panel_list_t), intent(out) :: panels
+      type(error_t), allocatable, intent(inout) :: unprinted
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: text
+
+      call carsim_text(axle%map, axle%checksum, text, error)
+      if (.not. allocated(error)) call write_text(settings, axle%map%model//'_carsim.par', text, unprinted, error)
+      if (allocated(error) .or. .not. settings%has_plots) return
+      call carsim_panels(axle%map, sources, axle%map%model//'_carsim.par', text, panels)
+   end subroutine write_carsim
+
+   !> Both files of the axle, and of the other axle if there is a deck of it.
+   subroutine write_mathworks(settings, axle, sources, panels, unprinted, error)
+      type(export_settings_t), intent(in) :: settings
+      type(axle_map_t), intent(in) :: axle
+      type(sources_t), intent(in) :: sources
+      type(panel_list_t), intent(out) :: panels
+      type(error_t), allocatable, intent(inout) :: unprinted
+      type(error_t), allocatable, intent(out) :: error
+      character(2), parameter :: corners(4) = ['FL', 'FR', 'RL', 'RR']
+      type(kandc_parameters_t) :: p
+      character(:), allocatable :: text
+      integer :: place
+
+      place = merge(1, 2, axle%is_front)
+      p%maps(place) = axle%map
+      p%has(place) = .true.
+      p%checksums(place) = axle%checksum
+      if (settings%other /= '') call add_other(settings, 3 - place, p, error)
+      if (allocated(error)) return
+      call find_parameters(p)
+      text = mathworks_script(p)
+      call write_text(settings, axle%map%model//'_kandc.m', text, unprinted, error)
+      if (.not. allocated(error)) &
+         call write_text(settings, axle%map%model//'_kandc.json', mathworks_json(p), unprinted, error)
+      if (allocated(error) .or. .not. settings%has_plots) return
+      call mathworks_panels(sources, axle%map%model//'_kandc.m', text, corners(2*place - 2 + sources%side), &
+         size(axle%map%travel), panels)
+   end subroutine write_mathworks
+
+   !> Solves the deck of the other axle. Its steer range is that of the deck, and --set, --axle do not concern it.
+   subroutine add_other(settings, place, p, error)
+      type(export_settings_t), intent(in) :: settings
+      integer, intent(in) :: place                       !! 1 front, 2 rear
+      type(kandc_parameters_t), intent(inout) :: p
+      type(error_t), allocatable, intent(out) :: error
+      type(export_settings_t) :: theirs
+      type(axle_map_t) :: other
+
+      theirs%file = settings%other
+      theirs%target = settings%target
+      theirs%map = ''
+      theirs%driver = ''
+      theirs%vertical = settings%vertical
+      theirs%held = settings%held
+      theirs%axle = trim(merge('front', 'rear ', place == 1))
+      theirs%signs = ''
+      theirs%other = ''
+      theirs%travel = settings%travel
+      theirs%lengths = settings%lengths
+      theirs%is_quiet = settings%is_quiet
+      call solve_axle(theirs, other, error)
+      if (allocated(error)) then
+         error%message = '--other '//settings%other//': '//error%message
+         return
+      end if
+      p%maps(place) = other%map
+      p%has(place) = .true.
+      p%checksums(place) = other%checksum
+   end subroutine add_other
+
+   !> Three tables and the JSON of all of them.
+   subroutine write_tables(settings, axle, sources, panels, unprinted, error)
+      type(export_settings_t), intent(in) :: settings
+      type(axle_map_t), intent(in) :: axle
+      type(sources_t), intent(in) :: sources
+      type(panel_list_t), intent(out) :: panels
+      type(error_t), allocatable, intent(inout) :: unprinted
+      type(error_t), allocatable, intent(out) :: error
+      character(10), parameter :: names(3) = [character(10) :: 'kinematics', 'loads', 'compliance']
+      type(table_t) :: tables(3)
+      type(load_table_result_t) :: loads
+      real(wp) :: force, moment
+      integer :: count, k
+      logical :: is_sae
+
+      force = 2000.0_wp
+      moment = 100.0_wp
+      count = 21
+      if (settings%loads%is_given) then
+         force = settings%loads%from
+         moment = settings%loads%to
+         count = settings%loads%points
+      end if
+      call solve_loads(axle%suspension, axle%request, force, moment, count, .true., loads, error)
+      if (allocated(error)) return
+      is_sae = settings%signs == 'sae'
+      tables(1) = kinematics_table(axle%map, is_sae, axle%checksum)
+      tables(2) = loads_table(axle%map, loads, is_sae, axle%checksum)
+      tables(3) = compliance_of_map(axle%map, is_sae, axle%checksum)
+      call make_folder(settings%out, error)
+      do k = 1, 3
+         if (.not. allocated(error)) call write_table(tables(k), join_path(settings%out, axle%map%model//'_'//trim(names(k))// &
+            '.csv'), unprinted, error)
+      end do
+      if (.not. allocated(error)) call write_text(settings, axle%map%model//'_tables.json', &
+         tables_json(names, tables, axle%map, is_sae, axle%checksum), unprinted, error)
+      if (allocated(error) .or. .not. settings%has_plots) return
+      call csv_panels(axle%map, sources, axle%map%model//'_kinematics.csv', is_sae, panels)
+   end subroutine write_tables
+
+end module ek_export

@@ -1,0 +1,78 @@
+!> run --columns a,b,c: the columns of the results that are computed and written.
+module ek_run_columns
+   use ek_error, only: error_t, message_list_t, fail, exit_usage
+   use ek_text, only: quoted, nearest_name, is_like
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, is_mountable
+   use ek_rig, only: mount
+   use ek_sweep_table, only: sweep_columns
+   use ek_target, only: find_column
+   use ek_table, only: name_length
+   use ek_run_numbers, only: split_names
+   implicit none(type, external)
+   private
+   public :: choose_columns
+
+contains
+
+   !> The columns that names, or patterns with *, mean in the results of the cases; also those of targets. All quantities may be
+   !> named, whatever the cases say about them.
+   subroutine choose_columns(list, suspension, cases, columns, error)
+      character(*), intent(in) :: list                  !! names with commas between them
+      type(suspension_t), intent(in) :: suspension      !! on no rig
+      type(case_t), intent(inout) :: cases(:)
+      character(name_length), allocatable, intent(out) :: columns(:)
+      type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that mean no column
+      type(suspension_t) :: on_rig
+      type(case_t) :: this
+      type(error_t), allocatable :: absent
+      type(message_list_t) :: mistakes
+      character(name_length), allocatable :: names(:), heads(:), all(:)
+      character(:), allocatable :: hint
+      logical, allocatable :: is_known(:)
+      integer :: c, k, place
+
+      call split_names(list, names)
+      allocate (is_known(size(names)), source=.false.)
+      allocate (columns(0), all(0))
+      cases%has_all = .true.
+      do c = 1, size(cases)
+         if (.not. is_mountable(cases(c))) cycle
+         call mount(suspension, cases(c), on_rig, this)
+         call sweep_columns(on_rig, this, heads)
+         do k = 1, size(names)
+            call take(k)
+         end do
+         all = [character(name_length) :: all, heads]
+         if (len(cases(c)%target) == 0) cycle
+         call find_column(heads, trim(adjustl(cases(c)%target(:index(cases(c)%target, '=') - 1))), place, absent)
+         if (.not. allocated(absent)) columns = [character(name_length) :: columns, heads(place)]
+      end do
+      do k = 1, size(names)
+         if (is_known(k)) cycle
+         hint = ''
+         if (index(names(k), '*') == 0) hint = nearest_name(trim(names(k)), all)
+         if (any(all == 'left_'//names(k))) hint = 'left_'//trim(names(k))
+         if (hint /= '') hint = ' (did you mean '//quoted(hint)//'?)'
+         call mistakes%add('--columns: the results have no column '//quoted(trim(names(k)))//hint)
+      end do
+      if (size(names) == 0) call mistakes%add('--columns: no column is named')
+      if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
+
+   contains
+
+      !> The columns of this case that name k means.
+      subroutine take(k)
+         integer, intent(in) :: k
+         integer :: j
+
+         do j = 1, size(heads)
+            if (.not. is_like(trim(heads(j)), trim(names(k)))) cycle
+            is_known(k) = .true.
+            if (.not. any(columns == heads(j))) columns = [character(name_length) :: columns, heads(j)]
+         end do
+      end subroutine take
+
+   end subroutine choose_columns
+
+end module ek_run_columns

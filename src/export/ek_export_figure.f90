@@ -1,0 +1,115 @@
+!> Figures of exported files: gnuplot reads the points from the file itself; the lines are curves that were solved separately.
+module ek_export_figure
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str
+   use ek_file, only: write_whole, join_path
+   use ek_buffer, only: buffer_t
+   use ek_decimal, only: decimal
+   use ek_drawing, only: run_gnuplot
+   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   implicit none(type, external)
+   private
+   public :: panel_t, panel_list_t, add_panel, draw_export
+
+   !> Points of a file over a curve.
+   type :: panel_t
+      character(:), allocatable :: title, x_label, y_label
+      character(:), allocatable :: points        !! plot element of the points: file, lines, columns
+      real(wp), allocatable :: x(:), y(:)        !! of the curve
+   end type panel_t
+
+   type :: panel_list_t
+      type(panel_t), allocatable :: panels(:)
+      integer :: used = 0
+   end type panel_list_t
+
+   integer, parameter :: most = 12
+
+contains
+
+   !> Adds a panel, if there is a curve for it.
+   subroutine add_panel(list, title, x_label, y_label, points, x, y)
+      type(panel_list_t), intent(inout) :: list
+      character(*), intent(in) :: title, x_label, y_label, points
+      real(wp), intent(in) :: x(:), y(:)
+
+      if (.not. allocated(list%panels)) allocate (list%panels(most))
+      if (list%used == most .or. size(x) == 0 .or. size(x) /= size(y)) return
+      list%used = list%used + 1
+      associate (panel => list%panels(list%used))
+         panel%title = title
+         panel%x_label = x_label
+         panel%y_label = y_label
+         panel%points = points
+         panel%x = x
+         panel%y = y
+      end associate
+   end subroutine add_panel
+
+   !> Writes the script folder/name.gp and draws name.png and name.svg. Without gnuplot a message says so.
+   subroutine draw_export(list, folder, name, title, separator, message, error)
+      type(panel_list_t), intent(in) :: list
+      character(*), intent(in) :: folder, name, title
+      character(1), intent(in) :: separator                !! of the columns of the file: ',' or ' '
+      character(:), allocatable, intent(out) :: message    !! '' if the pictures were drawn
+      type(error_t), allocatable, intent(out) :: error     !! exit_file
+      type(message_list_t) :: scripts, pictures
+
+      message = ''
+      if (list%used == 0) return
+      call write_whole(join_path(folder, name//'.gp'), script_of(list, name, title, separator), error, can_be_redrawn=.true.)
+      if (allocated(error)) return
+      call scripts%add(name//'.gp')
+      call pictures%add(name//'.png')
+      call pictures%add(name//'.svg')
+      call run_gnuplot(scripts, pictures, folder, message, error)
+   end subroutine draw_export
+
+   function script_of(list, name, title, separator) result(text)
+      type(panel_list_t), intent(in) :: list
+      character(*), intent(in) :: name, title
+      character(1), intent(in) :: separator
+      character(:), allocatable :: text
+      type(buffer_t) :: script
+      integer :: k, i, rows
+
+      rows = (list%used + 2)/3
+      call script%line(gnuplot_comment(title//': points of the exported file over curves that were solved separately'))
+      call script%line('reset')
+      call script%line('set encoding utf8')
+      if (separator == ',') call script%line('set datafile separator comma')
+      call script%line("set datafile missing 'nan'")
+      call script%line("set border 3 linecolor rgb '#808080'")
+      call script%line('set tics out nomirror')
+      call script%line('set key at screen 0.008, screen 0.998 left top Left reverse horizontal')
+      do k = 1, list%used
+         call script%line('$curve'//str(k)//' << EOD')
+         do i = 1, size(list%panels(k)%x)
+            call script%line(decimal(list%panels(k)%x(i))//separator//decimal(list%panels(k)%y(i)))
+         end do
+         call script%line('EOD')
+      end do
+      call script%line("do for [format in 'png svg'] {")
+      call script%line("   if (format eq 'png') { set terminal pngcairo size 1500, "//str(420*rows + 60)//" font 'sans-serif,11' }")
+      call script%line("   if (format eq 'svg') { set terminal svg size 1500, "//str(420*rows + 60)// &
+         " font 'sans-serif,11' background 'white' }")
+      call script%line('   set output '//gnuplot_text(name//'.')//'.format')
+      call script%line('   set multiplot layout '//str(rows)//', 3 title '//gnuplot_text(title)//' noenhanced')
+      do k = 1, list%used
+         associate (panel => list%panels(k))
+            call script%line('   set title '//gnuplot_text(panel%title)//' noenhanced')
+            call script%line('   set xlabel '//gnuplot_text(panel%x_label)//' noenhanced')
+            call script%line('   set ylabel '//gnuplot_text(panel%y_label)//' noenhanced')
+            call script%line('   plot $curve'//str(k)//" using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title "// &
+               gnuplot_text(trim(merge('solved separately', '                 ', k == 1)))//', \')
+            call script%line('      '//panel%points//' title '//gnuplot_text(trim(merge('written file', '            ', k == 1))))
+         end associate
+      end do
+      call script%line('   unset multiplot')
+      call script%line('   unset output')
+      call script%line('}')
+      text = script%text()
+   end function script_of
+
+end module ek_export_figure

@@ -1,0 +1,60 @@
+!> Whether the columns of a map rise or fall everywhere over wheel travel, as a simulator requires that inverts them.
+module ek_monotonic
+   use ek_kinds, only: wp, millimetre
+   use ek_error, only: error_t, message_list_t, fail, exit_model
+   use ek_text, only: str
+   use ek_wheel_side, only: side_name
+   use ek_wheel_motion, only: at_tz, at_lengths, lengths, length_names, quantity_names
+   use ek_kandc_map, only: kandc_map_t, over_steer, over_opposite
+   implicit none(type, external)
+   private
+   public :: check_monotonic
+
+contains
+
+   !> Checks tz and the four lengths of both sides; a column that turns back is reported with the first place where it does.
+   subroutine check_monotonic(map, target, error)
+      type(kandc_map_t), intent(in) :: map
+      character(*), intent(in) :: target                    !! of the export, for the message
+      type(error_t), allocatable, intent(out) :: error      !! exit_model: every column that is not strictly monotonic
+      integer, parameter :: columns(5) = [at_tz, at_lengths + 1, at_lengths + 2, at_lengths + 3, at_lengths + 4]
+      type(message_list_t) :: mistakes
+      integer :: side, c, i, j
+
+      do side = 1, 2
+         do c = 1, size(columns)
+            search: do j = 1, size(map%second)
+               associate (values => map%value(columns(c), j, :, side))
+                  do i = 2, size(values) - 1
+                     if ((values(i) - values(i - 1))*(values(i + 1) - values(i)) > 0.0_wp) cycle
+                     call mistakes%add(message(side, c, i, j, values(i - 1:i + 1)))
+                     exit search
+                  end do
+               end associate
+            end do search
+         end do
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_model, target// &
+         ' needs columns that are strictly monotonic in wheel travel; nothing was written'//new_line('a')//mistakes%text())
+
+   contains
+
+      function message(side, c, i, j, three) result(text)
+         integer, intent(in) :: side, c, i, j
+         real(wp), intent(in) :: three(3)
+         character(:), allocatable :: text
+
+         text = trim(side_name(side))//' '//trim(quantity_names(columns(c)))
+         if (c > 1) text = text//' ('//trim(map%length_labels(c - 1, side))//')'
+         text = text//': '//str(three(1)/millimetre, 8)//', '//str(three(2)/millimetre, 8)//', '//str(three(3)/millimetre, 8)// &
+            ' mm at travels of '//str(map%travel(i - 1)/millimetre)//', '//str(map%travel(i)/millimetre)//', '// &
+            str(map%travel(i + 1)/millimetre)//' mm'
+         if (map%kind == over_steer) text = text//', steer '//str(map%second(j)/millimetre)//' mm'
+         if (map%kind == over_opposite) text = text//', other wheel at '//str(map%second(j)/millimetre)//' mm'
+         text = text//'; use a shorter range (--travel)'
+         if (c > 1) text = text//', or another element (--length '//trim(length_names(c - 1))//'=NAME)'
+      end function message
+
+   end subroutine check_monotonic
+
+end module ek_monotonic

@@ -1,0 +1,278 @@
+!> Files of other programs as text of a deck: what `elastokin import` writes. The kind of a file follows from its content.
+module ek_foreign_deck
+   use ek_kinds, only: wp, millimetre
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: str, lower
+   use ek_file, only: read_whole, join_path, folder_name, base_name, file_exists
+   use ek_flaws, only: flaws_t, new_flaws, shown
+   use ek_fields, only: legal_name
+   use ek_law_points, only: add_point
+   use ek_property, only: property_t, parse_property, bushing_file, spring_file, rebound_file
+   use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints, single_point, left_point, right_point, point_pair
+   use ek_teimorbit, only: is_teimorbit
+   use ek_kin, only: kin_t, parse_kin, is_kin
+   use ek_kin_deck, only: mount_law_t, is_used_mount, check_kin, kin_deck
+   use ek_lcf, only: lcf_t, parse_lcf, lcf_table
+   use ek_deck_text, only: deck_text_t
+   use ek_law_text, only: put_curve, put_curves, put_bushing_law
+   implicit none(type, external)
+   private
+   public :: axle_kind, points_kind, law_kind, loads_kind, kind_of_text, import_text, import_file, put_model
+
+   integer, parameter :: axle_kind = 1, points_kind = 2, law_kind = 3, loads_kind = 4
+
+contains
+
+   !> What a text is. A file that nothing else recognises is read as a table of hardpoints.
+   pure integer function kind_of_text(text) result(kind)
+      character(*), intent(in) :: text
+      character(:), allocatable :: folded
+
+      folded = lower(text)
+      if (is_teimorbit(text)) then
+         kind = law_kind
+         if (index(folded, '[data]') > 0 .and. index(folded, '_curve]') == 0) kind = loads_kind
+         if (index(folded, '[hardpoint]') > 0 .or. index(folded, '[subsystem]') > 0 .or. &
+            index(folded, '[subsystem_header]') > 0 .or. index(folded, '[assembly_header]') > 0) kind = points_kind
+      else if (is_kin(text)) then
+         kind = axle_kind
+      else if (index(folded, 'displacement') > 0 .and. index(folded, '''') > 0) then
+         kind = law_kind
+      else if (index(adjustl(text), '<') == 1) then
+         kind = law_kind
+      else
+         kind = points_kind
+      end if
+   end function kind_of_text
+
+   !> Reads a file; `text` is its part of a deck, or of loads_kind a table of loads.
+   subroutine import_file(path, text, kind, error)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: text
+      integer, intent(out) :: kind
+      type(error_t), allocatable, intent(out) :: error      !! exit_file: it cannot be read; exit_deck: mistakes in it
+      character(:), allocatable :: content
+      type(flaws_t) :: flaws
+
+      kind = 0
+      call read_whole(path, content, error, may_stream=.true.)
+      if (allocated(error)) return
+      flaws = new_flaws(path)
+      call import_text(content, path, text, kind, flaws)
+      if (flaws%count() > 0) call fail(error, exit_deck, flaws%text())
+   end subroutine import_file
+
+   !> The same for a text; mistakes are in `flaws`, and with them `text` is ''.
+   subroutine import_text(content, path, text, kind, flaws)
+      character(*), intent(in) :: content, path
+      character(:), allocatable, intent(out) :: text
+      integer, intent(out) :: kind
+      type(flaws_t), intent(inout) :: flaws
+      type(lcf_t) :: lcf
+
+      text = ''
+      kind = kind_of_text(content)
+      select case (kind)
+      case (axle_kind)
+         call import_axle(content, path, text, flaws)
+      case (points_kind)
+         call import_points(content, path, text, flaws)
+      case (law_kind)
+         call import_law(content, path, text, flaws)
+      case (loads_kind)
+         call parse_lcf(content, lcf, flaws)
+         if (flaws%count() == 0) text = lcf_table(lcf, 'rack_drive', path)
+      end select
+      if (flaws%count() > 0) text = ''
+   end subroutine import_text
+
+   !> &model of a deck in mm, N, deg with x rearward, as the files of Adams/Car have it.
+   function put_model(name) result(text)
+      character(*), intent(in) :: name
+      character(:), allocatable :: text
+      type(deck_text_t) :: deck
+
+      call deck%comment('Made by elastokin import; a part of a deck: bodies, joints and elements are missing.')
+      call deck%begin('model')
+      call deck%word('name', legal_name(name))
+      call deck%word('length', 'mm')
+      call deck%word('force', 'N')
+      call deck%word('angle', 'deg')
+      call deck%word('axes', 'x-rear')
+      call deck%end()
+      text = deck%text()
+   end function put_model
+
+   !> &point of each hardpoint; of a pair the left and the right one.
+   subroutine import_points(content, path, text, flaws)
+      character(*), intent(in) :: content, path
+      character(:), allocatable, intent(inout) :: text
+      type(flaws_t), intent(inout) :: flaws
+      type(hardpoints_t) :: sheet
+      type(deck_text_t) :: deck
+      integer :: k
+
+      call parse_hardpoints(content, millimetre, sheet, flaws)
+      if (flaws%count() > 0) return
+      call deck%blank()
+      call deck%comment('hardpoints of '//path)
+      do k = 1, sheet%used
+         associate (this => sheet%points(k))
+            select case (this%symmetry)
+            case (single_point)
+               call put(trim(this%name), this%at)
+            case (left_point)
+               call put('left_'//trim(this%name), this%at)
+            case (right_point)
+               call put('right_'//trim(this%name), this%at)
+            case (point_pair)
+               call put('left_'//trim(this%name), this%at)
+               call put('right_'//trim(this%name), this%at*[1.0_wp, -1.0_wp, 1.0_wp])
+            end select
+         end associate
+      end do
+      text = deck%text()
+
+   contains
+
+      subroutine put(name, at)
+         character(*), intent(in) :: name
+         real(wp), intent(in) :: at(3)
+
+         call deck%begin('point')
+         call deck%word('name', name)
+         call deck%numbers('at', at/millimetre)
+         call deck%end()
+      end subroutine put
+
+   end subroutine import_points
+
+   !> &curve of each law, and in comments the element that uses them.
+   subroutine import_law(content, path, text, flaws)
+      character(*), intent(in) :: content, path
+      character(:), allocatable, intent(inout) :: text
+      type(flaws_t), intent(inout) :: flaws
+      type(property_t) :: property
+      type(deck_text_t) :: deck, element
+      character(:), allocatable :: name
+
+      call parse_property(content, property, flaws)
+      if (flaws%count() > 0) return
+      name = legal_name(base_name(path))
+      call deck%blank()
+      call deck%comment('from '//path)
+      call deck%comment('the element, to be completed by its bodies and points, is in the comment below')
+      if (property%kind == bushing_file) then
+         call put_curves(deck, name, property%laws, 'akima')
+         call element%begin('bushing')
+         call element%word('name', name)
+         call put_bushing_law(element, name, property%laws)
+      else
+         call put_curve(deck, name, property%laws(1), 1, 'akima')
+         if (property%kind == spring_file) then
+            call element%begin('spring')
+         else
+            call element%begin('stop')
+            call element%word('type', trim(merge('rebound', 'bump   ', property%kind == rebound_file)))
+         end if
+         call element%word('name', 'unnamed')
+         call element%word('curve', name)
+         if (property%free_length > 0.0_wp) call element%number('free_length', property%free_length/millimetre)
+      end if
+      call element%end()
+      text = deck%text()//commented(element%text())
+   end subroutine import_law
+
+   !> Every line as a comment.
+   function commented(text) result(lines)
+      character(*), intent(in) :: text
+      character(:), allocatable :: lines
+      integer :: k
+
+      lines = '! '
+      do k = 1, len(text)
+         lines = lines//text(k:k)
+         if (text(k:k) == new_line('a') .and. k < len(text)) lines = lines//'! '
+      end do
+   end function commented
+
+   !> An axle with its bushings, which are in files of their own.
+   subroutine import_axle(content, path, text, flaws)
+      character(*), intent(in) :: content, path
+      character(:), allocatable, intent(inout) :: text
+      type(flaws_t), intent(inout) :: flaws
+      type(kin_t) :: kin
+      type(mount_law_t) :: mounts(size(kin%mounts))
+      integer :: k
+
+      call parse_kin(content, kin, flaws)
+      if (flaws%count() > 0) return
+      call check_kin(kin, flaws)
+      do k = 1, size(mounts)
+         if (is_used_mount(kin, k)) call find_mount(path, kin%mounts(k)%file, kin%mounts(k)%line, mounts(k), flaws)
+      end do
+      if (flaws%count() > 0) return
+      call kin_deck(kin, mounts, path, text, flaws)
+   end subroutine import_axle
+
+   !> The law of a bushing: from its file, beside the axle or below it as the axle names it. IPGKinematics has files
+   !> lin01000.gum for 1000 N/mm in all directions and so on: these need not be there.
+   subroutine find_mount(path, named, line, mount, flaws)
+      character(*), intent(in) :: path, named
+      integer, intent(in) :: line
+      type(mount_law_t), intent(inout) :: mount
+      type(flaws_t), intent(inout) :: flaws
+      type(property_t) :: property
+      type(flaws_t) :: inner
+      type(error_t), allocatable :: error
+      character(:), allocatable :: slashed, name, found, content
+      real(wp) :: rate
+      integer :: k
+
+      slashed = named
+      do k = 1, len(slashed)
+         if (slashed(k:k) == '\') slashed(k:k) = '/'
+      end do
+      name = slashed(index(slashed, '/', back=.true.) + 1:)
+      if (len(name) == 0) then
+         call flaws%add(line, 'expected the file of a bushing, found '//shown(named))
+         return
+      end if
+      found = join_path(folder_name(path), slashed)
+      if (.not. file_exists(found)) found = join_path(folder_name(path), name)
+      if (file_exists(found)) then
+         call read_whole(found, content, error)
+         if (allocated(error)) then
+            call flaws%add(line, error%message)
+            return
+         end if
+         inner = new_flaws(found)
+         call parse_property(content, property, inner)
+         if (inner%count() > 0) then
+            call flaws%add(line, 'mistakes in the bushing:'//new_line('a')//inner%text())
+            return
+         end if
+         if (property%kind /= bushing_file) then
+            call flaws%add(line, 'expected a bushing, found another file: '//shown(found))
+            return
+         end if
+         mount%laws = property%laws
+         mount%note = name
+         return
+      end if
+      if (len(name) == 12 .and. lower(name(:3)) == 'lin' .and. lower(name(9:)) == '.gum' .and. &
+         verify(name(4:8), '0123456789') == 0) then
+         read (name(4:8), *) rate
+         rate = rate/millimetre
+         do k = 1, 6
+            mount%laws(k)%is_given = .true.
+            call add_point(mount%laws(k), -1.0_wp, merge(-rate, 0.0_wp, k <= 3), line)
+            call add_point(mount%laws(k), 1.0_wp, merge(rate, 0.0_wp, k <= 3), line)
+         end do
+         mount%note = name//': the rate is that of its name, as the file is not there'
+         return
+      end if
+      call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' beside '//shown(path))
+   end subroutine find_mount
+
+end module ek_foreign_deck

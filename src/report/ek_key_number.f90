@@ -1,0 +1,171 @@
+!> A key number of a suspension: what it is, in which columns of which tests it stands, and how its value is read from them.
+!>
+!> ek_key_numbers lists the numbers that tests can have, from the heads of their tables alone; read_source reads one of them when
+!> the tests are solved. It makes no text, so that several threads can read at the same time.
+module ek_key_number
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_table, only: table_t, column_index, name_length
+   use ek_test_result, only: design_row, unfolded_rows
+   use ek_gradient, only: fit_slope
+   implicit none(type, external)
+   private
+   public :: key_number_t, key_source_t, nothing, read_source, has_value, needs_path
+   public :: at_design, largest, least, slope, in_phase, anti_phase, at_place, to_contact, largest_of_all
+
+   !> How a number is read: a column at design; its maximum and minimum over the test; a gradient, also of parallel or opposed loads
+   !> alone; a column where another one has a given value; the travel from design to where a gap closes; the largest magnitude over
+   !> all tests.
+   integer, parameter :: at_design = 0, largest = 1, least = 2, slope = 3, in_phase = 4, anti_phase = 5, at_place = 6, &
+      to_contact = 7, largest_of_all = 8
+
+   !> Where a number stands in the table of one test: (left wheel, single wheel or axle; right wheel).
+   type :: key_source_t
+      integer :: test = 0                               !! place in the list of tests
+      character(name_length) :: column(2) = ''          !! '': this wheel does not have the number
+      character(name_length) :: over(2) = ''            !! the abscissa of a gradient; the column that has a given value
+      real(wp) :: wanted(2) = 0.0_wp                    !! that value, in the unit of the column
+      real(wp) :: half = 0.0_wp                         !! window of a gradient, in the unit of `over`
+      real(wp) :: size(2) = 1.0_wp                      !! unit and sign of a gradient: times the slope of the columns
+      real(wp) :: factor_size = 1.0_wp                  !! load or displacement at `factor` = 1
+   end type key_source_t
+
+   !> One key number of a report, or of each wheel.
+   type :: key_number_t
+      character(:), allocatable :: group, quantity, unit, sign
+      character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
+      character(:), allocatable :: condition      !! where it is read: 'parallel_travel, within ±15 mm of design'
+      character(:), allocatable :: definition     !! from which columns, and its sign
+      real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
+      logical :: is_of_axle = .false.                !! one number, in `left`
+      integer :: how = at_design                     !! one of those above
+      type(key_source_t), allocatable :: sources(:)  !! tests that may have it; the first that has a value counts
+   end type key_number_t
+
+contains
+
+   !> The value of a missing number.
+   pure real(wp) function nothing()
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function nothing
+
+   pure logical function has_value(number)
+      type(key_number_t), intent(in) :: number
+      has_value = ieee_is_finite(number%left) .or. ieee_is_finite(number%right)
+   end function has_value
+
+   !> Whether a number depends on states that lie far from design.
+   pure logical function needs_path(how)
+      integer, intent(in) :: how
+      needs_path = .not. (how == at_design .or. is_slope(how))
+   end function needs_path
+
+   pure logical function is_slope(how)
+      integer, intent(in) :: how
+      is_slope = how >= slope .and. how <= anti_phase
+   end function is_slope
+
+   !> Reads a number from one of its tests. `values` holds what the tests before gave; the first is that of the left or single wheel
+   !> or of the axle, the second of the right wheel. `is_final`: no further test is read.
+   subroutine read_source(how, source, table, values, is_final)
+      integer, intent(in) :: how
+      type(key_source_t), intent(in) :: source
+      type(table_t), intent(in) :: table                !! of the test
+      real(wp), intent(inout) :: values(2)              !! not a number before the first test
+      logical, intent(out) :: is_final
+      integer :: wheel, place, over, points
+      real(wp) :: value
+
+      if (how /= largest_of_all) values = nothing()
+      do wheel = 1, 2
+         if (source%column(wheel) == '') cycle
+         place = column_index(table, source%column(wheel))
+         if (place == 0) cycle
+         over = 0
+         if (source%over(wheel) /= '') over = column_index(table, source%over(wheel))
+         select case (how)
+         case (at_design)
+            values(wheel) = design_value(table, place)
+         case (slope:anti_phase)
+            if (over == 0) cycle
+            call fit_slope(table, place, over, source%factor_size, source%half, value, points)
+            values(wheel) = value*source%size(wheel)
+         case (at_place)
+            values(wheel) = value_where(table, over, source%wanted(wheel), place)
+         case (to_contact)
+            values(wheel) = abs(value_where(table, over, source%wanted(wheel), place) - design_value(table, place))
+         case default
+            call take_extreme(how, table, place, values(wheel))
+         end select
+      end do
+      is_final = is_slope(how) .or. (how /= largest_of_all .and. any(ieee_is_finite(values)))
+   end subroutine read_source
+
+   !> A column at design; not a number if that state did not converge.
+   pure real(wp) function design_value(table, place) result(value)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: place
+      integer :: row
+
+      value = nothing()
+      row = design_row(table)
+      if (row > 0) value = table%values(place, row)
+   end function design_value
+
+   !> The maximum or minimum of a column over the converged states, or its largest magnitude in this test and those before.
+   subroutine take_extreme(how, table, place, value)
+      integer, intent(in) :: how
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: place
+      real(wp), intent(inout) :: value
+      logical :: is_usable(size(table%values, 2))
+
+      is_usable = is_good(table, place)
+      if (.not. any(is_usable)) return
+      select case (how)
+      case (largest)
+         value = maxval(table%values(place, :), mask=is_usable)
+      case (least)
+         value = minval(table%values(place, :), mask=is_usable)
+      case default
+         if (.not. ieee_is_finite(value)) value = 0.0_wp
+         value = max(value, maxval(abs(table%values(place, :)), mask=is_usable))
+      end select
+   end subroutine take_extreme
+
+   !> Column y at the point where column x has a given value, interpolated linearly between two neighbouring states; of
+   !> several such points the one nearest to design. Not a number if there is none.
+   real(wp) function value_where(table, x, wanted, y) result(value)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: x, y                       !! places of the columns
+      real(wp), intent(in) :: wanted
+      real(wp) :: share, nearest
+      logical :: is_usable(size(table%values, 2))
+      integer :: f, k
+
+      value = nothing()
+      f = column_index(table, 'factor')
+      if (min(x, y, f) == 0) return
+      is_usable = is_good(table, x) .and. is_good(table, y)
+      nearest = huge(nearest)
+      do k = 1, size(is_usable) - 1
+         if (.not. all(is_usable(k:k + 1))) cycle
+         associate (from => table%values(:, k), to => table%values(:, k + 1))
+            if ((from(x) - wanted)*(to(x) - wanted) > 0.0_wp .or. .not. abs(to(x) - from(x)) > 0.0_wp) cycle
+            share = (wanted - from(x))/(to(x) - from(x))
+            if (abs(from(f) + share*(to(f) - from(f))) >= nearest) cycle
+            nearest = abs(from(f) + share*(to(f) - from(f)))
+            value = from(y) + share*(to(y) - from(y))
+         end associate
+      end do
+   end function value_where
+
+   !> The states that converged and have a number in a column.
+   pure function is_good(table, place)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: place
+      logical :: is_good(size(table%values, 2))
+      is_good = unfolded_rows(table) .and. ieee_is_finite(table%values(place, :))
+   end function is_good
+
+end module ek_key_number
