@@ -15,7 +15,7 @@ FACTORS = {                                     # N/mm, N/mm, mm
     "bushing.lca_rear.kt(3)": (400.0, 1600.0),
     "point.tie_rod_outer.z": (-65.0, -45.0),
 }
-TARGETS = {"left_braking_deflection": 5.0, "left_braking_steer": -0.15, "left_bump_steer": 1.0}     # mm/kN, deg/kN, deg/m
+TARGETS = {"left_braking_deflection": 5.0, "left_braking_steer": -0.135, "left_bump_steer": 1.0}     # mm/kN, deg/kN, deg/m
 
 with elastokin.Model.from_file(sys.argv[1]) as model:
     start = np.array([model[path] for path in FACTORS])
