@@ -84,4 +84,4 @@ with tempfile.TemporaryDirectory() as folder:
             print(f'remark: {what}, {count} designs: {python:.0f} µs in Python, of these {library:.0f} in the library '
                   f'({python - library:+.0f}); loop in C {in_c:.0f}; process {process:.0f}, {process / python:.1f} times as much')
         found, wanted = numbers(650.0), numbers_of_process(650.0)
-        assert all(found[name] == float(wanted[name]) for name in NUMBERS), (found, wanted)
+        assert all(float(f'{found[name]:.15g}') == float(wanted[name]) for name in NUMBERS), (found, wanted)
