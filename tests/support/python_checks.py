@@ -80,7 +80,8 @@ with tempfile.TemporaryDirectory() as folder:
         for what, jobs, in_c in (('whole table, 21 states', (table, table_of_library, table_of_process), times_in_c[0]),
                                  ('two key numbers', (numbers, numbers_of_library, numbers_of_process), times_in_c[1])):
             jobs[0](1.0)
-            python, library, process = medians(*jobs)
+            python, library = medians(*jobs[:2])
+            process, = medians(jobs[2])
             print(f'remark: {what}, {count} designs: {python:.0f} µs in Python, of these {library:.0f} in the library '
                   f'({python - library:+.0f}); loop in C {in_c:.0f}; process {process:.0f}, {process / python:.1f} times as much')
         found, wanted = numbers(650.0), numbers_of_process(650.0)
