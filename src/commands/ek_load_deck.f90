@@ -1,6 +1,6 @@
 !> From a path and settings to a model: the first step of every command.
 module ek_load_deck
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model, exit_file
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck, exit_model, exit_file
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
@@ -52,7 +52,7 @@ contains
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
       type(deck_t) :: deck
       type(set_file_t), allocatable :: files(:)
-      type(error_t), allocatable :: fault
+      type(error_t), allocatable :: fault, unset
       logical :: is_whole, needs_all
       integer :: k
 
@@ -63,8 +63,19 @@ contains
          if (.not. allocated(error)) call read_set_file(settings%set_files%line(k), files(k), error)
       end do
       if (.not. allocated(error)) call read_changed(settings%file, settings%changes, deck, error, files)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         if (size(files) == 0 .or. error%code /= exit_deck .or. deck%deck_errors%count() > 0) return
+         call move_alloc(error, unset)                     ! the other settings may contain mistakes too
+      end if
       call build_model(deck, suspension, cases, error, is_whole)
+      if (allocated(unset)) then
+         if (allocated(error)) unset%message = unset%message//new_line('a')//error%message
+         do k = 1, size(files)
+            call show_set_file(files(k), unset%message)
+         end do
+         call move_alloc(unset, error)
+         return
+      end if
       call check_inputs(suspension, cases, fault, is_whole)
       if (allocated(fault) .and. allocated(error)) then
          error%message = error%message//new_line('a')//fault%message
@@ -79,7 +90,7 @@ contains
       checksum = deck_checksum(deck)
    end subroutine load_deck
 
-   !> Reads a deck and applies files of settings, then --set path=value, in the order given.
+   !> Reads a deck and applies files of settings, then --set path=value, in the order given. All mistakes of a file are reported.
    subroutine read_changed(file, changes, deck, error, set_files)
       character(*), intent(in) :: file
       type(message_list_t), intent(in) :: changes
@@ -94,6 +105,7 @@ contains
          do k = 1, size(set_files)
             if (.not. allocated(error)) call apply_set_file(set_files(k), deck, error)
          end do
+         if (allocated(error)) return
       end if
       do k = 1, changes%count()
          if (.not. allocated(error)) call split_setting(changes%line(k), path, value, error)
