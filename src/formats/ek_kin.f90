@@ -69,9 +69,13 @@ contains
    pure logical function is_kin(text)
       character(*), intent(in) :: text
       character(:), allocatable :: head
+      integer :: first
 
       head = lower(text(:min(len(text), 2000)))
-      is_kin = index(head, 'kinematics') > 0 .and. index(adjustl(head), '''') == 1
+      is_kin = .false.
+      if (index(head, 'kinematics') == 0) return
+      first = verify(head, ' '//achar(9)//achar(10)//achar(13))
+      is_kin = head(first:first) == ''''
    end function is_kin
 
    !> Reads a text.
