@@ -118,14 +118,16 @@ contains
    pure function json_numbers(values) result(literal)
       real(wp), intent(in) :: values(:)
       character(:), allocatable :: literal
+      type(buffer_t) :: list
       integer :: k
 
-      literal = '['
+      call list%add('[')
       do k = 1, size(values)
-         if (k > 1) literal = literal//', '
-         literal = literal//json_number(values(k))
+         if (k > 1) call list%add(', ')
+         call list%add(json_number(values(k)))
       end do
-      literal = literal//']'
+      call list%add(']')
+      literal = list%text()
    end function json_numbers
 
 end module ek_json
