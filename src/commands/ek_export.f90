@@ -11,7 +11,9 @@ module ek_export
    use ek_load_deck, only: load_deck
    use ek_console, only: print_path, print_note, print_model_remarks, write_table
    use ek_export_settings, only: export_settings_t, read_export_settings, make_request, front_of
-   use ek_kandc_map, only: kandc_map_t, map_request_t, load_table_result_t, solve_map, solve_loads
+   use ek_kandc_map, only: kandc_map_t, solve_map
+   use ek_map_request, only: map_request_t
+   use ek_load_response, only: load_table_result_t, solve_loads
    use ek_carmaker, only: carmaker_text
    use ek_carsim, only: carsim_text
    use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json

@@ -12,7 +12,8 @@ module ek_carmaker
    use ek_gnuplot_text, only: one_line
    use ek_wheel_motion, only: at_tx, lengths, quantity_names
    use ek_monotonic, only: check_monotonic
-   use ek_kandc_map, only: kandc_map_t, over_steer, over_none
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_steer, over_none
    implicit none(type, external)
    private
    public :: carmaker_text, skc_table_lines

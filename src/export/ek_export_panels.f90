@@ -4,7 +4,8 @@ module ek_export_panels
    use ek_text, only: str
    use ek_decimal, only: decimal
    use ek_gnuplot_text, only: gnuplot_text
-   use ek_kandc_map, only: kandc_map_t, over_opposite
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_opposite
    use ek_slopes, only: zero_of
    use ek_export_sources, only: sources_t, source_values
    use ek_export_figure, only: panel_list_t, add_panel

@@ -5,7 +5,8 @@ module ek_monotonic
    use ek_text, only: str
    use ek_wheel_side, only: side_name
    use ek_wheel_motion, only: at_tz, at_lengths, lengths, length_names, quantity_names
-   use ek_kandc_map, only: kandc_map_t, over_steer, over_opposite
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_steer, over_opposite
    implicit none(type, external)
    private
    public :: check_monotonic
