@@ -1,0 +1,106 @@
+"""The shared library and the prototypes of its functions (include/elastokin.h)."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from ctypes import POINTER, c_char_p, c_double, c_int, c_void_p
+from pathlib import Path
+from typing import Any
+
+_DOUBLES = c_void_p              # address of an array of doubles
+_TEXTS = POINTER(c_char_p)
+
+# name: (result, arguments)
+_PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
+    "ek_version": (c_char_p, []),
+    "ek_use_one_thread": (c_int, []),
+    "ek_open_file": (c_int, [c_char_p, POINTER(c_void_p)]),
+    "ek_open_text": (c_int, [c_char_p, c_char_p, POINTER(c_void_p)]),
+    "ek_close": (None, [c_void_p]),
+    "ek_message": (c_char_p, [c_void_p]),
+    "ek_name": (c_char_p, [c_void_p]),
+    "ek_checksum": (c_char_p, [c_void_p]),
+    "ek_wheel_count": (c_int, [c_void_p]),
+    "ek_parameter_count": (c_int, [c_void_p]),
+    "ek_parameter_path": (c_char_p, [c_void_p, c_int]),
+    "ek_parameter_unit": (c_char_p, [c_void_p, c_int]),
+    "ek_parameter_is_given": (c_int, [c_void_p, c_int]),
+    "ek_parameter_twin": (c_int, [c_void_p, c_int]),
+    "ek_get_all": (c_int, [c_void_p, c_int, _DOUBLES]),
+    "ek_set_all": (c_int, [c_void_p, c_int, _DOUBLES]),
+    "ek_get": (c_int, [c_void_p, c_char_p, POINTER(c_double)]),
+    "ek_set": (c_int, [c_void_p, c_char_p, c_double]),
+    "ek_set_text": (c_int, [c_void_p, c_char_p, c_char_p]),
+    "ek_reset": (c_int, [c_void_p]),
+    "ek_case_count": (c_int, [c_void_p]),
+    "ek_case_name": (c_char_p, [c_void_p, c_int]),
+    "ek_case_is_of_deck": (c_int, [c_void_p, c_int]),
+    "ek_solve": (c_int, [c_void_p, c_char_p, c_int, _TEXTS]),
+    "ek_row_count": (c_int, [c_void_p]),
+    "ek_column_count": (c_int, [c_void_p]),
+    "ek_column_name": (c_char_p, [c_void_p, c_int]),
+    "ek_column_unit": (c_char_p, [c_void_p, c_int]),
+    "ek_column_title": (c_char_p, [c_void_p, c_int]),
+    "ek_column_sign": (c_char_p, [c_void_p, c_int]),
+    "ek_values": (c_int, [c_void_p, c_int, _DOUBLES]),
+    "ek_remark_count": (c_int, [c_void_p]),
+    "ek_remark_text": (c_char_p, [c_void_p, c_int]),
+    "ek_remark_severity": (c_char_p, [c_void_p, c_int]),
+    "ek_compliance": (c_int, [c_void_p, c_int, c_int, _DOUBLES]),
+    "ek_numbers": (c_int, [c_void_p, c_int, _TEXTS, _DOUBLES]),
+    "ek_number_count": (c_int, [c_void_p]),
+    "ek_number_name": (c_char_p, [c_void_p, c_int]),
+    "ek_number_unit": (c_char_p, [c_void_p, c_int]),
+    "ek_number_definition": (c_char_p, [c_void_p, c_int]),
+}
+
+
+def _path() -> str:
+    """The library that EK_LIBRARY names, otherwise the one inside this package."""
+    named = os.environ.get("EK_LIBRARY")
+    if named:
+        return named
+    pattern = {"darwin": "libelastokin*.dylib", "win32": "*elastokin*.dll"}.get(sys.platform, "libelastokin.so*")
+    found = sorted(Path(__file__).parent.glob(pattern))
+    if not found:
+        raise ImportError(
+            f"the elastokin library is not in {Path(__file__).parent}: install the package with pip, "
+            "or set the environment variable EK_LIBRARY to the path of libelastokin.so.0"
+        )
+    return str(found[0])
+
+
+def _load() -> ctypes.CDLL:
+    """Loads the library. If this also loads an OpenBLAS, it gets one thread: the matrices are small."""
+    variable = "OPENBLAS_NUM_THREADS"
+    is_ours = variable not in os.environ
+    if is_ours:
+        os.environ[variable] = "1"
+    try:
+        library = ctypes.CDLL(_path())
+    finally:
+        if is_ours:
+            del os.environ[variable]
+    for name, (result, arguments) in _PROTOTYPES.items():
+        try:
+            function = getattr(library, name)
+        except AttributeError:
+            raise ImportError(f"{library._name} has no function {name}: it belongs to another version of elastokin") from None
+        function.restype = result
+        function.argtypes = arguments
+    return library
+
+
+lib: Any = _load()
+
+
+def text_of(text: bytes | None) -> str:
+    """A text of the library; '' for a null pointer."""
+    return "" if text is None else text.decode("utf-8", "replace")
+
+
+def texts_for(texts: list[str]) -> Any:
+    """An array of texts for the library."""
+    return (c_char_p * len(texts))(*(text.encode() for text in texts))

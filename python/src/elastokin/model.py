@@ -1,0 +1,383 @@
+"""A suspension: its deck with its present numbers, solved on demand."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import threading
+import warnings
+from collections.abc import Iterator, Sequence
+from ctypes import byref, c_double, c_void_p
+from types import TracebackType
+from typing import Any, Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import errors
+from ._library import lib, text_of, texts_for
+from .parameters import Parameters
+from .result import Heading, Remark, Result
+
+# A change of the deck: (path, number), (path, text), or ("", all numbers). A model keeps those that a copy of it needs, in order
+_Change = tuple[str, Any]
+
+
+class Model:
+    """A suspension: a deck with its present numbers.
+
+    Open one with `Model.from_file` or `Model.from_text`. Each model may be used by several threads: one waits for the other;
+    different models are solved at the same time. A model can be copied and pickled, for instance for
+    `multiprocessing`: the copy is opened from the same text and receives the same changes.
+    """
+
+    def __init__(self) -> None:
+        raise TypeError("open a model with Model.from_file or Model.from_text")
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Model:
+        """Reads a deck from a file. Raises FileError, DeckError, ModelError."""
+        name = os.fspath(path)
+        handle = c_void_p()
+        model = cls._opened(handle, lib.ek_open_file(os.fsencode(name), byref(handle)), os.path.abspath(name), "")
+        with open(name, encoding="utf-8", errors="surrogateescape", newline="") as file:
+            model._text = file.read()
+        return model
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "deck.nml") -> Model:
+        """Reads a deck from a text. `name` stands for its file in messages; files that it includes are sought beside that.
+
+        Raises FileError, DeckError, ModelError.
+        """
+        handle = c_void_p()
+        return cls._opened(handle, lib.ek_open_text(text.encode("utf-8", "surrogateescape"), os.fsencode(name), byref(handle)), name, text)
+
+    @classmethod
+    def _opened(cls, handle: c_void_p, code: int, source: str, text: str) -> Model:
+        model = cls.__new__(cls)
+        model._handle = handle.value
+        model._lock = threading.RLock()
+        model._source = source
+        model._text = text
+        model._changes = []
+        model._serial = 0
+        model._columns = {}
+        model._paths = set()
+        model._parameters = None
+        try:
+            model._check(code)
+        except errors.ElastokinError:
+            model.close()
+            raise
+        return model
+
+    _handle: int | None
+    _lock: threading.RLock      # held during a call and until its texts and values are copied
+    _source: str                # path of the deck, or name of the text
+    _text: str                  # of the deck, for copies
+    _changes: list[_Change]
+    _serial: int                # of the last solution
+    _columns: dict[tuple[str | None, ...], tuple[tuple[str, ...], tuple[Heading, ...]]]     # of a case with these columns
+    _paths: set[str]            # set as numbers since then
+    _parameters: Parameters | None
+
+    # ---- end ----
+
+    def close(self) -> None:
+        """Frees the model. It cannot be used any more; results stay."""
+        handle, self._handle = getattr(self, "_handle", None), None
+        if handle:
+            lib.ek_close(handle)
+
+    def __del__(self, _close: Callable[[Model], None] = close) -> None:
+        _close(self)
+
+    def __enter__(self) -> Model:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        with self._lock:
+            self.close()
+
+    # ---- calls ----
+
+    @property
+    def _open(self) -> int:
+        if self._handle is None:
+            raise errors.UsageError("the model is closed")
+        return self._handle
+
+    def _check(self, code: int) -> None:
+        if code != errors.OK:
+            raise errors.error_of(code, text_of(lib.ek_message(self._handle)))
+
+    def _texts(self, function: Any, n: int) -> tuple[str, ...]:
+        handle = self._open
+        return tuple([function(handle, k).decode() for k in range(n)])
+
+    # ---- description ----
+
+    @property
+    def name(self) -> str:
+        """Name of the model."""
+        with self._lock:
+            return text_of(lib.ek_name(self._open))
+
+    @property
+    def checksum(self) -> str:
+        """Of the deck with its present numbers, 16 hexadecimal digits, as in the heads of result files."""
+        with self._lock:
+            return text_of(lib.ek_checksum(self._open))
+
+    @property
+    def wheels(self) -> int:
+        """Number of wheels: 0, 1 or 2; left before right."""
+        with self._lock:
+            return int(lib.ek_wheel_count(self._open))
+
+    @property
+    def cases(self) -> tuple[str, ...]:
+        """Names of the cases: those of the deck, then the standard tests that it does not have."""
+        with self._lock:
+            return self._texts(lib.ek_case_name, lib.ek_case_count(self._open))
+
+    @property
+    def deck_cases(self) -> tuple[str, ...]:
+        """Names of the cases of the deck alone."""
+        with self._lock:
+            return tuple([name for k, name in enumerate(self.cases) if lib.ek_case_is_of_deck(self._open, k)])
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return f"<Model of {self._source}, closed>"
+        return f"<Model '{self.name}' of {self._source}: {lib.ek_parameter_count(self._handle)} numbers, {len(self.cases)} cases>"
+
+    # ---- numbers of the deck ----
+
+    def __getitem__(self, path: str) -> float:
+        """A number of the deck in the unit of the deck; NaN if the path leads to several different numbers."""
+        value = c_double()
+        with self._lock:
+            self._check(lib.ek_get(self._open, path.encode(), byref(value)))
+        return value.value
+
+    def __setitem__(self, path: str, value: float | str) -> None:
+        """Changes a number in the unit of the deck, as --set: on both sides of a mirrored axle, `*` in the path for any letters.
+
+        A text is a word of the deck, or a change of the present number: "*1.1" scales it, "+2" adds to it. The deck is then read again, which
+        takes some milliseconds. Some values outside their legal range are only reported by the next solution.
+        """
+        with self._lock:
+            if isinstance(value, str):
+                self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
+                self._forget()
+            else:
+                value = float(value)
+                self._check(lib.ek_set(self._open, path.encode(), value))
+                if path not in self._paths:     # the library may have read the deck again with it
+                    self._forget()
+                    self._paths.add(path)
+            is_relative = isinstance(value, str) and value.lstrip()[:1] in ("*", "+", "-")
+            if not is_relative:     # earlier changes of this path have no effect any more
+                self._changes = [change for change in self._changes if change[0] != path]
+            self._changes.append((path, value))
+
+    def __delitem__(self, path: str) -> None:
+        """Takes back the changes that were made with this path; the others stay. Raises KeyError if there are none."""
+        with self._lock:
+            others = [change for change in self._changes if change[0] != path]
+            if len(others) == len(self._changes):
+                raise KeyError(path)
+            self.reset()
+            self._make(others)
+            self._changes = others
+
+    def __contains__(self, path: object) -> bool:
+        if not isinstance(path, str):
+            return False
+        value = c_double()
+        with self._lock:
+            return bool(lib.ek_get(self._open, path.encode(), byref(value)) == errors.OK)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.parameters)
+
+    def reset(self) -> None:
+        """Takes back all changes: numbers and words are as opened."""
+        with self._lock:
+            self._check(lib.ek_reset(self._open))
+            self._changes.clear()
+            self._forget()
+
+    def _forget(self) -> None:
+        """Forgets which parameters and columns there are."""
+        self._parameters = None
+        self._columns.clear()
+        self._paths.clear()
+
+    def _make(self, changes: list[_Change]) -> None:
+        """Makes changes of the deck that were made before, on this model or on the one of which this is a copy."""
+        for path, value in changes:
+            if path == "":
+                self._check(lib.ek_set_all(self._open, len(value), value.ctypes.data))
+            elif isinstance(value, str):
+                self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
+            else:
+                self._check(lib.ek_set(self._open, path.encode(), value))
+
+    @property
+    def parameters(self) -> Parameters:
+        """All numbers of the deck with their units: a mapping from path to value and unit."""
+        with self._lock:
+            if self._parameters is None:
+                n = lib.ek_parameter_count(self._open)
+                self._parameters = Parameters(
+                    self._texts(lib.ek_parameter_path, n),
+                    self._texts(lib.ek_parameter_unit, n),
+                    tuple([bool(lib.ek_parameter_is_given(self._open, k)) for k in range(n)]),
+                    tuple([int(lib.ek_parameter_twin(self._open, k)) for k in range(n)]),
+                    lambda: self.x,
+                )
+            return self._parameters
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """All numbers of the deck in its units, in the order of `parameters.paths`. Assign an array to change them.
+
+        The array is a copy and is read-only: `x = model.x.copy(); x[k] = 3; model.x = x`.
+        """
+        with self._lock:
+            x = np.empty(lib.ek_parameter_count(self._open))
+            self._check(lib.ek_get_all(self._open, x.size, x.ctypes.data))
+        x.flags.writeable = False
+        return x
+
+    @x.setter
+    def x(self, values: ArrayLike) -> None:
+        x = np.array(values, dtype=np.float64, order="C")
+        if x.ndim != 1:
+            raise errors.UsageError(f"x needs one dimension, found {x.ndim}")
+        with self._lock:
+            self._check(lib.ek_set_all(self._open, x.size, x.ctypes.data))
+            self._changes = [change for change in self._changes if isinstance(change[1], str)]
+            self._changes.append(("", x))
+
+    # ---- solving ----
+
+    def solve(self, case: str | None = None, columns: Sequence[str] | None = None, compliance: bool = False) -> Result:
+        """Solves a case with the present numbers.
+
+        `case`: its name; without one the first case. `columns`: the columns to compute, `*` for any letters; the
+        result has them in the order of the program's tables, with the first columns `state` and `factor` and those on convergence; without
+        names it has all columns.
+        `compliance`: also compute the compliance matrix of every state, for `Result.compliance`.
+
+        States that do not converge do not raise an error: the result has NaN in their rows, `converged` false, and a ConvergenceWarning is
+        issued. Raises UsageError, DeckError, ModelError, FileError.
+        """
+        if isinstance(columns, str):
+            columns = [columns]
+        wanted = list(columns) if columns is not None else []
+        with self._lock:
+            handle = self._open
+            self._serial += 1
+            status = lib.ek_solve(handle, (case or "").encode(), len(wanted), texts_for(wanted) if wanted else None)
+            message = ""
+            if status == errors.CONVERGENCE:
+                message = text_of(lib.ek_message(handle))
+            else:
+                self._check(status)
+            n = lib.ek_column_count(handle)
+            values = np.empty((lib.ek_row_count(handle), n))
+            self._check(lib.ek_values(handle, values.size, values.ctypes.data))
+            names, headings = self._columns_of((case, *wanted), n)
+            remarks = tuple([
+                Remark(text_of(lib.ek_remark_severity(handle, k)), text_of(lib.ek_remark_text(handle, k)))
+                for k in range(lib.ek_remark_count(handle))
+            ])
+            result = Result(self, self._serial, case or self.cases[0], names, headings, values, remarks, status)
+            if compliance:
+                for row in range(len(values)):
+                    result.compliance(row)
+        if message:
+            warnings.warn(message, errors.ConvergenceWarning, stacklevel=2)
+        return result
+
+    def _columns_of(self, key: tuple[str | None, ...], n: int) -> tuple[tuple[str, ...], tuple[Heading, ...]]:
+        """Names and headings of the n columns of the last solution; kept for the next solution of this case with these columns."""
+        if key not in self._columns or len(self._columns[key][0]) != n:
+            handle = self._open
+            names = self._texts(lib.ek_column_name, n)
+            headings = [
+                (text_of(lib.ek_column_unit(handle, k)), text_of(lib.ek_column_title(handle, k)), text_of(lib.ek_column_sign(handle, k)))
+                for k in range(n)
+            ]
+            self._columns[key] = names, tuple(headings)
+        return self._columns[key]
+
+    def _compliance(self, serial: int, row: int) -> NDArray[np.float64]:
+        with self._lock:
+            if serial != self._serial:
+                raise errors.UsageError("the model has solved another case since; solve with compliance=True to keep the matrices")
+            n = 6 * lib.ek_wheel_count(self._open)
+            matrix = np.empty((n, n))
+            self._check(lib.ek_compliance(self._open, row, n * n, matrix.ctypes.data))
+        return matrix
+
+    # ---- key numbers ----
+
+    def numbers(self, *names: str) -> dict[str, float]:
+        """Key numbers with these names, as in key_numbers.csv of the report: only the tests that they need are solved.
+
+        On an axle a name begins with `left_` or `right_`, unless the number is one of the axle. NaN: without value here.
+        """
+        values = np.empty(len(names))
+        with self._lock:
+            self._check(lib.ek_numbers(self._open, len(names), texts_for(list(names)), values.ctypes.data))
+        return dict(zip(names, values.tolist()))
+
+    def key_numbers(self) -> dict[str, float]:
+        """All key numbers that this model has."""
+        return self.numbers(*self.number_names)
+
+    @property
+    def number_names(self) -> tuple[str, ...]:
+        """Names of all key numbers. Nothing is solved, so one of them may have no value (NaN)."""
+        with self._lock:
+            return self._texts(lib.ek_number_name, lib.ek_number_count(self._open))
+
+    @property
+    def number_units(self) -> dict[str, str]:
+        """Unit per key number."""
+        with self._lock:
+            return dict(zip(self.number_names, self._texts(lib.ek_number_unit, lib.ek_number_count(self._open))))
+
+    @property
+    def number_definitions(self) -> dict[str, str]:
+        """Definition per key number."""
+        with self._lock:
+            return dict(zip(self.number_names, self._texts(lib.ek_number_definition, lib.ek_number_count(self._open))))
+
+    # ---- copies ----
+
+    def copy(self) -> Model:
+        """Another model with the same text and the same changes, for instance for another thread."""
+        with self._lock:
+            return _copy_of(self._text, self._source, list(self._changes))
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Model:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        with self._lock:
+            return _copy_of, (self._text, self._source, list(self._changes))
+
+
+def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
+    model = Model.from_text(text, name)
+    model._make(changes)
+    model._changes = changes
+    return model

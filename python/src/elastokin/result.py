@@ -1,0 +1,131 @@
+"""The result of a case: one row per state, one column per quantity."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import errors
+
+if TYPE_CHECKING:
+    from .model import Model
+
+Heading = tuple[str, str, str]      # unit, title, sign of a column
+
+
+class Remark(NamedTuple):
+    """A note, warning or failure of a solution."""
+
+    severity: str
+    """"note", "warning" or "failure"."""
+    text: str
+
+
+class Result:
+    """States of one case of a model. It does not change when the model does."""
+
+    case: str
+    """Name of the case."""
+    columns: tuple[str, ...]
+    """Names of the columns; a name ends with its unit, as "left_toe_deg"."""
+    values: NDArray[np.float64]
+    """States x columns. NaN where a state did not converge or a quantity does not exist."""
+    remarks: tuple[Remark, ...]
+    """Notes, warnings and failures."""
+    status: int
+    """0, or 4 if some states did not converge."""
+
+    def __init__(
+        self, model: Model, serial: int, case: str, columns: tuple[str, ...], headings: tuple[Heading, ...],
+        values: NDArray[np.float64], remarks: tuple[Remark, ...], status: int,
+    ) -> None:
+        self.case = case
+        self.columns = columns
+        self.values = values
+        self.remarks = remarks
+        self.status = status
+        self._headings = headings
+        self._model: Model | None = model
+        self._serial = serial
+        self._matrices: dict[int, NDArray[np.float64]] = {}
+
+    # ---- columns ----
+
+    def __getitem__(self, column: str) -> NDArray[np.float64]:
+        """The values of a column, one per state."""
+        try:
+            return self.values[:, self.columns.index(column)]
+        except ValueError:
+            raise errors.UsageError(f"case '{self.case}' has no column '{column}'") from None
+
+    def __contains__(self, column: object) -> bool:
+        return column in self.columns
+
+    def __len__(self) -> int:
+        """The number of states."""
+        return len(self.values)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit per column, as "deg"; "" without dimension."""
+        return {name: heading[0] for name, heading in zip(self.columns, self._headings)}
+
+    @property
+    def titles(self) -> dict[str, str]:
+        """Title per column, as "Toe"; "" if it has none."""
+        return {name: heading[1] for name, heading in zip(self.columns, self._headings)}
+
+    @property
+    def signs(self) -> dict[str, str]:
+        """Meaning of positive values per column, as "+ toe-in"; "" if it has none."""
+        return {name: heading[2] for name, heading in zip(self.columns, self._headings)}
+
+    @property
+    def converged(self) -> bool:
+        """Whether every state converged; `result["converged"]` has 1 or 0 per state."""
+        return self.status == errors.OK
+
+    # ---- compliance ----
+
+    def compliance(self, row: int) -> NDArray[np.float64]:
+        """Compliance matrix at a state: 6 x wheels squared, from loads to displacements at the wheel centres.
+
+        Rows are displacement [m] and rotation [rad] of each wheel centre (x y z, rx ry rz), columns force [N] and moment [N m] there, in
+        the frame of the deck; the vertical force on all wheels is held. Available until the model solves its next case; matrices
+        that were asked for before, or by `solve(..., compliance=True)`, stay.
+        """
+        k = range(len(self.values))[row]
+        if k not in self._matrices:
+            if self._model is None:
+                raise errors.UsageError("a copied result has only the compliance matrices that were computed before; "
+                                        "solve with compliance=True")
+            self._matrices[k] = self._model._compliance(self._serial, k)
+        return self._matrices[k]
+
+    # ---- tables of other packages ----
+
+    def to_dataframe(self) -> Any:
+        """A pandas DataFrame, one row per state; `attrs["units"]` has the units. Requires pandas."""
+        frame = import_module("pandas").DataFrame(self.values, columns=list(self.columns))
+        frame.attrs.update(case=self.case, units=self.units)
+        return frame
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over the dimension `state`; each variable has the attributes `units`, `long_name` and `sign`. Requires xarray."""
+        data: dict[str, Any] = {}
+        for k, (name, heading) in enumerate(zip(self.columns, self._headings)):
+            attributes = {key: text for key, text in zip(("units", "long_name", "sign"), heading) if text}
+            data[name] = ("state", self.values[:, k].copy(), attributes)
+        coordinate = data.pop("state", ("state", np.arange(1, len(self.values) + 1), {}))
+        dataset = import_module("xarray").Dataset(data, coords={"state": coordinate}, attrs={"case": self.case})
+        return dataset.set_coords([name for name in ("factor",) if name in dataset])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_model": None}
+
+    def __repr__(self) -> str:
+        lost = "" if self.converged else f", {int(np.count_nonzero(self['converged'] != 1))} not converged"
+        return f"<Result of '{self.case}': {self.values.shape[0]} states{lost}, {self.values.shape[1]} columns>"
