@@ -91,7 +91,7 @@ contains
          character(:), allocatable :: words
          integer :: n
 
-         n = size(map%second)
+         n = max(size(map%second), 2)      ! as the file has
          words = ' skip '//str(skc_table_lines(text, sources%side))//' every ::0:0:'//str(size(map%travel)*(n + 1) - 2)//':0'
       end function rows_of_table
 
