@@ -38,7 +38,7 @@ contains
       character(:), allocatable :: axle, kin
       integer :: side, i, j
 
-      call check_monotonic(map, 'CarMaker', error)
+      call check_monotonic(map, 'CarMaker', .true., error)
       if (allocated(error)) return
       axle = 'Susp'//merge('F', 'R', is_front)//'.'
       kin = axle//'Kin.0.'

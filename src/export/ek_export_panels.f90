@@ -91,7 +91,7 @@ contains
          character(:), allocatable :: words
          integer :: n
 
-         n = size(map%second)
+         n = max(size(map%second), 2)      ! as the file has
          words = ' skip '//str(skc_table_lines(text, sources%side))//' every ::0:0:'//str(size(map%travel)*(n + 1) - 2)//':0'
       end function rows_of_table
 
@@ -193,6 +193,7 @@ contains
       integer :: k, section
 
       x = source_values(sources, sources%travel, 'wheel_travel_mm')
+      allocate (y(size(x)))
       do k = 1, 4
          y = source_values(sources, sources%travel, trim(names(k)))
          if (k == 4 .and. sources%side == 2) y = -y
@@ -236,6 +237,7 @@ contains
       integer :: k, from, line, at, status, number
 
       x = source_values(sources, sources%travel, 'wheel_travel_mm')
+      allocate (y(size(x)))
       number = (index('FLFRRLRR', corner) + 1)/2
       do k = 1, 5
          y = source_values(sources, sources%travel, trim(names(k)))
@@ -283,6 +285,7 @@ contains
       at_design = 'steer_mm'
       if (map%kind == over_opposite) at_design = trim(merge('right', 'left ', sources%side == 1))//'_travel_mm'
       x = source_values(sources, sources%travel, 'wheel_travel_mm')
+      allocate (y(size(x)))
       do k = 1, 5
          if (k == 5) then
             y = length_values(sources, trim(map%length_labels(1, sources%side))//'_length_mm')
