@@ -23,7 +23,7 @@ module ek_named_numbers
    use ek_gradient, only: gradient_t, test_gradients
    use ek_gradient_definition, only: windows_t
    use ek_planned_test, only: planned_tests
-   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design, largest_of_all
    use ek_key_numbers, only: list_key_numbers, number_heads, has_wanted_gradients
    implicit none(type, external)
    private
@@ -206,7 +206,7 @@ contains
 
       do k = 1, size(number%sources)
          associate (source => number%sources(k), this => needed(number%sources(k)%test))
-            this%is_first = this%is_first .or. k == 1
+            this%is_first = this%is_first .or. k == 1 .or. number%how == largest_of_all
             do wheel = 1, 2
                call add(source%column(wheel))
                call add(source%over(wheel))
