@@ -179,9 +179,15 @@ contains
       call planned_tests(suspension, all, tests)
       allocate (gradients(0))
       do k = 1, size(all)
-         if (k == 1) call sweep_columns(suspension, all(k), heads)
-         tests(k)%table = new_table(heads, 0)
-         if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+         if (k == 1) then
+            call sweep_columns(suspension, all(k), heads)
+            tests(k)%table = new_table(heads, 0)
+            if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+         else
+            tests(k)%table = tests(1)%table
+            tests(k)%prefixes = tests(1)%prefixes
+            tests(k)%sides = tests(1)%sides
+         end if
          if (present(wanted)) then
             if (.not. has_wanted_gradients(tests(k)%kind, wanted)) cycle
          end if
