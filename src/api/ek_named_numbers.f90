@@ -23,7 +23,7 @@ module ek_named_numbers
    use ek_gradient, only: gradient_t, test_gradients
    use ek_gradient_definition, only: windows_t
    use ek_planned_test, only: planned_tests
-   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design, largest_of_all
    use ek_key_numbers, only: list_key_numbers, number_heads, has_wanted_gradients
    implicit none(type, external)
    private
@@ -179,9 +179,15 @@ contains
       call planned_tests(suspension, all, tests)
       allocate (gradients(0))
       do k = 1, size(all)
-         if (k == 1) call sweep_columns(suspension, all(k), heads)
-         tests(k)%table = new_table(heads, 0)
-         if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+         if (k == 1) then
+            call sweep_columns(suspension, all(k), heads)
+            tests(k)%table = new_table(heads, 0)
+            if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+         else
+            tests(k)%table = tests(1)%table
+            tests(k)%prefixes = tests(1)%prefixes
+            tests(k)%sides = tests(1)%sides
+         end if
          if (present(wanted)) then
             if (.not. has_wanted_gradients(tests(k)%kind, wanted)) cycle
          end if
@@ -206,7 +212,7 @@ contains
 
       do k = 1, size(number%sources)
          associate (source => number%sources(k), this => needed(number%sources(k)%test))
-            this%is_first = this%is_first .or. k == 1
+            this%is_first = this%is_first .or. k == 1 .or. number%how == largest_of_all
             do wheel = 1, 2
                call add(source%column(wheel))
                call add(source%over(wheel))

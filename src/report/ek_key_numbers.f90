@@ -176,7 +176,7 @@ contains
       integer :: k, code
 
       name = entry%name
-      do k = 1, len_trim(name)                           ! a gradient has words, a column has none of these letters
+      do k = 1, len_trim(name)                           ! the name of a gradient has blanks, hyphens and capitals
          code = iachar(name(k:k))
          if (scan(name(k:k), ' -') > 0) name(k:k) = '_'
          if (code >= iachar('A') .and. code <= iachar('Z')) name(k:k) = achar(code + 32)
@@ -187,7 +187,7 @@ contains
       case (largest)
          name = 'largest_'//trim(name)
       case (least)
-         name = 'least_'//trim(name)
+         name = 'smallest_'//trim(name)
       end select
    end function name_of
 
