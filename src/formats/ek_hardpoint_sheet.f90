@@ -324,7 +324,7 @@ contains
          if (all(is_good) .and. symmetry >= 0) &
             call add_hardpoint(sheet, cells%line(columns(1)), numbers*units, symmetry, k, flaws)
       end do
-      if (.not. has_heads) call flaws%add(0, 'expected the heads name, x, y, z, found no line with words')
+      if (.not. has_heads) call flaws%add(0, 'expected the heads name, x, y, z, found no line of text')
    end subroutine take_table
 
    pure character function separator_of(text) result(separator)
@@ -399,7 +399,7 @@ contains
       end do
    end subroutine find_columns
 
-   !> The letters of a head without words that say nothing, and its unit: 'x', 1e-3 for 'X-Coordinate [mm]', 'loc_x_mm'.
+   !> The letters of a column heading that give its meaning, and its unit: 'x', 1e-3 for 'X-Coordinate [mm]', 'loc_x_mm'.
    subroutine split_head(text, length, head, unit)
       character(*), intent(in) :: text
       real(wp), intent(in) :: length

@@ -48,8 +48,8 @@ contains
       if (kin%bar == 3) call flaws%add(0, 'expected no bar (0) or a U-shaped bar on the lower arm (1) or the '// &
          'carrier (2), found a bar on the rockers (3); it is not imported')
       if (kin%third /= off) call flaws%add(0, 'expected no third spring (0), found '//str(kin%third)//'; it is not imported')
-      if (kin%spring /= off .and. kin%rod /= off) call flaws%add(0, 'expected a coil on the axle or on a push rod, found both')
-      if (kin%spring == off .and. kin%rod == off) call flaws%add(0, 'expected a coil on the axle or on a push rod, found neither')
+      if (kin%spring /= off .and. kin%rod /= off) call flaws%add(0, 'expected a coil on the axle or on a pushrod, found both')
+      if (kin%spring == off .and. kin%rod == off) call flaws%add(0, 'expected a coil on the axle or on a pushrod, found neither')
       if (.not. kin%wheelbase > 0.0_wp) call flaws%add(0, 'expected a wheelbase above 0, found '//str(kin%wheelbase))
       if (.not. kin%cg_height > 0.0_wp) call flaws%add(0, 'expected a height of the centre of gravity above 0, found '// &
          str(kin%cg_height))

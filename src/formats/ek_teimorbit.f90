@@ -3,9 +3,9 @@
 !>     [BLOCK]                         a block, whose name may occur again
 !>     KEY = value                     an entry; a text is in quotes
 !>     (PART)                          a part of the block, with entries and rows of its own
-!>     {first second third}            the heads of the columns that follow
+!>     {first second third}            the column headings of the rows that follow
 !>     value value value               a row
-!>     $ words                         a comment, also behind values; ! at the begin of a line as well
+!>     $ text                          a comment, also behind values; ! at the begin of a line as well
 !>
 !> Case does not matter in names of blocks, keys and heads.
 module ek_teimorbit
