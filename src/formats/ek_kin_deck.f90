@@ -130,7 +130,6 @@ contains
             call numbered('bar_bearing', bar_bearing)
             call numbered('bar_end', bar_end)
             call numbered('bar_link', link_end)
-            call point('bar_centre', [kin%at(1, bar_bearing), 0.0_wp, kin%at(3, bar_bearing)])
          end if
          call deck%blank()
          call point('lower_arm_mass', middle([lower_ball, lower_ball, lower_front, lower_rear]))
