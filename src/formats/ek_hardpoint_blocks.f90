@@ -6,7 +6,7 @@ module ek_hardpoint_blocks
    use ek_flaws, only: flaws_t, shown
    use ek_fields, only: take_number
    use ek_unit_word, only: length_unit
-   use ek_teimorbit, only: teimorbit_t, find_block, entry_of, units_in, check_units, row, heads
+   use ek_teimorbit, only: teimorbit_t, find_block, entry_of, units_in, check_units, row_item, heads_item
    use ek_hardpoint, only: hardpoints_t, single_point, add_hardpoint, take_symmetry
    implicit none(type, external)
    private
@@ -74,7 +74,7 @@ contains
       do k = 1, file%used
          associate (item => file%items(k))
             if (item%block /= block) cycle
-            if (item%kind == heads) then
+            if (item%kind == heads_item) then
                order = 0
                do j = 1, item%used
                   c = findloc([(lower(item%fields(j)%text) == names(c), c=1, 5)], .true., dim=1)
@@ -84,7 +84,7 @@ contains
                   if (order(c) == 0) call flaws%add(item%line, 'expected a column '//trim(names(c))//', found none')
                end do
                if (any(order == 0)) return
-            else if (item%kind == row) then
+            else if (item%kind == row_item) then
                if (item%used < maxval(order)) then
                   call flaws%add(item%line, 'expected '//str(maxval(order))//' values (name, symmetry, x, y, z), found '// &
                      str(item%used))

@@ -1,9 +1,9 @@
 !> An axle of IPGKinematics as a deck: double wishbones, their bushings, the tie rods on a rack, coil springs directly or by push
 !> or pull rods and rockers, a U-shaped anti-roll bar, masses and wheel loads.
 !>
-!> As there, the design position is an equilibrium under the weights and the wheel loads: the springs get the preloads for it. The mass
-!> of an arm is in the middle between its ball joint and its pivots, that of a tie rod in its middle, that of a carrier
-!> in the middle between its ball joints and the wheel centre, that of the wheel at its centre, that of a rocker at its pivot.
+!> As there, the design position is an equilibrium under the weights and the wheel loads: the springs get the preloads for it. The
+!> mass of an arm is in the middle between its ball joint and its pivots, that of a tie rod in its middle, that of a carrier in the
+!> middle between its ball joints and the wheel centre, that of the wheel at its centre, that of a rocker at its pivot.
 module ek_kin_deck
    use ek_kinds, only: wp, millimetre, degree
    use ek_text, only: str
