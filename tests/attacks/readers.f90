@@ -1,7 +1,7 @@
 !> readers MUTATIONS FILE...: reads that many mutations of each kind of file with the readers of other programs' files.
 !>
-!> A mutation is the text with one to eight changes: a byte flipped, removed or inserted, a stretch doubled, removed or moved, a line
-!> doubled or removed, a number or word replaced by a hostile one, the end cut off. Number k of a seed is always the same text.
+!> A mutation is the text with one to eight changes: a byte flipped, removed or inserted, a stretch doubled, removed or moved,
+!> a line doubled or removed, a number or word replaced by a hostile one, the end cut off. Number k of a seed is always the same text.
 !> The program stops with status 1 if a reader accepts a number that is not finite or a curve that does not increase, if the deck
 !> made from it holds a word like NaN, or if one text takes longer than two seconds.
 program readers
