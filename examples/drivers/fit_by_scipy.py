@@ -10,8 +10,12 @@ from scipy.optimize import least_squares
 
 import elastokin
 
-FACTORS = {"bushing.lca_front.kt(1)": (200.0, 1500.0), "bushing.lca_rear.kt(3)": (400.0, 1600.0), "point.tie_rod_outer.z": (-65.0, -45.0)}
-TARGETS = {"left_braking_deflection": 5.0, "left_braking_steer": -0.10, "left_bump_steer": 1.0}     # mm/kN, deg/kN, deg/m
+FACTORS = {                                     # N/mm, N/mm, mm
+    "bushing.lca_front.kt(1)": (200.0, 1500.0),
+    "bushing.lca_rear.kt(3)": (400.0, 1600.0),
+    "point.tie_rod_outer.z": (-65.0, -45.0),
+}
+TARGETS = {"left_braking_deflection": 5.4, "left_braking_steer": -0.148, "left_bump_steer": 1.0}     # mm/kN, deg/kN, deg/m
 
 with elastokin.Model.from_file(sys.argv[1]) as model:
     start = np.array([model[path] for path in FACTORS])
@@ -27,7 +31,7 @@ with elastokin.Model.from_file(sys.argv[1]) as model:
     fit = least_squares(miss, (start - lower) / (upper - lower), bounds=(0, 1), diff_step=1e-4)
     miss(fit.x)
     for path, value in zip(FACTORS, start):
-        print(f"{path:28} {value:10.3f} -> {model[path]:10.3f} {model.parameters[path].unit if path in model.parameters else ''}")
+        print(f"{path:28} {value:10.3f} -> {model[path]:10.3f}")
     units = model.number_units
     for name, value in model.numbers(*TARGETS).items():
         print(f"{name:28} {value:10.4f} (target {TARGETS[name]:g}) {units[name]}")

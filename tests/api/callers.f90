@@ -2,10 +2,7 @@
 !> with 17 digits.
 program callers
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use ek_case_result, only: case_result_t
-   use ek_error, only: error_t
-   use ek_kinds, only: wp
-   use ek_session, only: session_t, open_file, set_number, solve, result_of
+   use ek_api, only: wp, error_t, session_t, case_result_t, open_file, set_number, solve, result_of
    implicit none(type, external)
    type(session_t), target :: session
    type(error_t), allocatable :: error
