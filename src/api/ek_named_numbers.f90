@@ -24,7 +24,7 @@ module ek_named_numbers
    use ek_gradient_definition, only: windows_t
    use ek_planned_test, only: planned_tests
    use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design, largest_of_all
-   use ek_key_numbers, only: list_key_numbers, number_heads, has_wanted_gradients
+   use ek_key_numbers, only: list_key_numbers, number_heads, wanted_gradients
    implicit none(type, external)
    private
    public :: named_numbers_t, prepare_numbers, read_numbers, list_numbers, needed_tests, lost_states
@@ -172,6 +172,7 @@ contains
       type(case_t), allocatable :: all(:)
       type(gradient_t), allocatable :: gradients(:)
       character(name_length), allocatable :: heads(:)
+      character(64), allocatable :: quantities(:)
       integer :: k
 
       allocate (all(size(cases)))
@@ -189,9 +190,11 @@ contains
             tests(k)%sides = tests(1)%sides
          end if
          if (present(wanted)) then
-            if (.not. has_wanted_gradients(tests(k)%kind, wanted)) cycle
+            call wanted_gradients(tests(k)%kind, wanted, quantities)
+            if (size(quantities) > 0) call test_gradients(tests(k), windows_t(), gradients, quantities)
+         else
+            call test_gradients(tests(k), windows_t(), gradients)
          end if
-         call test_gradients(tests(k), windows_t(), gradients)
       end do
       call list_key_numbers(tests, gradients, listed, wanted)
       allocate (names(2, size(listed)))
