@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char *path = "bushing.lca_front.kt(1)"; /* [N/mm] */
+static const char *path = "bushing.lca_front.kt(2)"; /* [N/mm] */
 static const char *number = "left_braking_deflection"; /* [mm/kN] */
 static const double target = 6.0;
 static ek_model *model;

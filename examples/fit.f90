@@ -3,7 +3,7 @@ program fit
    use, intrinsic :: iso_fortran_env, only: error_unit
    use ek_api, only: wp, error_t, session_t, open_file, get_number, set_number, read_key_numbers
    implicit none(type, external)
-   character(*), parameter :: path = 'bushing.lca_front.kt(1)'       ! [N/mm]
+   character(*), parameter :: path = 'bushing.lca_front.kt(2)'       ! [N/mm]
    character(*), parameter :: number = 'left_braking_deflection'     ! [mm/kN]
    real(wp), parameter :: target_value = 6.0_wp
    type(session_t) :: session

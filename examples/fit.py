@@ -8,7 +8,7 @@ import sys
 
 import elastokin
 
-PATH = "bushing.lca_front.kt(1)"            # [N/mm]
+PATH = "bushing.lca_front.kt(2)"            # [N/mm]
 NUMBER = "left_braking_deflection"          # [mm/kN]
 TARGET = 6.0
 

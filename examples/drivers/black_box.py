@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
-FACTORS = {"bushing_kt": (700.0, 200.0, 1500.0), "tie_rod_z": (-55.0, -65.0, -45.0)}        # start, lower, upper
+FACTORS = {"bushing_kt": (450.0, 200.0, 1500.0), "tie_rod_z": (-55.0, -65.0, -45.0)}        # start, lower, upper
 TARGETS = {"left_braking_deflection": 6.0, "left_bump_steer": 1.0}                          # mm/kN, deg/m
 TEMPLATE = (Path(__file__).parent / "dakota" / "settings.template").read_text()
 

@@ -11,11 +11,11 @@ from scipy.optimize import least_squares
 import elastokin
 
 FACTORS = {                                     # N/mm, N/mm, mm
-    "bushing.lca_front.kt(1)": (200.0, 1500.0),
+    "bushing.lca_front.kt(2)": (200.0, 1500.0),
     "bushing.lca_rear.kt(3)": (400.0, 1600.0),
     "point.tie_rod_outer.z": (-65.0, -45.0),
 }
-TARGETS = {"left_braking_deflection": 5.4, "left_braking_steer": -0.148, "left_bump_steer": 1.0}     # mm/kN, deg/kN, deg/m
+TARGETS = {"left_braking_deflection": 5.0, "left_braking_steer": -0.135, "left_bump_steer": 1.0}     # mm/kN, deg/kN, deg/m
 
 with elastokin.Model.from_file(sys.argv[1]) as model:
     start = np.array([model[path] for path in FACTORS])

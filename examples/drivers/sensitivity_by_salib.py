@@ -12,7 +12,7 @@ from SALib.sample import sobol as sampler
 
 import elastokin
 
-FACTORS = {"point.tie_rod_inner.z": 2.0, "point.tie_rod_outer.z": 2.0, "bushing.lca_front.kt(1)": 0.15, "bushing.lca_rear.kt(3)": 0.15}
+FACTORS = {"point.tie_rod_inner.z": 2.0, "point.tie_rod_outer.z": 2.0, "bushing.lca_front.kt(2)": 0.15, "bushing.lca_rear.kt(3)": 0.15}
 NUMBERS = ["left_bump_steer", "left_braking_deflection"]
 
 problem = {
