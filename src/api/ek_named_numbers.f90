@@ -232,10 +232,11 @@ contains
 
       subroutine add(name)
          character(name_length), intent(in) :: name
-         associate (this => needed(number%sources(k)%test)%options)
-            if (name == '' .or. any(this%columns == name)) return
-            this%columns = [this%columns, name]
-         end associate
+         integer :: c
+
+         c = number%sources(k)%test
+         if (name == '' .or. any(needed(c)%options%columns == name)) return
+         needed(c)%options%columns = [character(name_length) :: needed(c)%options%columns, name]
       end subroutine add
 
    end subroutine add_needs
