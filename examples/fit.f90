@@ -21,7 +21,7 @@ program fit
    call find_miss(before, miss_before)
    call find_miss(rate, miss_now)
    do step = 1, 20
-      print '(i2,2(1x,es22.16))', step, rate, miss_now
+      print '(i2,2(1x,es23.16))', step, rate, miss_now
       if (abs(miss_now) < 1.0e-9_wp) exit
       slope = (miss_now - miss_before)/(rate - before)
       before = rate

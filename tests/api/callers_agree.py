@@ -53,7 +53,7 @@ for deck, path, value, case in JOBS:
 
 with tempfile.NamedTemporaryFile() as results, elastokin.Model.from_file(JOBS[0][0]) as model:
     output(program, 'run', JOBS[0][0], '--quiet', '--responses', ','.join(NUMBERS), '--results', results.name)
-    ours = model.numbers(*NUMBERS)
+    ours = {name: float(f'{value:.15g}') for name, value in model.numbers(*NUMBERS).items()}
     theirs = {name: float(value) for value, name in (line.split() for line in open(results.name))}
     assert ours == theirs, (ours, theirs)
 
