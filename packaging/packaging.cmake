@@ -48,7 +48,7 @@ set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY TRUE)
 add_custom_target(packages COMMAND ${CMAKE_CPACK_COMMAND} -C ${CMAKE_BUILD_TYPE} WORKING_DIRECTORY ${PROJECT_BINARY_DIR}
   COMMENT "Packages, in ${PROJECT_BINARY_DIR}/packages" VERBATIM)
 add_dependencies(packages elastokin)
-foreach(target elastokin-mpi elastokin-netcdf)
+foreach(target elastokin-mpi elastokin-netcdf elastokin_c)
   if(TARGET ${target})
     add_dependencies(packages ${target})
   endif()

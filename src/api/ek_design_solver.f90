@@ -139,7 +139,7 @@ contains
       if (.not. is_done) return
       associate (this => solver%cases(k))
          call refresh_case(solver%raw, solver%design, this)
-         if (.not. is_mountable(this%case)) then           ! the result tells why
+         if (.not. is_mountable(this%case)) then           ! the result gives the reason
             call solve_case(solver%raw, this%case, options, this%result)
             return
          end if

@@ -23,8 +23,8 @@ module ek_named_numbers
    use ek_gradient, only: gradient_t, test_gradients
    use ek_gradient_definition, only: windows_t
    use ek_planned_test, only: planned_tests
-   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design
-   use ek_key_numbers, only: list_key_numbers, number_heads, has_wanted_gradients
+   use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, needs_path, at_design, largest_of_all
+   use ek_key_numbers, only: list_key_numbers, number_heads, wanted_gradients
    implicit none(type, external)
    private
    public :: named_numbers_t, prepare_numbers, read_numbers, list_numbers, needed_tests, lost_states
@@ -172,6 +172,7 @@ contains
       type(case_t), allocatable :: all(:)
       type(gradient_t), allocatable :: gradients(:)
       character(name_length), allocatable :: heads(:)
+      character(64), allocatable :: quantities(:)
       integer :: k
 
       allocate (all(size(cases)))
@@ -179,13 +180,21 @@ contains
       call planned_tests(suspension, all, tests)
       allocate (gradients(0))
       do k = 1, size(all)
-         if (k == 1) call sweep_columns(suspension, all(k), heads)
-         tests(k)%table = new_table(heads, 0)
-         if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
-         if (present(wanted)) then
-            if (.not. has_wanted_gradients(tests(k)%kind, wanted)) cycle
+         if (k == 1) then
+            call sweep_columns(suspension, all(k), heads)
+            tests(k)%table = new_table(heads, 0)
+            if (size(suspension%wheels) > 0) call find_wheels(tests(k), suspension%wheels(1)%side)
+         else
+            tests(k)%table = tests(1)%table
+            tests(k)%prefixes = tests(1)%prefixes
+            tests(k)%sides = tests(1)%sides
          end if
-         call test_gradients(tests(k), windows_t(), gradients)
+         if (present(wanted)) then
+            call wanted_gradients(tests(k)%kind, wanted, quantities)
+            if (size(quantities) > 0) call test_gradients(tests(k), windows_t(), gradients, quantities)
+         else
+            call test_gradients(tests(k), windows_t(), gradients)
+         end if
       end do
       call list_key_numbers(tests, gradients, listed, wanted)
       allocate (names(2, size(listed)))
@@ -206,7 +215,7 @@ contains
 
       do k = 1, size(number%sources)
          associate (source => number%sources(k), this => needed(number%sources(k)%test))
-            this%is_first = this%is_first .or. k == 1
+            this%is_first = this%is_first .or. k == 1 .or. number%how == largest_of_all
             do wheel = 1, 2
                call add(source%column(wheel))
                call add(source%over(wheel))
@@ -223,10 +232,11 @@ contains
 
       subroutine add(name)
          character(name_length), intent(in) :: name
-         associate (this => needed(number%sources(k)%test)%options)
-            if (name == '' .or. any(this%columns == name)) return
-            this%columns = [this%columns, name]
-         end associate
+         integer :: c
+
+         c = number%sources(k)%test
+         if (name == '' .or. any(needed(c)%options%columns == name)) return
+         needed(c)%options%columns = [character(name_length) :: needed(c)%options%columns, name]
       end subroutine add
 
    end subroutine add_needs

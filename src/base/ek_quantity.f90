@@ -346,8 +346,9 @@ contains
       integer :: k
 
       column = ''
+      if (len(stem) > len(all_quantities%name)) return
       do k = 1, size(all_quantities)
-         if (index(all_quantities(k)%name, stem) /= 1) cycle
+         if (all_quantities(k)%name(:len(stem)) /= stem) cycle
          column = trim(all_quantities(k)%name)
          if (column == stem .or. any(column == stem//element_endings)) return
       end do

@@ -37,7 +37,7 @@ module ek_command
       'Exit status 3 if the model cannot be solved.', ''), &
       command_t('report', 'report DECK [options]', 'report DECK', 'one page with curves, gradients and key numbers of a deck', &
       'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
-      'test, gradients.csv and gradients.json (slopes with window, unit and sign), compliance.csv'//nl// &
+      'test, key_numbers and gradients as .csv and .json (slopes with window, unit and sign), compliance.csv'//nl// &
       '(the compliance matrix at every state of the first test), picture.png and picture.svg,'//nl// &
       'and figures/ with every chart as SVG and its gnuplot script.', ''), &
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &

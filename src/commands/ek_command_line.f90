@@ -228,7 +228,7 @@ contains
       end do
    end subroutine read_windows
 
-   !> 'run, check, report, compare, study, merge, plot or bench'
+   !> 'run, check, report, compare, study, merge, plot, import or bench'
    pure function names_of(commands) result(text)
       type(command_t), intent(in) :: commands(:)
       character(:), allocatable :: text

@@ -11,7 +11,10 @@ module ek_export
    use ek_load_deck, only: load_deck
    use ek_console, only: print_path, print_note, print_model_remarks, write_table
    use ek_export_settings, only: export_settings_t, read_export_settings, make_request, front_of
-   use ek_kandc_map, only: kandc_map_t, map_request_t, load_table_result_t, solve_map, solve_loads
+   use ek_kandc_map, only: kandc_map_t, solve_map
+   use ek_map_request, only: map_request_t
+   use ek_load_response, only: load_table_result_t, solve_loads
+   use ek_monotonic, only: check_monotonic, check_steer
    use ek_carmaker, only: carmaker_text
    use ek_carsim, only: carsim_text
    use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json
@@ -151,13 +154,17 @@ contains
       character(2), parameter :: corners(4) = ['FL', 'FR', 'RL', 'RR']
       type(kandc_parameters_t) :: p
       character(:), allocatable :: text
-      integer :: place
+      integer :: place, k
 
       place = merge(1, 2, axle%is_front)
       p%maps(place) = axle%map
       p%has(place) = .true.
       p%checksums(place) = axle%checksum
       if (settings%other /= '') call add_other(settings, 3 - place, p, error)
+      do k = 1, 2
+         if (.not. allocated(error) .and. p%has(k)) call check_monotonic(p%maps(k), 'matlab-kc', .false., error)
+         if (.not. allocated(error) .and. p%has(k)) call check_steer(p%maps(k), 'matlab-kc', error)
+      end do
       if (allocated(error)) return
       call find_parameters(p)
       text = mathworks_script(p)

@@ -11,7 +11,7 @@ module ek_export_settings
    use ek_command_line, only: command_line_t, refuse_stream
    use ek_load_deck, only: deck_settings_t, read_deck_settings
    use ek_length_choice, only: choose_lengths
-   use ek_kandc_map, only: map_request_t, grid_values, over_steer, over_opposite, over_none
+   use ek_map_request, only: map_request_t, grid_values, over_steer, over_opposite, over_none
    implicit none(type, external)
    private
    public :: export_settings_t, range_t, read_export_settings, make_request, front_of

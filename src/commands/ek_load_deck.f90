@@ -1,6 +1,6 @@
 !> From a path and settings to a model: the first step of every command.
 module ek_load_deck
-   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck, exit_model
    use ek_text, only: str, quoted, nearest_name
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
@@ -49,12 +49,13 @@ contains
       class(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)
-      character(:), allocatable, intent(out) :: checksum     !! of the deck as it was used
+      character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
       type(deck_t) :: deck
       type(design_t) :: design
       type(set_file_t), allocatable :: files(:)
+      type(error_t), allocatable :: unset
       integer :: k
 
       allocate (files(settings%set_files%count()))
@@ -62,17 +63,24 @@ contains
          if (.not. allocated(error)) call read_set_file(settings%set_files%line(k), files(k), error)
       end do
       if (.not. allocated(error)) call read_changed(settings%file, settings%changes, deck, error, files)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         if (size(files) == 0 .or. error%code /= exit_deck .or. deck%deck_errors%count() > 0) return
+         call move_alloc(error, unset)                     ! the other settings may contain mistakes too
+      end if
       call read_checked(deck, design, suspension, error, needs_tables)
       call move_alloc(design%cases, cases)
+      if (allocated(unset)) then
+         if (allocated(error)) unset%message = unset%message//new_line('a')//error%message
+         call move_alloc(unset, error)
+      end if
       do k = 1, size(files)
          if (allocated(error)) call show_set_file(files(k), error%message)
       end do
       if (allocated(error)) return
-      checksum = deck_checksum(deck)
+      if (present(checksum)) checksum = deck_checksum(deck)
    end subroutine load_deck
 
-   !> Reads a deck and applies files of settings, then --set path=value, in the order given.
+   !> Reads a deck and applies files of settings, then --set path=value, in the order given. All mistakes of a file are reported.
    subroutine read_changed(file, changes, deck, error, set_files)
       character(*), intent(in) :: file
       type(message_list_t), intent(in) :: changes
@@ -87,6 +95,7 @@ contains
          do k = 1, size(set_files)
             if (.not. allocated(error)) call apply_set_file(set_files(k), deck, error)
          end do
+         if (allocated(error)) return
       end if
       do k = 1, changes%count()
          if (.not. allocated(error)) call split_setting(changes%line(k), path, value, error)

@@ -81,10 +81,9 @@ contains
       type(named_numbers_t) :: numbers
       type(examination_t) :: found
       logical, allocatable :: is_needed(:), is_solvable(:)
-      character(:), allocatable :: checksum
       logical :: is_whole
 
-      call load_deck(settings, suspension, cases, checksum, error)
+      call load_deck(settings, suspension, cases, error=error)
       if (allocated(error)) return
       if (size(suspension%wheels) > 0) then
          call standard_tests(suspension, cases, all_cases)

@@ -31,6 +31,7 @@ module ek_set_file
       private
       type(line_t), allocatable :: lines(:)
       integer :: used = 0
+      type(message_list_t) :: mistakes             !! lines that are no settings
    end type set_file_t
 
    character(*), parameter :: line_end = new_line('a'), blanks = ' '//achar(9)
@@ -38,12 +39,11 @@ module ek_set_file
 
 contains
 
-   !> Reads a file. Nothing is compared with a deck yet.
+   !> Reads a file. Nothing is compared with a deck yet; lines that are no settings are reported with those that do not fit.
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file
-      type(error_t), allocatable, intent(out) :: error     !! exit_file, or exit_deck: all lines that are no settings
-      type(message_list_t) :: mistakes
+      type(error_t), allocatable, intent(out) :: error     !! exit_file: it cannot be read
       character(:), allocatable :: text, content
       integer :: first, last, line, left
 
@@ -62,11 +62,10 @@ contains
          if (content == '') cycle
          if (left < 0 .and. file%used == 0) call read_head(content, left)
          if (left >= 0 .and. ends_with_variables(content)) cycle
-         call take_line(content, path//':'//str(line), left > 0, file, mistakes)
+         call take_line(content, path//':'//str(line), left > 0, file)
          left = max(left - 1, -1)
       end do
-      if (left > 0) call mistakes%add(path//': '//plural(left, 'variable', 'variables')//' missing at the end of the file')
-      if (mistakes%count() > 0) call fail(error, exit_deck, visible(mistakes%text()))
+      if (left > 0) call file%mistakes%add(path//': '//plural(left, 'variable', 'variables')//' missing at the end of the file')
    end subroutine read_set_file
 
    !> A line without its comment, blanks at the ends, and tabs.
@@ -108,11 +107,10 @@ contains
    end subroutine read_head
 
    !> One setting.
-   subroutine take_line(content, where, is_variable, file, mistakes)
+   subroutine take_line(content, where, is_variable, file)
       character(*), intent(in) :: content, where
       logical, intent(in) :: is_variable           !! of Dakota: a number before its path
       type(set_file_t), intent(inout) :: file
-      type(message_list_t), intent(inout) :: mistakes
       character(:), allocatable :: inner, path, value
       logical :: is_number
       real(wp) :: number
@@ -121,7 +119,7 @@ contains
       inner = content
       if (content(1:1) == '{') then
          if (content(len(content):) /= '}' .or. index(content, '=') == 0) then
-            call mistakes%add(where//': expected { path = value }, found '//quoted(content))
+            call file%mistakes%add(where//': expected { path = value }, found '//quoted(content))
             return
          end if
          inner = trim(adjustl(content(2:len(content) - 1)))
@@ -141,7 +139,7 @@ contains
          value = inner
       end if
       if (path == '' .or. value == '' .or. (is_variable .and. .not. is_number)) then
-         call mistakes%add(where//': expected '//trim(merge('number path ', 'path = value', is_variable))// &
+         call file%mistakes%add(where//': expected '//trim(merge('number path ', 'path = value', is_variable))// &
             ', as in spring.coil.rate = 30, found '//quoted(content))
          return
       end if
@@ -161,6 +159,7 @@ contains
       type(message_list_t) :: mistakes
       integer :: k
 
+      mistakes = file%mistakes
       do k = 1, file%used
          call set_value(deck, file%lines(k)%path, file%lines(k)%value, mistake)
          if (.not. allocated(mistake)) cycle
@@ -168,7 +167,7 @@ contains
          call mistakes%add(mistake%message)
          if (deck%deck_errors%count() > 0) exit            ! the message contains those of the deck
       end do
-      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+      if (mistakes%count() > 0) call fail(error, exit_deck, visible(mistakes%text()))
    end subroutine apply_set_file
 
    !> Names the lines of the file in a message about settings: 'params.in:3: path=value' in place of '--set path=value'.

@@ -77,7 +77,7 @@ contains
       type(path_t), intent(out) :: path
       type(kkt_t), intent(inout) :: kkt                        !! of new_kkt
       procedure(progress_procedure), optional :: progress
-      real(wp), intent(in), optional :: reach                  !! states beyond this place on either side of design are left out
+      real(wp), intent(in), optional :: reach                  !! swept value; states beyond it on either side are left out
       integer, allocatable :: ends(:, :)
       integer :: w
 

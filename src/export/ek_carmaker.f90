@@ -12,7 +12,8 @@ module ek_carmaker
    use ek_gnuplot_text, only: one_line
    use ek_wheel_motion, only: at_tx, lengths, quantity_names
    use ek_monotonic, only: check_monotonic
-   use ek_kandc_map, only: kandc_map_t, over_steer, over_none
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_steer, over_none
    implicit none(type, external)
    private
    public :: carmaker_text, skc_table_lines
@@ -37,7 +38,7 @@ contains
       character(:), allocatable :: axle, kin
       integer :: side, i, j
 
-      call check_monotonic(map, 'CarMaker', error)
+      call check_monotonic(map, 'CarMaker', .true., error)
       if (allocated(error)) return
       axle = 'Susp'//merge('F', 'R', is_front)//'.'
       kin = axle//'Kin.0.'

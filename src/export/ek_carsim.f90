@@ -44,17 +44,18 @@ contains
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: checksum                  !! of the deck
       character(:), allocatable, intent(out) :: text
-      type(error_t), allocatable, intent(out) :: error      !! exit_model: jounce or a length is not monotonic
+      type(error_t), allocatable, intent(out) :: error      !! exit_model: jounce is not monotonic
       type(buffer_t) :: file
       real(wp) :: rates(2)
       integer :: side, k
 
-      call check_monotonic(map, 'CarSim', error)
+      call check_monotonic(map, 'CarSim', .false., error)
       if (allocated(error)) return
       rates = roll_rates(map)
       call file%line('PARSFILE')
       call remark('elastokin '//version//', '//one_line(map%title)//', model '//map%model//', deck checksum '//checksum)
-      call remark('Tables over jounce: travel of the wheel centre in mm, positive up, 0 at design; steer held at 0.')
+      call remark('Tables over jounce: travel of the wheel centre in mm, positive up, 0 at design; steer held at 0;')
+      call remark('both wheels at the same travel: the file has no effect of one wheel on the other.')
       call remark('Angles of TOE_TABLE and CAMBER_TABLE contain the static angles; leave A_TOE and A_CAMBER at 0.')
       call remark('Remarks "to be confirmed on a screen" stand where sign or unit is not documented in public.')
       do side = 1, 2

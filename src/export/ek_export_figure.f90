@@ -101,6 +101,7 @@ contains
             call script%line('   set title '//gnuplot_text(panel%title)//' noenhanced')
             call script%line('   set xlabel '//gnuplot_text(panel%x_label)//' noenhanced')
             call script%line('   set ylabel '//gnuplot_text(panel%y_label)//' noenhanced')
+            call script%line('   set yrange '//range_of(panel%y))
             call script%line('   plot $curve'//str(k)//" using 1:2 with lines linecolor rgb '#d04020' linewidth 2 title "// &
                gnuplot_text(trim(merge('solved separately', '                 ', k == 1)))//', \')
             call script%line('      '//panel%points//' title '//gnuplot_text(trim(merge('written file', '            ', k == 1))))
@@ -111,5 +112,18 @@ contains
       call script%line('}')
       text = script%text()
    end function script_of
+
+   !> The range of an axis: gnuplot's own, but not that of rounding errors.
+   pure function range_of(values) result(range)
+      real(wp), intent(in) :: values(:)
+      character(:), allocatable :: range
+      real(wp), parameter :: rounding = 1.0e-7_wp      ! mm, deg, N
+      real(wp) :: middle
+
+      range = '[*:*]'
+      if (maxval(values) - minval(values) > rounding) return
+      middle = 0.5_wp*(maxval(values) + minval(values))
+      range = '['//decimal(middle - 1.0_wp)//':'//decimal(middle + 1.0_wp)//']'
+   end function range_of
 
 end module ek_export_figure

@@ -4,7 +4,8 @@ module ek_export_panels
    use ek_text, only: str
    use ek_decimal, only: decimal
    use ek_gnuplot_text, only: gnuplot_text
-   use ek_kandc_map, only: kandc_map_t, over_opposite
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_opposite
    use ek_slopes, only: zero_of
    use ek_export_sources, only: sources_t, source_values
    use ek_export_figure, only: panel_list_t, add_panel
@@ -90,7 +91,7 @@ contains
          character(:), allocatable :: words
          integer :: n
 
-         n = size(map%second)
+         n = max(size(map%second), 2)      ! as the file has
          words = ' skip '//str(skc_table_lines(text, sources%side))//' every ::0:0:'//str(size(map%travel)*(n + 1) - 2)//':0'
       end function rows_of_table
 
@@ -192,6 +193,7 @@ contains
       integer :: k, section
 
       x = source_values(sources, sources%travel, 'wheel_travel_mm')
+      allocate (y(size(x)))
       do k = 1, 4
          y = source_values(sources, sources%travel, trim(names(k)))
          if (k == 4 .and. sources%side == 2) y = -y
@@ -235,6 +237,7 @@ contains
       integer :: k, from, line, at, status, number
 
       x = source_values(sources, sources%travel, 'wheel_travel_mm')
+      allocate (y(size(x)))
       number = (index('FLFRRLRR', corner) + 1)/2
       do k = 1, 5
          y = source_values(sources, sources%travel, trim(names(k)))
@@ -282,6 +285,7 @@ contains
       at_design = 'steer_mm'
       if (map%kind == over_opposite) at_design = trim(merge('right', 'left ', sources%side == 1))//'_travel_mm'
       x = source_values(sources, sources%travel, 'wheel_travel_mm')
+      allocate (y(size(x)))
       do k = 1, 5
          if (k == 5) then
             y = length_values(sources, trim(map%length_labels(1, sources%side))//'_length_mm')

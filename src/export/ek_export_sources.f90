@@ -7,7 +7,9 @@ module ek_export_sources
    use ek_wheel_side, only: left_and_right, prefix_of, deck_frame
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
    use ek_table, only: table_t, column
-   use ek_kandc_map, only: kandc_map_t, map_request_t, load_table_result_t, solve_loads, over_steer, over_opposite
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: map_request_t, over_steer, over_opposite
+   use ek_load_response, only: load_table_result_t, solve_loads
    use ek_wheel_motion, only: iso_frame
    implicit none(type, external)
    private

@@ -14,7 +14,8 @@ module ek_mathworks
    use ek_version, only: version
    use ek_gnuplot_text, only: one_line
    use ek_wheel_motion, only: at_tx, at_ty, at_tz, at_rz, at_camber, at_caster, at_load, at_lengths, damper_length
-   use ek_kandc_map, only: kandc_map_t, over_steer
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_steer
    use ek_slopes, only: travel_curve, steer_curve, slope_at_zero, zero_of, load_response, load_response_t, roll_rates, wheel_rate
    implicit none(type, external)
    private

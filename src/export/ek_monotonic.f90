@@ -1,28 +1,31 @@
-!> Whether the columns of a map rise or fall everywhere over wheel travel, as a simulator requires that inverts them.
+!> Whether the columns of a map rise or fall everywhere, as a simulator requires that inverts them or looks up in them.
 module ek_monotonic
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_model
    use ek_text, only: str
    use ek_wheel_side, only: side_name
-   use ek_wheel_motion, only: at_tz, at_lengths, lengths, length_names, quantity_names
-   use ek_kandc_map, only: kandc_map_t, over_steer, over_opposite
+   use ek_wheel_motion, only: at_tz, at_rz, at_lengths, length_names, quantity_names
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_steer, over_opposite
    implicit none(type, external)
    private
-   public :: check_monotonic
+   public :: check_monotonic, check_steer
 
 contains
 
-   !> Checks tz and the four lengths of both sides; a column that turns back is reported with the first place where it does.
-   subroutine check_monotonic(map, target, error)
+   !> Checks tz, and on request the four lengths, of both sides over travel; a column that turns back is reported with the first
+   !> position where it does.
+   subroutine check_monotonic(map, target, has_lengths, error)
       type(kandc_map_t), intent(in) :: map
       character(*), intent(in) :: target                    !! of the export, for the message
+      logical, intent(in) :: has_lengths                    !! the target inverts lengths too
       type(error_t), allocatable, intent(out) :: error      !! exit_model: every column that is not strictly monotonic
       integer, parameter :: columns(5) = [at_tz, at_lengths + 1, at_lengths + 2, at_lengths + 3, at_lengths + 4]
       type(message_list_t) :: mistakes
       integer :: side, c, i, j
 
       do side = 1, 2
-         do c = 1, size(columns)
+         do c = 1, merge(size(columns), 1, has_lengths)
             search: do j = 1, size(map%second)
                associate (values => map%value(columns(c), j, :, side))
                   do i = 2, size(values) - 1
@@ -56,5 +59,25 @@ contains
       end function message
 
    end subroutine check_monotonic
+
+   !> Checks that the steer angle of both wheels rises with the travel of the rack at design height: it is the abscissa of tables.
+   subroutine check_steer(map, target, error)
+      type(kandc_map_t), intent(in) :: map
+      character(*), intent(in) :: target                    !! of the export, for the message
+      type(error_t), allocatable, intent(out) :: error      !! exit_model
+      integer :: side, i, j
+
+      if (map%kind /= over_steer) return
+      i = minloc(abs(map%travel), dim=1)
+      do side = 1, 2
+         do j = 2, size(map%second)
+            if (map%value(at_rz, j, i, side) > map%value(at_rz, j - 1, i, side)) cycle
+            call fail(error, exit_model, target//' needs a steer angle that rises with the rack; nothing was written'// &
+               new_line('a')//'the '//trim(side_name(side))//' wheel turns back between rack travels of '// &
+               str(map%second(j - 1)/millimetre)//' and '//str(map%second(j)/millimetre)//' mm; use a shorter range (--steer)')
+            return
+         end do
+      end do
+   end subroutine check_steer
 
 end module ek_monotonic

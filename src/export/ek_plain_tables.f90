@@ -10,7 +10,9 @@ module ek_plain_tables
    use ek_version, only: version
    use ek_wheel_side, only: side_name
    use ek_wheel_motion, only: quantities, at_tx, at_rx, at_toe, at_camber, at_caster, at_patch, at_load
-   use ek_kandc_map, only: kandc_map_t, load_table_result_t, over_steer, over_opposite
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_steer, over_opposite
+   use ek_load_response, only: load_table_result_t
    implicit none(type, external)
    private
    public :: kinematics_table, loads_table, compliance_of_map, tables_json

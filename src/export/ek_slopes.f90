@@ -6,7 +6,8 @@ module ek_slopes
    use ek_kinds, only: wp
    use ek_compliance, only: load_at_patch
    use ek_attitude, only: axes_t, toe_rate, camber_rate
-   use ek_kandc_map, only: kandc_map_t, over_opposite
+   use ek_kandc_map, only: kandc_map_t
+   use ek_map_request, only: over_opposite
    use ek_wheel_motion, only: iso_frame, at_tz, at_load
    implicit none(type, external)
    private

@@ -1,4 +1,4 @@
-!> Lines of a text, and the fields of a line: words separated by blanks, tabs or commas, and texts in quotes.
+!> Lines of a text, and the fields of a line: entries separated by blanks, tabs or commas, and texts in quotes.
 module ek_fields
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
@@ -10,8 +10,8 @@ module ek_fields
    public :: lines_t, split_lines, field_t, split_fields, take_number, legal_name
 
    character, parameter :: tab = achar(9)
-   real(wp), parameter :: most = 1.0e25_wp          !! numbers beyond are mistakes; times any unit they stay below the limit of a deck
-   integer, parameter :: most_fields = 64            !! of a line; no format has more
+   real(wp), parameter :: most = 1.0e25_wp          !! larger numbers are mistakes; with any unit the others are legal in a deck
+   integer, parameter :: max_fields = 64            !! of a line; no format has more
 
    !> A text with its lines.
    type :: lines_t
@@ -76,7 +76,7 @@ contains
    subroutine split_fields(text, line, fields, used, flaws, commas_separate)
       character(*), intent(in) :: text
       integer, intent(in) :: line
-      type(field_t), intent(inout) :: fields(:)     !! at least most_fields
+      type(field_t), intent(inout) :: fields(:)     !! at least max_fields
       integer, intent(out) :: used
       type(flaws_t), intent(inout) :: flaws
       logical, intent(in), optional :: commas_separate   !! default .true.
@@ -94,7 +94,7 @@ contains
             at = at + 1
             cycle
          end if
-         if (used == min(most_fields, size(fields))) then
+         if (used == min(max_fields, size(fields))) then
             call flaws%add(line, 'expected at most 64 values in a line, found more')
             return
          end if

@@ -52,7 +52,7 @@ contains
       flaws_line = self%lines(k)
    end function flaws_line
 
-   !> Mistake number k without its place.
+   !> Mistake number k without its file and line.
    pure function flaws_what(self, k) result(text)
       class(flaws_t), intent(in) :: self
       integer, intent(in) :: k

@@ -2,7 +2,8 @@
 module ek_foreign_deck
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: str, lower
+   use ek_text, only: lower
+   use ek_letters, only: with_line_ends
    use ek_file, only: read_whole, join_path, folder_name, base_name, file_exists
    use ek_flaws, only: flaws_t, new_flaws, shown
    use ek_fields, only: legal_name
@@ -11,7 +12,8 @@ module ek_foreign_deck
    use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints, single_point, left_point, right_point, point_pair
    use ek_teimorbit, only: is_teimorbit
    use ek_kin, only: kin_t, parse_kin, is_kin
-   use ek_kin_deck, only: mount_law_t, is_used_mount, check_kin, kin_deck
+   use ek_kin_check, only: is_used_mount, check_kin
+   use ek_kin_deck, only: mount_law_t, kin_deck
    use ek_lcf, only: lcf_t, parse_lcf, lcf_table
    use ek_deck_text, only: deck_text_t
    use ek_law_text, only: put_curve, put_curves, put_bushing_law
@@ -71,7 +73,7 @@ contains
       type(lcf_t) :: lcf
 
       text = ''
-      kind = kind_of_text(content)
+      kind = kind_of_text(with_line_ends(content))
       select case (kind)
       case (axle_kind)
          call import_axle(content, path, text, flaws)
@@ -260,8 +262,7 @@ contains
          mount%note = name
          return
       end if
-      if (len(name) == 12 .and. lower(name(:3)) == 'lin' .and. lower(name(9:)) == '.gum' .and. &
-         verify(name(4:8), '0123456789') == 0) then
+      if (is_linear(name)) then
          read (name(4:8), *) rate
          rate = rate/millimetre
          do k = 1, 6
@@ -274,5 +275,14 @@ contains
       end if
       call flaws%add(line, 'cannot find the bushing '//shown(named)//'; put '//shown(name)//' beside '//shown(path))
    end subroutine find_mount
+
+   !> Whether the name of a bushing gives its rate: lin01000.gum.
+   pure logical function is_linear(name)
+      character(*), intent(in) :: name
+
+      is_linear = len(name) == 12
+      if (is_linear) is_linear = lower(name(:3)) == 'lin' .and. lower(name(9:)) == '.gum' .and. &
+         verify(name(4:8), '0123456789') == 0
+   end function is_linear
 
 end module ek_foreign_deck

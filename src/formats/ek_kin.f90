@@ -22,7 +22,7 @@ module ek_kin
       rod_wheel = 26, rod_rocker = 27, coil_body = 28, coil_rocker = 29
    integer, parameter :: points = 36, bushings = 9
 
-   !> Where the spring, the push rod or the bar acts
+   !> Where the spring, the pushrod or the bar acts
    integer, parameter :: off = 0, on_lower = 1, on_carrier = 2, on_upper = 3
 
    !> A law: a rate, or points.
@@ -57,7 +57,7 @@ module ek_kin
       type(kin_bushing_t) :: mounts(bushings)
    end type kin_t
 
-   !> The place in the file, between two values.
+   !> How far the file is read.
    type :: cursor_t
       integer :: line = 0
       logical :: is_lost = .false.            !! a value is missing; those behind it are not looked for
@@ -69,9 +69,13 @@ contains
    pure logical function is_kin(text)
       character(*), intent(in) :: text
       character(:), allocatable :: head
+      integer :: first
 
       head = lower(text(:min(len(text), 2000)))
-      is_kin = index(head, 'kinematics') > 0 .and. index(adjustl(head), '''') == 1
+      is_kin = .false.
+      if (index(head, 'kinematics') == 0) return
+      first = verify(head, ' '//achar(9)//achar(10)//achar(13))
+      is_kin = head(first:first) == ''''
    end function is_kin
 
    !> Reads a text.
@@ -324,7 +328,7 @@ contains
       if (pattern(len(pattern) - 1:) == ' *' .and. .not. has_label) has_label = label == pattern(:len(pattern) - 2)
    end function has_label
 
-   !> A form as words for a message.
+   !> A form as text for a message.
    pure function plain(pattern) result(words)
       character(*), intent(in) :: pattern
       character(:), allocatable :: words

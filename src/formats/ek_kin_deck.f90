@@ -1,13 +1,14 @@
 !> An axle of IPGKinematics as a deck: double wishbones, their bushings, the tie rods on a rack, coil springs directly or by push
 !> or pull rods and rockers, a U-shaped anti-roll bar, masses and wheel loads.
 !>
-!> As there, the design position is an equilibrium under the weights and the wheel loads: the springs get the preloads for it. The mass
-!> of an arm is in the middle between its ball joint and its pivots, that of a tie rod in its middle, that of a carrier
-!> in the middle between its ball joints and the wheel centre, that of the wheel at its centre, that of a rocker at its pivot.
+!> As there, the design position is an equilibrium under the weights and the wheel loads: the springs get the preloads for it. The
+!> mass of an arm is in the middle between its ball joint and its pivots, that of a tie rod in its middle, that of a carrier in the
+!> middle between its ball joints and the wheel centre, that of the wheel at its centre, that of a rocker at its pivot.
 module ek_kin_deck
    use ek_kinds, only: wp, millimetre, degree
    use ek_text, only: str
-   use ek_flaws, only: flaws_t, shown
+   use ek_flaws, only: flaws_t
+   use ek_kin_check, only: wheel_load, standard_gravity
    use ek_fields, only: legal_name
    use ek_law_points, only: law_points_t, add_point, finish_law
    use ek_deck_text, only: deck_text_t
@@ -17,9 +18,7 @@ module ek_kin_deck
       spring_body, spring_wheel, rocker_pivot, rocker_axis, rod_wheel, rod_rocker, coil_body, coil_rocker, off, on_carrier
    implicit none(type, external)
    private
-   public :: mount_law_t, is_used_mount, check_kin, kin_deck
-
-   real(wp), parameter :: standard_gravity = 9.80665_wp
+   public :: mount_law_t, kin_deck
 
    !> The law of a bushing of the file.
    type :: mount_law_t
@@ -28,53 +27,6 @@ module ek_kin_deck
    end type mount_law_t
 
 contains
-
-   !> Whether the model of the file needs its bushing number k.
-   pure logical function is_used_mount(kin, k)
-      type(kin_t), intent(in) :: kin
-      integer, intent(in) :: k
-      is_used_mount = any(k == [3, 4, 5, 6, 7]) .or. (kin%has_subframe .and. k <= 2)
-   end function is_used_mount
-
-   !> Reports what the program does not model, and numbers that make no model.
-   subroutine check_kin(kin, flaws)
-      type(kin_t), intent(in) :: kin
-      type(flaws_t), intent(inout) :: flaws
-      real(wp) :: shares(2)
-
-      if (index(kin%axle_type, 'Querlenker') /= 1) call flaws%add(0, 'expected the axle Querlenker (double wishbones), found '// &
-         shown(kin%axle_type))
-      if (kin%has_elastic_gearbox) call flaws%add(0, 'expected a rack housing without bushings (0), found 1; it is not imported')
-      if (kin%bar == 3) call flaws%add(0, 'expected no bar (0) or a U-shaped bar on the lower arm (1) or the '// &
-         'carrier (2), found a bar on the rockers (3); it is not imported')
-      if (kin%third /= off) call flaws%add(0, 'expected no third spring (0), found '//str(kin%third)//'; it is not imported')
-      if (kin%spring /= off .and. kin%rod /= off) call flaws%add(0, 'expected a coil on the axle or on a push rod, found both')
-      if (kin%spring == off .and. kin%rod == off) call flaws%add(0, 'expected a coil on the axle or on a push rod, found neither')
-      if (.not. kin%wheelbase > 0.0_wp) call flaws%add(0, 'expected a wheelbase above 0, found '//str(kin%wheelbase))
-      if (.not. kin%cg_height > 0.0_wp) call flaws%add(0, 'expected a height of the centre of gravity above 0, found '// &
-         str(kin%cg_height))
-      if (.not. kin%tyre_rate > 0.0_wp) call flaws%add(0, 'expected a tyre rate above 0, found '//str(kin%tyre_rate))
-      if (.not. kin%at(3, wheel_centre) > kin%at(3, contact)) call flaws%add(0, 'expected the wheel centre above the contact '// &
-         'point, found z = '//str(kin%at(3, wheel_centre))//' and '//str(kin%at(3, contact)))
-      shares = [kin%brake_share, kin%drive_share]
-      if (any(shares < 0.0_wp) .or. any(shares > 1.0_wp)) call flaws%add(0, &
-         'expected shares of braking and drive from 0 to 1, found '//str(shares(1))//' and '//str(shares(2)))
-      if (kin%has_forces .and. .not. wheel_load(kin) > 0.0_wp) call flaws%add(0, 'expected masses above 0, found none')
-      if (kin%coil%factor < 0.0_wp .or. kin%rod_law%factor < 0.0_wp) call flaws%add(0, &
-         'expected factors of the spring curves of 0 or more, found one below')
-   end subroutine check_kin
-
-   !> Load on a wheel [N]: half of all masses that the axle carries and of its own.
-   pure real(wp) function wheel_load(kin)
-      type(kin_t), intent(in) :: kin
-      real(wp) :: whole, half
-
-      half = kin%lower_arm + kin%carrier + kin%wheel + kin%upper_arm + kin%tie_rod
-      if (kin%rod /= off) half = half + kin%rocker
-      whole = kin%load + kin%body + kin%rack + kin%housing
-      if (kin%has_subframe) whole = whole + kin%subframe
-      wheel_load = (half + whole/2)*standard_gravity
-   end function wheel_load
 
    !> The deck.
    subroutine kin_deck(kin, mounts, source, text, flaws)
@@ -100,15 +52,10 @@ contains
          call deck%number('gravity', standard_gravity)
       end if
       call deck%end()
-      if (kin%has_subframe) then
-         call deck%begin('mirror')
-         call deck%words('shared', 'rack', 'subframe')
-         call deck%end()
-      else
-         call deck%begin('mirror')
-         call deck%word('shared', 'rack')
-         call deck%end()
-      end if
+      call deck%begin('mirror')
+      call deck%word('shared', 'rack')
+      if (kin%has_subframe) call deck%add_word('shared', 'subframe', .false.)
+      call deck%end()
       call put_points()
       call put_bodies()
       call put_joints()
@@ -183,7 +130,6 @@ contains
             call numbered('bar_bearing', bar_bearing)
             call numbered('bar_end', bar_end)
             call numbered('bar_link', link_end)
-            call point('bar_centre', [kin%at(1, bar_bearing), 0.0_wp, kin%at(3, bar_bearing)])
          end if
          call deck%blank()
          call point('lower_arm_mass', middle([lower_ball, lower_ball, lower_front, lower_rear]))

@@ -21,7 +21,7 @@ module ek_lcf
    use ek_flaws, only: flaws_t, shown
    use ek_fields, only: lines_t, split_lines, take_number
    use ek_unit_word, only: length_unit, force_unit, angle_unit
-   use ek_teimorbit, only: teimorbit_t, parse_teimorbit, find_block, entry_of, units_in, check_units, row
+   use ek_teimorbit, only: teimorbit_t, parse_teimorbit, find_block, entry_of, units_in, check_units, row_item
    implicit none(type, external)
    private
    public :: lcf_t, parse_lcf, lcf_table, lcf_columns
@@ -74,7 +74,7 @@ contains
       factors(steer) = units(merge(length_unit, angle_unit, lcf%is_rack))
       do k = 1, file%used
          associate (item => file%items(k))
-            if (file%names(item%block) /= 'data' .or. item%kind /= row) cycle
+            if (file%names(item%block) /= 'data' .or. item%kind /= row_item) cycle
             if (item%used /= lcf_columns) then
                call flaws%add(item%line, 'expected 19 numbers, found '//str(item%used))
                cycle
@@ -97,7 +97,7 @@ contains
 
    contains
 
-      !> One of two words of [MODE]; without the entry the first.
+      !> One of two choices of [MODE]; without the entry the first.
       subroutine take_mode(key, usual, other, is_other)
          character(*), intent(in) :: key, usual, other
          logical, intent(out) :: is_other

@@ -11,7 +11,7 @@ module ek_property
    use ek_flaws, only: flaws_t, new_flaws, shown
    use ek_fields, only: lines_t, split_lines, take_number
    use ek_unit_word, only: length_unit, force_unit, angle_unit
-   use ek_teimorbit, only: teimorbit_t, parse_teimorbit, find_block, entry_of, is_teimorbit, units_in, check_units, row
+   use ek_teimorbit, only: teimorbit_t, parse_teimorbit, find_block, entry_of, is_teimorbit, units_in, check_units, row_item
    use ek_law_points, only: law_points_t, add_point, finish_law
    use ek_gum, only: parse_gum, is_gum
    implicit none(type, external)
@@ -197,7 +197,7 @@ contains
       do k = 1, file%used
          associate (item => file%items(k))
             if (file%names(item%block) /= file%names(block)) cycle
-            if (item%kind /= row) cycle
+            if (item%kind /= row_item) cycle
             if (item%used /= 2) then
                call flaws%add(item%line, 'expected 2 numbers (displacement and force), found '//str(item%used))
                law%is_bad = .true.

@@ -3,9 +3,9 @@
 !>     [BLOCK]                         a block, whose name may occur again
 !>     KEY = value                     an entry; a text is in quotes
 !>     (PART)                          a part of the block, with entries and rows of its own
-!>     {first second third}            the heads of the columns that follow
+!>     {first second third}            the column headings of the rows that follow
 !>     value value value               a row
-!>     $ words                         a comment, also behind values; ! at the begin of a line as well
+!>     $ text                          a comment, also behind values; ! at the begin of a line as well
 !>
 !> Case does not matter in names of blocks, keys and heads.
 module ek_teimorbit
@@ -16,10 +16,11 @@ module ek_teimorbit
    use ek_unit_word, only: unit_of, quantity_names, length_unit, force_unit, angle_unit
    implicit none(type, external)
    private
-   public :: teimorbit_t, parse_teimorbit, find_block, entry_of, is_teimorbit, units_in, check_units, entry, row, heads
+   public :: teimorbit_t, parse_teimorbit, find_block, entry_of, is_teimorbit, units_in, check_units, &
+      entry_item, row_item, heads_item
 
    integer, parameter :: name_length = 40
-   integer, parameter :: entry = 1, row = 2, heads = 3     !! kinds of an item
+   integer, parameter :: entry_item = 1, row_item = 2, heads_item = 3     !! kinds of an item
 
    !> A line of a block that says something.
    type :: item_t
@@ -71,7 +72,7 @@ contains
       type(flaws_t), intent(inout) :: flaws
       character(:), allocatable :: text
       type(field_t) :: fields(64)
-      integer :: k, close, mark, used
+      integer :: k, ending, mark, used
       logical :: is_lost
 
       allocate (file%names(16), file%block_lines(16), file%items(32))
@@ -81,25 +82,25 @@ contains
          if (len(text) == 0) cycle
          select case (text(1:1))
          case ('[', '(')
-            close = index(text, merge(']', ')', text(1:1) == '['))
-            if (close == 0) then
+            ending = index(text, merge(']', ')', text(1:1) == '['))
+            if (ending == 0) then
                call flaws%add(k, 'expected a closing '//merge(']', ')', text(1:1) == '[')//', found '//shown(text))
-               close = len(text) + 1
+               ending = len(text) + 1
             end if
             if (text(1:1) == '[') then
-               call begin_block(file, lower(trim(adjustl(text(2:close - 1)))), k)
+               call begin_block(file, lower(trim(adjustl(text(2:ending - 1)))), k)
             else if (file%blocks > 0) then
                call begin_block(file, trim(file%names(file%blocks)), k)
             end if
          case ('{')
             if (file%blocks == 0) cycle
-            close = index(text, '}')
-            if (close == 0) then
+            ending = index(text, '}')
+            if (ending == 0) then
                call flaws%add(k, 'expected a closing }, found '//shown(text))
-               close = len(text) + 1
+               ending = len(text) + 1
             end if
-            call split_fields(text(2:close - 1), k, fields, used, flaws)
-            call add_item(file, heads, k, '', fields, used)
+            call split_fields(text(2:ending - 1), k, fields, used, flaws)
+            call add_item(file, heads_item, k, '', fields, used)
          case default
             if (file%blocks == 0) then
                if (.not. is_lost) call flaws%add(k, 'expected a [BLOCK], found '//shown(text))
@@ -110,10 +111,10 @@ contains
             if (scan(text(:max(mark, 1)), '''"') > 0) mark = 0      ! the sign is in a text
             if (mark > 0) then
                call split_fields(text(mark + 1:), k, fields, used, flaws)
-               call add_item(file, entry, k, lower(trim(text(:mark - 1))), fields, used)
+               call add_item(file, entry_item, k, lower(trim(text(:mark - 1))), fields, used)
             else
                call split_fields(text, k, fields, used, flaws)
-               call add_item(file, row, k, '', fields, used)
+               call add_item(file, row_item, k, '', fields, used)
             end if
          end select
       end do
@@ -207,7 +208,7 @@ contains
       character(*), intent(in) :: key                 !! lower case
 
       do entry_of = 1, file%used
-         if (file%items(entry_of)%block == block .and. file%items(entry_of)%kind == entry .and. &
+         if (file%items(entry_of)%block == block .and. file%items(entry_of)%kind == entry_item .and. &
             file%items(entry_of)%key == key) return
       end do
       entry_of = 0

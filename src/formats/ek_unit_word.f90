@@ -1,4 +1,4 @@
-!> Words for units in files of other programs, with their values in SI.
+!> Names of units in files of other programs, with their values in SI.
 module ek_unit_word
    use ek_kinds, only: wp, degree
    use ek_text, only: lower

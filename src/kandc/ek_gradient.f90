@@ -54,10 +54,11 @@ module ek_gradient
 contains
 
    !> All gradients of the kind of a test whose columns are in its table.
-   subroutine test_gradients(test, windows, gradients)
+   subroutine test_gradients(test, windows, gradients, wanted)
       type(test_result_t), intent(in) :: test
       type(windows_t), intent(in) :: windows
       type(gradient_t), allocatable, intent(inout) :: gradients(:)   !! appended to
+      character(*), intent(in), optional :: wanted(:)                !! only these quantities: 'bump toe (fitted)'
       type(definition_t), allocatable :: list(:)
       type(gradient_t) :: gradient
       character(name_length) :: name
@@ -67,6 +68,9 @@ contains
       if (.not. allocated(gradients)) allocate (gradients(0))
       list = definitions_of(test%kind)
       do k = 1, size(list)
+         if (present(wanted)) then
+            if (.not. any(wanted == list(k)%quantity)) cycle
+         end if
          do wheel = 1, size(test%prefixes)
             name = trim(test%prefixes(wheel))//list(k)%column
             place = column_index(test%table, name)

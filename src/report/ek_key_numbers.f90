@@ -13,7 +13,7 @@ module ek_key_numbers
    use ek_place_numbers, only: new_number, add_source, append, place_numbers
    implicit none(type, external)
    private
-   public :: key_number_t, key_numbers, list_key_numbers, number_heads, has_wanted_gradients
+   public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients
 
    !> One number: its group, what it is of, and how it is read.
    type :: entry_t
@@ -156,19 +156,18 @@ contains
       call place_numbers(tests, numbers, wanted)
    end subroutine list_key_numbers
 
-   !> Whether one of the wanted numbers is a gradient of a kind of test.
-   logical function has_wanted_gradients(kind, wanted)
+   !> The gradients among wanted numbers that are read from a kind of test: 'bump toe (fitted)'.
+   subroutine wanted_gradients(kind, wanted, quantities)
       character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
+      character(64), allocatable, intent(out) :: quantities(:)
       integer :: k
 
-      has_wanted_gradients = .true.
+      allocate (quantities(0))
       do k = 1, size(entries)
-         if (entries(k)%how >= slope .and. entries(k)%kind == kind) then
-            if (any(wanted == name_of(entries(k)))) return
-         end if
+         if (entries(k)%how < slope .or. entries(k)%kind /= kind) cycle
+         if (any(wanted == name_of(entries(k)))) quantities = [character(64) :: quantities, trim(entries(k)%name)//fitted]
       end do
-      has_wanted_gradients = .false.
-   end function has_wanted_gradients
+   end subroutine wanted_gradients
 
    !> The name of a number for programs: 'toe_deg', 'bump_toe', 'lateral_deflection_anti', 'largest_steer_deg'.
    pure character(64) function name_of(entry) result(name)
@@ -176,7 +175,7 @@ contains
       integer :: k, code
 
       name = entry%name
-      do k = 1, len_trim(name)                           ! a gradient has words, a column has none of these letters
+      do k = 1, len_trim(name)                           ! the name of a gradient has blanks, hyphens and capitals
          code = iachar(name(k:k))
          if (scan(name(k:k), ' -') > 0) name(k:k) = '_'
          if (code >= iachar('A') .and. code <= iachar('Z')) name(k:k) = achar(code + 32)
@@ -187,7 +186,7 @@ contains
       case (largest)
          name = 'largest_'//trim(name)
       case (least)
-         name = 'least_'//trim(name)
+         name = 'smallest_'//trim(name)
       end select
    end function name_of
 

@@ -8,7 +8,8 @@ module ek_exported
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_length_choice, only: choose_lengths
-   use ek_kandc_map, only: kandc_map_t, map_request_t, solve_map, over_steer
+   use ek_kandc_map, only: kandc_map_t, solve_map
+   use ek_map_request, only: map_request_t, over_steer
    implicit none(type, external)
    private
    public :: model_of, map_of, numbers_of, skc_rows, par_rows, places_of
