@@ -190,6 +190,9 @@ class Solving(unittest.TestCase):
         with Model.from_text(far, str(AXLE)) as model:
             with self.assertWarns(elastokin.ConvergenceWarning):
                 result = model.solve("parallel_travel", columns=["left_toe_deg"])
+            with self.assertWarns(elastokin.ConvergenceWarning):
+                numbers = model.numbers("left_bump_toe")
+            self.assertEqual(list(numbers), ["left_bump_toe"])
         self.assertFalse(result.converged)
         self.assertEqual(result.status, 4)
         lost = result["converged"] != 1

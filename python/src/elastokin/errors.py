@@ -24,13 +24,13 @@ class DeckError(ElastokinError, ValueError):
 
 
 class ModelError(ElastokinError):
-    """The model is a mechanism or has redundant constraints, or no state of a test converged that a key number needs."""
+    """The model is a mechanism or has redundant constraints: nothing was solved."""
 
     code = MODEL
 
 
 class ConvergenceError(ElastokinError):
-    """A key number needs a state that did not converge."""
+    """No state converged, so there is no result."""
 
     code = CONVERGENCE
 

@@ -330,11 +330,19 @@ class Model:
     def numbers(self, *names: str) -> dict[str, float]:
         """Key numbers with these names, as in key_numbers.csv of the report: only the tests that they need are solved.
 
-        On an axle a name begins with `left_` or `right_`, unless the number is one of the axle. NaN: without value here.
+        On an axle a name begins with `left_` or `right_`, unless the number is one of the axle. NaN: without value here; if
+        states did not converge, a ConvergenceWarning is issued.
         """
         values = np.empty(len(names))
         with self._lock:
-            self._check(lib.ek_numbers(self._open, len(names), texts_for(list(names)), values.ctypes.data))
+            code = lib.ek_numbers(self._open, len(names), texts_for(list(names)), values.ctypes.data)
+            message = ""
+            if code == errors.CONVERGENCE:
+                message = text_of(lib.ek_message(self._handle))
+            else:
+                self._check(code)
+        if message:
+            warnings.warn(message, errors.ConvergenceWarning, stacklevel=2)
         return dict(zip(names, values.tolist()))
 
     def key_numbers(self) -> dict[str, float]:
