@@ -190,9 +190,6 @@ class Solving(unittest.TestCase):
         with Model.from_text(far, str(AXLE)) as model:
             with self.assertWarns(elastokin.ConvergenceWarning):
                 result = model.solve("parallel_travel", columns=["left_toe_deg"])
-            with self.assertWarns(elastokin.ConvergenceWarning):
-                numbers = model.numbers("left_bump_toe")
-            self.assertEqual(list(numbers), ["left_bump_toe"])
         self.assertFalse(result.converged)
         self.assertEqual(result.status, 4)
         lost = result["converged"] != 1
@@ -253,6 +250,13 @@ class KeyNumbers(unittest.TestCase):
         self.assertEqual(every["left_bump_toe"], self.model.numbers("left_bump_toe")["left_bump_toe"])
         self.assertEqual(set(every), set(self.model.number_units))
         self.assertEqual(set(every), set(self.model.number_definitions))
+
+    def test_a_key_number_of_a_path_that_lost_states_has_a_warning(self) -> None:
+        far = AXLE.read_text().replace("from = -75.0,   to = 75.0 /", "from = -75.0, to = 700.0 /")
+        self.assertNotEqual(far, AXLE.read_text())
+        with Model.from_text(far, str(AXLE)) as model, self.assertWarns(elastokin.ConvergenceWarning):
+            numbers = model.numbers("smallest_turning_circle_m")
+        self.assertGreater(numbers["smallest_turning_circle_m"], 5.0)
 
     def test_the_last_solution_is_not_changed(self) -> None:
         result = self.model.solve("parallel_travel", columns=["left_toe_deg"])
