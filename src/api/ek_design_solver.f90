@@ -53,7 +53,7 @@ contains
 
       call read_checked(deck, solver%design, solver%raw, error)
       if (allocated(error)) return
-      solver%x = solver%design%parameters%x
+      solver%x = solver%design%parameters%x(:solver%design%parameters%used)
       solver%design%cases%has_all = .true.
       solver%is_realised = .true.
       allocate (tests(0))

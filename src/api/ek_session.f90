@@ -3,7 +3,7 @@ module ek_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage
-   use ek_text, only: quoted
+   use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, read_deck, parse_deck, set_value, deck_checksum
    use ek_parameter, only: choice_t, find_parameters
    use ek_case_result, only: solve_options_t
@@ -16,7 +16,7 @@ module ek_session
    implicit none(type, external)
    private
    public :: session_t, prepared_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, take_new_numbers
-   public :: changed_deck, checksum_of
+   public :: changed_deck, checksum_of, without_option
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -122,6 +122,7 @@ contains
       end if
       trial = session%deck
       call set_value(trial, path, shortest(value), error)
+      call without_option(error)
       if (allocated(error)) return
       call find_parameters(session%solver%design%parameters, session%solver%design%records, path, found)
       if (size(found) == 0) then
@@ -151,6 +152,7 @@ contains
       call changed_deck(session, changed, error)
       if (.not. allocated(error)) call set_value(changed, path, text, error)
       if (.not. allocated(error)) call begin(changed, session, error)
+      call without_option(error)
       if (.not. allocated(error)) session%is_text_changed = .true.
    end subroutine take_text
 
@@ -173,6 +175,8 @@ contains
       if (size(found) == 0) then
          trial = session%deck
          call set_value(trial, path, '1', error)           ! its message says what is wrong with the path
+         if (allocated(error)) call replace(error%message, '=1: ', ': ')
+         call without_option(error)
          if (.not. allocated(error)) call fail(error, exit_usage, quoted(path)//' leads to no number that can be read')
       end if
       do j = 1, size(found)
@@ -235,6 +239,12 @@ contains
       deck = session%deck
       call apply_settings(session%numbers, session%solver%design, deck, error)
    end subroutine changed_deck
+
+   !> A message on a setting names its path without the option of the command line.
+   subroutine without_option(error)
+      type(error_t), allocatable, intent(inout) :: error
+      if (allocated(error)) call replace(error%message, '--set ', '')
+   end subroutine without_option
 
    !> The checksum of the deck with its present numbers.
    subroutine checksum_of(session, digits, error)

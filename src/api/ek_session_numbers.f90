@@ -7,7 +7,7 @@ module ek_session_numbers
    use ek_case, only: case_t
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, lost_states
    use ek_design_solver, only: design_solver_t, begin_design_solver, settle_fully, settle_again, report_cases
-   use ek_session, only: session_t, take_new_numbers, changed_deck
+   use ek_session, only: session_t, without_option, take_new_numbers, changed_deck
    implicit none(type, external)
    private
    public :: read_key_numbers
@@ -68,6 +68,7 @@ contains
       call changed_deck(session, changed, error)
       if (.not. allocated(error)) call begin_design_solver(changed, other, error)
       if (.not. allocated(error)) call read_of(other, named, is_done)
+      call without_option(error)
 
    contains
 

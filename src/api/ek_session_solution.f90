@@ -15,7 +15,7 @@ module ek_session_solution
    use ek_sweep_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
    use ek_design_solver, only: design_solver_t, begin_design_solver, solve_case_fully, solve_case_again, heads_of_case, case_number
-   use ek_session, only: session_t, prepared_t, take_new_numbers, changed_deck
+   use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
    private
    public :: solve, result_of, read_remark, compliance_at
@@ -86,6 +86,7 @@ contains
          if (.not. allocated(error)) call find_case(name, session%other, session%deck%file, k, error)
          if (.not. allocated(error)) call prepare(session%other, k, asked, prepared, error)
          if (.not. allocated(error)) call solve_case_fully(k, prepared%options, session%other, is_done, error)
+         call without_option(error)
          if (allocated(error)) return
       end if
       session%solved = k
