@@ -1,6 +1,7 @@
 !> A text with one change, for tests that read many variants of one file. In a change | stands for a line end,
 !> ~ for a carriage return, ^ for a tab.
 module ek_changed_text
+   use ek_buffer, only: buffer_t
    use ek_error, only: error_t
    use ek_file, only: read_whole
    implicit none(type, external)
@@ -60,16 +61,17 @@ contains
    pure function all_ends(text, ends) result(changed)
       character(*), intent(in) :: text, ends
       character(:), allocatable :: changed
+      type(buffer_t) :: buffer
       integer :: k
 
-      changed = ''
       do k = 1, len(text)
          if (text(k:k) == new_line('a')) then
-            changed = changed//ends
+            call buffer%add(ends)
          else
-            changed = changed//text(k:k)
+            call buffer%add(text(k:k))
          end if
       end do
+      changed = buffer%text()
    end function all_ends
 
 end module ek_changed_text
