@@ -15,6 +15,7 @@ module ek_run_numbers
    use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, lost_states
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, load_deck, chosen_cases, examine_chosen
+   use ek_console, only: print_model_remarks
    implicit none(type, external)
    private
    public :: run_numbers, split_names
@@ -101,6 +102,7 @@ contains
       call examine_chosen(settings%file, suspension, pack_cases(chosen, is_needed), found, error)
       if (.not. allocated(error)) call balance(suspension, default_tolerance, error)     ! as in a report
       if (allocated(error)) return
+      call print_model_remarks(.true., suspension, cases, pack_cases(chosen, is_needed))     ! warnings, no notes
       allocate (is_solvable(size(chosen)), source=.true.)
       is_solvable = unpack(found%is_solvable, is_needed, is_solvable)
       call read_numbers(numbers, suspension, chosen, values, is_whole, is_solvable)
