@@ -32,7 +32,8 @@ enum {
   EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside its range; a null pointer */
   EK_DECK = 2,        /* mistakes of the deck, or a value outside its legal range: all of them in the message */
   EK_MODEL = 3,       /* a mechanism, or redundant constraints: nothing was solved */
-  EK_CONVERGENCE = 4, /* some states did not converge: their rows have converged = 0 and NaN; the others are good */
+  EK_CONVERGENCE = 4, /* some states did not converge: their rows have converged = 0 and NaN, key numbers that need them are NaN;
+                         the others are good */
   EK_FILE = 5         /* a file cannot be read, or memory does not suffice */
 };
 
@@ -50,6 +51,13 @@ const char *ek_name(ek_model *model);               /* of the model */
 const char *ek_checksum(ek_model *model);           /* of the deck with its present numbers, 16 hexadecimal digits */
 int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
 
+/* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
+ * touches the ground, implausible values ("plausible? …"), preloads found by balance, or why no case can be solved. ek_model_remarks examines
+ * the model with its present numbers, solves no case, and stores how many there are; the list stays until it is called again ---- */
+int ek_model_remarks(ek_model *model, int *count);
+const char *ek_model_remark_text(ek_model *model, int k);
+const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
+
 /* ---- parameters: every number of the deck ---- */
 int ek_parameter_count(ek_model *model);
 const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
@@ -65,7 +73,7 @@ int ek_set(ek_model *model, const char *path, double value);        /* path as -
 int ek_set_text(ek_model *model, const char *path, const char *text);  /* "*1.1", "+2", or a word */
 int ek_reset(ek_model *model);                      /* all numbers and texts as opened */
 
-/* ---- cases: those of the deck, then the standard tests that it does not have ---- */
+/* ---- cases: those of the deck, then the standard tests that it does not have (the grid travel_and_steering with a &steering group) ---- */
 int ek_case_count(ek_model *model);
 const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);
@@ -88,12 +96,23 @@ const char *ek_remark_severity(ek_model *model, int k);      /* "note", "warning
 
 /* compliance matrix at a state of the last solution: 6 x wheels squared, row after row: rows displacements and rotations of each
  * wheel centre (x y z [m], rx ry rz [rad]), columns the loads there (fx fy fz [N], mx my mz [N m]); frame of the deck;
- * the vertical force on all wheels is held */
+ * the vertical force on all wheels is held. EK_USAGE after ek_numbers of numbers that were changed since the solution */
 int ek_compliance(ek_model *model, int row, int n, double *values);
+
+/* exact derivatives of columns in a row of the last solution with respect to numbers of the deck [unit of the column per unit of the
+ * number]: n_columns x n_numbers, a row for each column. Nothing is solved again; the motion of the state, settling and balance are
+ * included. columns: of the case, whether asked in ek_solve or not, or entries of the compliance matrix (as in the files of
+ * run --compliance). paths: as in ek_set, each of one number, or of both sides of a mirrored axle. errors: estimates of the errors, or
+ * NULL. NaN: the state did not converge, the column has no value there, or the number cannot move. Needs method equilibrium. After
+ * a first call with these columns and paths a further one, of another design, makes no text and is faster */
+int ek_derivatives(ek_model *model, int row, int n_columns, const char *const *columns, int n_numbers, const char *const *paths,
+                   double *values, double *errors);
 
 /* ---- key numbers, as in key_numbers.csv of the report ---- */
 /* the numbers with these names; only the tests that they need are solved. On an axle a name begins with left_ or right_, unless the
- * number is one of the axle. The last solution (ek_values) is not changed. */
+ * number is one of the axle. The last solution (ek_values) is not changed. EK_CONVERGENCE: some are NaN, because they need a state
+ * that was not found (states outside the window of a slope do not matter) or because the model does not define them; the message
+ * names them. The others are good. */
 int ek_numbers(ek_model *model, int n, const char *const *names, double *values);
 int ek_number_count(ek_model *model);               /* all names; solves nothing, so one of them may have no value */
 const char *ek_number_name(ek_model *model, int k);

@@ -3,8 +3,8 @@
 #
 # The machine is a minimal Debian or Ubuntu of the same release in a temporary folder, entered by chroot: `dpkg -i` and the packages
 # it depends on, `elastokin --version`, the man pages, a deck of the library, a user without rights; then the package is purged and
-# nothing of it may be left, and the program of the tarball runs. Requires root, mmdebstrap or debootstrap, and the network; status 77
-# where one of these is missing.
+# nothing of it may be left, and the program of the tarball runs. Requires root with the right to mount, mmdebstrap or debootstrap,
+# and the network; status 77 where one of these is missing.
 # shellcheck disable=SC1091,SC2016     # /etc/os-release; expanded inside
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,7 +20,8 @@ if [ "$(. /etc/os-release && echo "$ID")" = ubuntu ]; then components=main,unive
 
 work=$(mktemp -d)
 root=$work/root
-trap 'rm -rf "$work"' EXIT
+end() { umount -l "$root/proc" 2>/dev/null || true; rm -rf --one-file-system "$work"; }
+trap end EXIT
 fail() { echo "check_packages: $1" >&2; exit 1; }
 
 # The program of the build runs here: a LAPACK that no package has would fail below
@@ -45,6 +46,8 @@ esac; then
   skip 'a fresh system could not be made'
 fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
+# as on any machine: the loader takes from /proc where a program lies, and its private library beside it
+mount -t proc proc "$root/proc" 2>/dev/null || mount --bind /proc "$root/proc" || skip '/proc cannot be mounted'
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 apt() { inside apt-get -qq -o Acquire::Check-Valid-Until=false --no-install-recommends "$@" >"$work/apt.log" 2>&1 || { cat "$work/apt.log"; fail "apt-get $*"; }; }
 apt update
@@ -69,6 +72,9 @@ done
 inside elastokin --version | tee "$work/version"
 [ "$(head -n 1 "$work/version")" = "elastokin $version" ] || fail 'another version'
 grep -q '^LAPACK  *[^ ]' "$work/version" || fail 'no LAPACK'
+# the instruction set of packs is that of the program in the build folder: its private library came along, in all copies
+has_same_packs() { [ "$(sed -n 's/^packs  *//p' "$1")" = "$("$build/bin/elastokin" --version | sed -n 's/^packs  *//p')" ]; }
+has_same_packs "$work/version" || fail 'packs run on other instructions than in the build folder'
 for page in elastokin $(inside elastokin --help | sed -n 's/^  \([a-z]*\) .*/elastokin-\1/p'); do
   inside env MANWIDTH=100 man "$page" >"$work/page" 2>"$work/page.log" || { cat "$work/page.log"; fail "man $page"; }
   [ ! -s "$work/page.log" ] || { cat "$work/page.log"; fail "man $page has warnings"; }
@@ -94,7 +100,9 @@ left=$(find "$root" -xdev -name '*elastokin*' -not -path "$root/packages/*" -not
 # the tarball, below any folder
 mkdir "$root/opt/elastokin"
 tar -xzf "$tarball" -C "$root/opt/elastokin" --strip-components=1
-[ "$(inside /opt/elastokin/bin/elastokin --version | head -n 1)" = "elastokin $version" ] || fail 'the program of the tarball'
+inside /opt/elastokin/bin/elastokin --version >"$work/version"
+[ "$(head -n 1 "$work/version")" = "elastokin $version" ] || fail 'the program of the tarball'
+has_same_packs "$work/version" || fail 'packs of the tarball run on other instructions than in the build folder'
 inside /opt/elastokin/bin/elastokin check /opt/elastokin/share/elastokin/input/mcpherson_axle/mcpherson_axle.nml >/dev/null
 inside env MANPATH=/opt/elastokin/share/man man elastokin >"$work/page"
 [ -s "$work/page" ] || fail 'the man page of the tarball'

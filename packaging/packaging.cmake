@@ -36,6 +36,28 @@ License: BSD-3-Clause
 License: BSD-3-Clause-Kuo-Joe
  @ek_numbers@
 ")
+# OpenBLAS in the programs, with its LAPACK, comes with both licences, as the system has them:
+# …/openblas-pthread/libopenblas.a is of the package libopenblas-pthread-dev
+get_target_property(ek_archive elastokin EK_BLAS_ARCHIVE)
+if(ek_archive)
+  file(REAL_PATH ${ek_archive} ek_archive)
+  cmake_path(GET ek_archive PARENT_PATH ek_archive)
+  cmake_path(GET ek_archive FILENAME ek_archive)
+  foreach(library blas lapack)
+    string(TOUPPER ${library} key)
+    set(ek_documents_of_blas lib${ek_archive}-dev libopenblas-dev)
+    set(ek_documents_of_lapack liblapack-pic liblapack-dev liblapack3)
+    list(TRANSFORM ek_documents_of_${library} PREPEND /usr/share/doc/)
+    find_file(EK_${key}_LICENCE NAMES copyright PATHS ${ek_documents_of_${library}} NO_DEFAULT_PATH
+      DOC "Licence of the ${library} in the programs, for packages")
+    if(EK_${key}_LICENCE)
+      install(FILES ${EK_${key}_LICENCE} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime RENAME copyright.${library})
+    else()
+      message(STATUS "Packages: the licence of the ${library} in the programs was not found; name its file by "
+        "-DEK_${key}_LICENCE=…, or take the shared library by -DEK_STATIC_BLAS=OFF")
+    endif()
+  endforeach()
+endif()
 install(FILES README.md CHANGELOG.md CITATION.cff ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY input DESTINATION ${CMAKE_INSTALL_DATADIR}/elastokin COMPONENT runtime)      # the library of decks, and their manual
 if(TARGET elastokin-mpi)      # the same program: its page refers to that of elastokin
@@ -80,6 +102,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+if(TARGET ek_loaded_lanes)     # a library of the programs alone, in the package that the others depend on
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib/elastokin)
+endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 string(JOIN "\n" ek_description
   "elastokin reads a deck of hardpoints, joints, bushings, springs and load cases"

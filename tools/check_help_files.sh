@@ -36,9 +36,9 @@ plain() { sed -e 's/\\-/-/g' "$1"; }
 for command in "${commands[@]}"; do
   page=$pages/elastokin-$command.1
   [ -s "$page" ] || { bad "no page of $command"; continue; }
-  plain "$pages/elastokin.1" | grep -q "^.BR elastokin-$command (1)" || bad "elastokin.1 without $command"
+  plain "$pages/elastokin.1" | grep "^.BR elastokin-$command (1)" >/dev/null || bad "elastokin.1 without $command"
   for option in $(options_of "$command"); do
-    plain "$page" | grep -qE "^\.BI? $option( |$)" || bad "elastokin-$command.1 without $option"
+    plain "$page" | grep -E "^\.BI? $option( |$)" >/dev/null || bad "elastokin-$command.1 without $option"
   done
   if grep -Pzoq '\.TP\n\.BI? [^\n]*\n(\n|\.TP|\.SH)' "$page"; then bad "elastokin-$command.1: an option without a description"; fi
 done

@@ -86,6 +86,7 @@ of course  =>  ordinary English
 in other words  =>  ordinary English
 looks? like  =>  a remark names the likely cause
 anti[- ]lift|drive lift|brake lift  =>  names of quantities
+sway bar  =>  the glossary: American for anti-roll bar
 wheel lift in steer  =>  name of a quantity
 keywords?  =>  not the word list
 MemTotal  =>  a name of Linux

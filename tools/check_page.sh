@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_page.sh PAGE.html...: opens each page in headless Chromium, at desktop and at phone width. Status 1 if a
-# page writes to the console, requests anything but itself, contains a script or a duplicate id, or is wider than a phone.
+# page writes to the console, requests anything but itself, loads a script or has a duplicate id, or is wider than a phone.
 #
 # No network access: names are not resolved.
 set -uo pipefail
@@ -52,7 +52,7 @@ for page in "$@"; do
   [ -n "$said" ] && bad+=" $said;"
   asked=$(requests)
   [ -n "$asked" ] && bad+=" requests $asked;"
-  grep -qi '<script' "$work/dom.html" && bad+=" contains a script;"
+  grep -qi '<script[^>]* src' "$work/dom.html" && bad+=" loads a script;"
   twice=$(grep -oE " id=[\"'][^\"']*" "$work/dom.html" | sort | uniq -d | head -3)
   [ -n "$twice" ] && bad+=" duplicate ids:$twice;"
 

@@ -57,7 +57,7 @@ check_all() {
   has_font || lacks fonts-dejavu-core 'a font for the figures'
   local package
   for package in "$@"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || lacks "$package" "$package"
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep 'ok installed' >/dev/null || lacks "$package" "$package"
   done
 }
 

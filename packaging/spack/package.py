@@ -36,6 +36,8 @@ class Elastokin(CMakePackage):
             self.define_from_variant("EK_NETCDF", "netcdf"),
             self.define_from_variant("EK_NATIVE", "native"),
             self.define("BUILD_TESTING", self.run_tests),
+            # Spack says which BLAS runs
+            self.define("EK_STATIC_BLAS", False),
             # Spack's compiler wrappers and fat objects of another binutils do not mix
             self.define("EK_IPO", False),
         ]

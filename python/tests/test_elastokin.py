@@ -56,6 +56,45 @@ class Opening(unittest.TestCase):
             Model()
 
 
+    def bad_corner(self) -> str:
+        """The corner without its spring, with its contact point 20 mm below the ground."""
+        text = CORNER.read_text()
+        for old, new in (("\n&spring", "\n! &spring"), ("\n        rate = 30.0, preload", "\n! rate = 30.0, preload"),
+                         ("0.0, -750.0, -310.0", "0.0, -750.0, -330.0")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        return text
+
+    def test_a_model_with_remarks_warns_once(self) -> None:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            model = Model.from_text(self.bad_corner(), str(CORNER))
+            copies = [model.copy(), pickle.loads(pickle.dumps(model))]
+            model.solve("wheel_travel_sweep", columns=["toe_deg"])
+        ours = [w for w in caught if issubclass(w.category, elastokin.ModelWarning)]
+        self.assertEqual(len(ours), 1)
+        self.assertEqual(ours[0].filename, __file__)
+        self.assertEqual(str(ours[0].message), "\n".join(model.remarks))
+        self.assertEqual(len(model.remarks), 2)
+        self.assertIn("contact point", model.remarks[0])
+        self.assertTrue(model.remarks[1].startswith("the deck has no spring"))
+        self.assertEqual(copies[0].remarks, model.remarks)
+
+    def test_a_sound_model_has_no_remarks_and_no_warning(self) -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with Model.from_file(AXLE) as model:
+                self.assertEqual(model.remarks, [])
+                model["wheel.left.radius"] = 250
+                self.assertTrue(model.remarks)
+
+    def test_a_warning_may_be_an_error(self) -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", elastokin.ModelWarning)
+            with self.assertRaisesRegex(elastokin.ModelWarning, "no spring"):
+                Model.from_text(self.bad_corner(), str(CORNER))
+
+
 class Numbers(unittest.TestCase):
     def setUp(self) -> None:
         self.model = Model.from_file(AXLE)
@@ -187,7 +226,10 @@ class Solving(unittest.TestCase):
         far = AXLE.read_text().replace("&case test = 'parallel_travel', from = -80.0,   to = 80.0 /",
                                        "&case test = 'parallel_travel', from = -80.0, to = 600.0 /")
         self.assertNotEqual(far, AXLE.read_text())
-        with Model.from_text(far, str(AXLE)) as model:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", elastokin.ModelWarning)
+            model = Model.from_text(far, str(AXLE))
+        with model:
             with self.assertWarns(elastokin.ConvergenceWarning):
                 result = model.solve("parallel_travel", columns=["left_toe_deg"])
         self.assertFalse(result.converged)
@@ -212,6 +254,25 @@ class Solving(unittest.TestCase):
             result.compliance(1)
         with self.assertRaises(IndexError):
             kept.compliance(len(kept))
+
+    def test_derivatives_are_those_of_changed_models(self) -> None:
+        column, number, step = "left_toe_deg", "point.tie_rod_inner.z", 0.1
+        result = self.model.solve("parallel_travel", columns=[column])
+        found = result.derivatives([column, "patch_left_y_by_left_fy_mm_per_kn"], [number, "bushing.lca_front.kt(1)"], 3)
+        self.assertEqual(found.values.shape, (2, 2))
+        self.assertLess(found.errors[0, 0], 1e-6 * abs(found.values[0, 0]))
+        ends = []
+        for sign in (-1, 1):
+            other = self.model.copy()
+            other[number] = other[number] + sign * step
+            ends.append(other.solve("parallel_travel", columns=[column])[column][3])
+        self.assertAlmostEqual(found.values[0, 0], (ends[1] - ends[0]) / (2 * step), delta=1e-5 * abs(found.values[0, 0]))
+        with self.assertRaisesRegex(elastokin.UsageError, "left_to_deg"):
+            result.derivatives("left_to_deg", number, 3)
+        self.model[number] = self.model[number] + 1.0
+        self.model.numbers("left_wheel_rate")
+        with self.assertRaisesRegex(elastokin.UsageError, "solve again"):
+            result.derivatives(column, number, 3)
 
     def test_the_last_result_can_be_pickled(self) -> None:
         result = pickle.loads(pickle.dumps(self.model.solve("parallel_travel", columns=["left_toe_deg"], compliance=True)))
@@ -251,12 +312,16 @@ class KeyNumbers(unittest.TestCase):
         self.assertEqual(set(every), set(self.model.number_units))
         self.assertEqual(set(every), set(self.model.number_definitions))
 
-    def test_a_key_number_of_a_path_that_lost_states_has_a_warning(self) -> None:
+    def test_a_key_number_that_lost_states_is_nan_with_a_warning_that_names_it(self) -> None:
         far = AXLE.read_text().replace("from = -75.0,   to = 75.0 /", "from = -75.0, to = 700.0 /")
         self.assertNotEqual(far, AXLE.read_text())
-        with Model.from_text(far, str(AXLE)) as model, self.assertWarns(elastokin.ConvergenceWarning):
-            numbers = model.numbers("smallest_turning_circle_m")
-        self.assertGreater(numbers["smallest_turning_circle_m"], 5.0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", elastokin.ModelWarning)
+            model = Model.from_text(far, str(AXLE))
+        with model, self.assertWarnsRegex(elastokin.ConvergenceWarning, "no value of smallest_turning_circle_m$"):
+            numbers = model.numbers("smallest_turning_circle_m", "left_bump_toe")
+        self.assertTrue(math.isnan(numbers["smallest_turning_circle_m"]))
+        self.assertEqual(numbers["left_bump_toe"], self.model.numbers("left_bump_toe")["left_bump_toe"])
 
     def test_the_last_solution_is_not_changed(self) -> None:
         result = self.model.solve("parallel_travel", columns=["left_toe_deg"])

@@ -4,11 +4,14 @@
 !>     type(session_t), target :: session
 !>     type(case_result_t), pointer :: result
 !>     type(error_t), allocatable :: error
+!>     type(model_remarks_t) :: remarks
 !>     call open_file('axle.nml', session, error)
+!>     call find_remarks(session, remarks, error)                                remarks%warnings, remarks%doubts: as run prints them
 !>     call set_number(session, 'bushing.lca_front.kt(1)', 500.0_wp, error)      in the unit of the deck, as --set
 !>     call solve(session, 'parallel_travel', error)
 !>     result => result_of(session)
 !>     toe = column(result%table, 'left_toe_deg')
+!>     call find_slopes(session, row, columns, paths, slopes, errors, error)     exact derivatives in a row of the solution
 !>
 !> `error` has the message and the exit status of the program for the same fault; look at it after every call. Nothing is printed,
 !> nothing is kept outside the session: different sessions may be used by different threads at a time. gfortran keeps the length of a
@@ -21,10 +24,14 @@ module ek_api
    use ek_case_result, only: case_result_t
    use ek_session, only: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, checksum_of
    use ek_session_solution, only: solve, result_of, read_remark, compliance_at
+   use ek_session_derivatives, only: find_slopes
    use ek_session_numbers, only: read_key_numbers
+   use ek_session_remarks, only: find_remarks
+   use ek_model_remark, only: model_remarks_t, read_model_remark
    implicit none(type, external)
    private
    public :: wp, error_t, table_t, column, column_index, case_result_t, session_t, open_file, open_text, set_number, set_text, &
-      get_number, set_all, reset, checksum_of, solve, result_of, read_remark, compliance_at, read_key_numbers
+      get_number, set_all, reset, checksum_of, solve, result_of, read_remark, compliance_at, find_slopes, &
+      read_key_numbers, find_remarks, model_remarks_t, read_model_remark
 
 end module ek_api

@@ -1,12 +1,14 @@
 !> What the C interface keeps for one ek_model: a session, the last message, and the texts that were returned last.
 module ek_c_handle
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_loc, c_null_char, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, c_ptr, c_size_t
    use ek_error, only: error_t, message_list_t, exit_usage
    use ek_text, only: str
+   use ek_table, only: name_length
    use ek_session, only: session_t
+   use ek_model_remark, only: model_remarks_t
    implicit none(type, external)
    private
-   public :: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position
+   public :: handle_t, handle_of, open_handle, take_handle, take_array, take_names, finish, refuse, say, from_c, is_position
 
    integer(c_int), parameter, public :: ek_ok = 0_c_int      !! the other codes are the exit_… of ek_error
 
@@ -24,6 +26,7 @@ module ek_c_handle
       type(text_t) :: texts(kept)                            !! returned last, with their '\0'
       integer :: last = 0                                    !! of them
       type(message_list_t) :: number_names, number_units, number_definitions      !! of key numbers, made when asked for
+      type(model_remarks_t) :: remarks                       !! on the model, when they were last asked for
    end type handle_t
 
    interface
@@ -46,15 +49,67 @@ contains
       if (c_associated(model)) call c_f_pointer(model, handle)
    end function handle_of
 
-   !> Whether a handle has a deck. If it could not be read, the message of opening stays.
-   logical function is_usable(handle)
-      type(handle_t), pointer, intent(in) :: handle
+   !> The handle of a model with a deck, and no message; not associated for NULL, or if the deck could not be read: then the message
+   !> of opening stays.
+   function open_handle(model) result(handle)
+      type(c_ptr), intent(in) :: model
+      type(handle_t), pointer :: handle
 
-      is_usable = .false.
+      handle => handle_of(model)
       if (.not. associated(handle)) return
-      is_usable = handle%is_open
-      if (is_usable) handle%message = c_null_char
-   end function is_usable
+      if (handle%is_open) then
+         handle%message = c_null_char
+      else
+         nullify (handle)
+      end if
+   end function open_handle
+
+   !> As open_handle for a call that returns a code: not ek_ok if there is no deck.
+   subroutine take_handle(model, handle, code)
+      type(c_ptr), intent(in) :: model
+      type(handle_t), pointer, intent(out) :: handle
+      integer(c_int), intent(out) :: code
+
+      handle => open_handle(model)
+      code = ek_ok
+      if (.not. associated(handle)) code = refuse(handle_of(model), '')
+   end subroutine take_handle
+
+   !> An array of a caller, which must have `wanted` numbers; otherwise the message says so.
+   subroutine take_array(handle, values, n, wanted, message, place, code)
+      type(handle_t), pointer, intent(in) :: handle
+      type(c_ptr), intent(in) :: values
+      integer(c_int), intent(in) :: n
+      integer, intent(in) :: wanted
+      character(*), intent(in) :: message
+      real(c_double), pointer, intent(out) :: place(:)
+      integer(c_int), intent(inout) :: code
+
+      nullify (place)
+      if (n == wanted .and. c_associated(values)) then
+         call c_f_pointer(values, place, [n])
+      else
+         code = refuse(handle, message)
+      end if
+   end subroutine take_array
+
+   !> A list of n names of a caller.
+   subroutine take_names(names, n, found)
+      type(c_ptr), intent(in) :: names                       !! not NULL if n > 0
+      integer(c_int), intent(in) :: n
+      character(name_length), allocatable, intent(out) :: found(:)
+      type(c_ptr), pointer :: addresses(:)
+      character(:), allocatable :: text
+      integer :: k
+
+      allocate (found(n))
+      if (n == 0) return
+      call c_f_pointer(names, addresses, [n])
+      do k = 1, n
+         call from_c(addresses(k), text)
+         found(k) = text
+      end do
+   end subroutine take_names
 
    !> Keeps the message of a call; the code for the caller.
    integer(c_int) function finish(handle, error) result(code)
@@ -93,13 +148,15 @@ contains
    end function say
 
    !> Whether a position from 0 is inside a list; if not, the message says so.
-   logical function is_position(handle, k, count)
+   logical function is_position(handle, k, count, code)
       type(handle_t), pointer, intent(in) :: handle
       integer(c_int), intent(in) :: k
       integer, intent(in) :: count
+      integer(c_int), intent(inout), optional :: code        !! of the call
 
       is_position = k >= 0 .and. k < count
       if (is_position) return
+      if (present(code)) code = int(exit_usage, c_int)
       !$omp critical (ek_words)
       handle%message = 'position '//str(int(k))//' lies outside the list, which has '//str(count)//' entries'//c_null_char
       !$omp end critical (ek_words)

@@ -5,7 +5,7 @@ module ek_c_model
    use ek_version, only: version
    use ek_threads, only: use_one_thread
    use ek_session, only: open_file, open_text, checksum_of
-   use ek_c_handle, only: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position, ek_ok
+   use ek_c_handle, only: handle_t, handle_of, open_handle, finish, say, from_c, is_position, ek_ok
    implicit none(type, external)
    private
    public :: ek_version_text, ek_use_one_thread, ek_open_file, ek_open_text, ek_close, ek_message, ek_name, ek_checksum, &
@@ -115,9 +115,9 @@ contains
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       address = c_null_ptr
-      if (.not. is_usable(handle)) return
+      if (.not. associated(handle)) return
       address = say(handle, handle%session%solver%raw%name)
    end function ek_name
 
@@ -127,9 +127,9 @@ contains
       type(error_t), allocatable :: error
       character(16) :: digits
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       address = c_null_ptr
-      if (.not. is_usable(handle)) return
+      if (.not. associated(handle)) return
       call checksum_of(handle%session, digits, error)
       if (finish(handle, error) == ek_ok) address = say(handle, digits)
    end function ek_checksum
@@ -138,18 +138,18 @@ contains
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       count = 0
-      if (is_usable(handle)) count = int(size(handle%session%solver%raw%wheels), c_int)
+      if (associated(handle)) count = int(size(handle%session%solver%raw%wheels), c_int)
    end function ek_wheel_count
 
    integer(c_int) function ek_case_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       count = 0
-      if (is_usable(handle)) count = int(size(handle%session%solver%cases), c_int)
+      if (associated(handle)) count = int(size(handle%session%solver%cases), c_int)
    end function ek_case_count
 
    type(c_ptr) function ek_case_name(model, k) bind(c) result(address)
@@ -157,9 +157,9 @@ contains
       integer(c_int), value :: k
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       address = c_null_ptr
-      if (.not. is_usable(handle)) return
+      if (.not. associated(handle)) return
       if (is_position(handle, k, size(handle%session%solver%cases))) &
          address = say(handle, handle%session%solver%cases(k + 1)%case%name)
    end function ek_case_name
@@ -169,9 +169,9 @@ contains
       integer(c_int), value :: k
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       answer = 0
-      if (.not. is_usable(handle)) return
+      if (.not. associated(handle)) return
       if (is_position(handle, k, size(handle%session%solver%cases))) &
          answer = merge(1_c_int, 0_c_int, handle%session%solver%cases(k + 1)%number > 0)
    end function ek_case_is_of_deck

@@ -1,13 +1,13 @@
 !> The C interface (include/elastokin.h): key numbers of the report by name.
 module ek_c_numbers
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
-   use ek_error, only: error_t, message_list_t
+   use ek_error, only: error_t
    use ek_case, only: case_t
    use ek_table, only: name_length
    use ek_design_solver, only: report_cases
-   use ek_named_numbers, only: list_numbers
+   use ek_number_names, only: list_numbers
    use ek_session_numbers, only: read_key_numbers
-   use ek_c_handle, only: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position
+   use ek_c_handle, only: handle_t, open_handle, take_handle, take_names, finish, refuse, say, is_position, ek_ok
    implicit none(type, external)
    private
    public :: ek_numbers, ek_number_count, ek_number_name, ek_number_unit, ek_number_definition
@@ -19,24 +19,17 @@ contains
       integer(c_int), value :: n
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
-      type(c_ptr), pointer :: addresses(:)
       real(c_double), pointer :: place(:)
       character(name_length), allocatable :: wanted(:)
-      character(:), allocatable :: text
-      integer :: k
 
-      handle => handle_of(model)
-      code = refuse(handle, 'n must be positive, and names and values must not be NULL')
-      if (.not. is_usable(handle)) return
-      code = refuse(handle, 'n must be positive, and names and values must not be NULL')
-      if (n <= 0 .or. .not. c_associated(names) .or. .not. c_associated(values)) return
-      call c_f_pointer(names, addresses, [n])
+      call take_handle(model, handle, code)
+      if (code /= ek_ok) return
+      if (n <= 0 .or. .not. c_associated(names) .or. .not. c_associated(values)) then
+         code = refuse(handle, 'n must be positive, and names and values must not be NULL')
+         return
+      end if
+      call take_names(names, n, wanted)
       call c_f_pointer(values, place, [n])
-      allocate (wanted(n))
-      do k = 1, n
-         call from_c(addresses(k), text)
-         wanted(k) = text
-      end do
       call read_key_numbers(handle%session, wanted, place, error)
       code = finish(handle, error)
    end function ek_numbers
@@ -45,9 +38,9 @@ contains
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       count = 0
-      if (.not. is_usable(handle)) return
+      if (.not. associated(handle)) return
       call list(handle)
       count = int(handle%number_names%count(), c_int)
    end function ek_number_count
@@ -55,19 +48,19 @@ contains
    type(c_ptr) function ek_number_name(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_number(handle_of(model), k, 'name')
+      address = text_of_number(open_handle(model), k, 'name')
    end function ek_number_name
 
    type(c_ptr) function ek_number_unit(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_number(handle_of(model), k, 'unit')
+      address = text_of_number(open_handle(model), k, 'unit')
    end function ek_number_unit
 
    type(c_ptr) function ek_number_definition(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_number(handle_of(model), k, 'definition')
+      address = text_of_number(open_handle(model), k, 'definition')
    end function ek_number_definition
 
    !> Makes the list of the deck that is open.
@@ -88,7 +81,7 @@ contains
       character(*), intent(in) :: what
 
       address = c_null_ptr
-      if (.not. is_usable(handle)) return
+      if (.not. associated(handle)) return
       if (handle%number_names%count() == 0) call list(handle)
       if (.not. is_position(handle, k, handle%number_names%count())) return
       !$omp critical (ek_words)

@@ -1,12 +1,12 @@
 !> The C interface (include/elastokin.h): the numbers of a model, by position and by path.
 module ek_c_parameters
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
-   use ek_error, only: error_t, exit_usage
+   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_null_ptr, c_ptr
+   use ek_error, only: error_t
    use ek_parameter, only: parameter_path
    use ek_factor_unit, only: parameter_unit
    use ek_session, only: set_number, set_text, get_number, set_all, reset
-   use ek_c_handle, only: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position, ek_ok
+   use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, finish, say, from_c, is_position, ek_ok
    implicit none(type, external)
    private
    public :: ek_parameter_count, ek_parameter_path, ek_parameter_unit, ek_parameter_is_given, ek_parameter_twin, ek_get_at, &
@@ -14,13 +14,28 @@ module ek_c_parameters
 
 contains
 
+   !> The handle of a model that has a parameter k.
+   function handle_at(model, k, code) result(handle)
+      type(c_ptr), intent(in) :: model
+      integer(c_int), intent(in) :: k
+      integer(c_int), intent(out), optional :: code
+      type(handle_t), pointer :: handle
+      integer(c_int) :: found
+
+      call take_handle(model, handle, found)
+      if (found == ek_ok) then
+         if (.not. is_position(handle, k, size(handle%session%numbers%x), found)) nullify (handle)
+      end if
+      if (present(code)) code = found
+   end function handle_at
+
    integer(c_int) function ek_parameter_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => open_handle(model)
       count = 0
-      if (is_usable(handle)) count = int(size(handle%session%numbers%x), c_int)
+      if (associated(handle)) count = int(size(handle%session%numbers%x), c_int)
    end function ek_parameter_count
 
    type(c_ptr) function ek_parameter_path(model, k) bind(c) result(address)
@@ -28,10 +43,9 @@ contains
       integer(c_int), value :: k
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => handle_at(model, k)
       address = c_null_ptr
-      if (.not. is_usable(handle)) return
-      if (.not. is_position(handle, k, size(handle%session%numbers%x))) return
+      if (.not. associated(handle)) return
       associate (design => handle%session%solver%design)
          !$omp critical (ek_words)
          address = say(handle, parameter_path(design%parameters%list(k + 1), design%records))
@@ -44,10 +58,9 @@ contains
       integer(c_int), value :: k
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => handle_at(model, k)
       address = c_null_ptr
-      if (.not. is_usable(handle)) return
-      if (.not. is_position(handle, k, size(handle%session%numbers%x))) return
+      if (.not. associated(handle)) return
       !$omp critical (ek_words)
       address = say(handle, parameter_unit(handle%session%solver%design, k + 1))
       !$omp end critical (ek_words)
@@ -58,11 +71,9 @@ contains
       integer(c_int), value :: k
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => handle_at(model, k)
       answer = 0
-      if (.not. is_usable(handle)) return
-      if (is_position(handle, k, size(handle%session%numbers%x))) &
-         answer = merge(1_c_int, 0_c_int, handle%session%solver%design%parameters%list(k + 1)%is_given)
+      if (associated(handle)) answer = merge(1_c_int, 0_c_int, handle%session%solver%design%parameters%list(k + 1)%is_given)
    end function ek_parameter_is_given
 
    integer(c_int) function ek_parameter_twin(model, k) bind(c) result(twin)
@@ -70,11 +81,9 @@ contains
       integer(c_int), value :: k
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
+      handle => handle_at(model, k)
       twin = -1_c_int
-      if (.not. is_usable(handle)) return
-      if (is_position(handle, k, size(handle%session%numbers%x))) &
-         twin = int(handle%session%solver%design%parameters%list(k + 1)%tied, c_int) - 1_c_int
+      if (associated(handle)) twin = int(handle%session%solver%design%parameters%list(k + 1)%tied, c_int) - 1_c_int
    end function ek_parameter_twin
 
    integer(c_int) function ek_get_at(model, k, value) bind(c) result(code)
@@ -83,13 +92,10 @@ contains
       real(c_double), intent(out) :: value
       type(handle_t), pointer :: handle
 
-      handle => handle_of(model)
       value = ieee_value(value, ieee_quiet_nan)
-      code = refuse(handle, '')
-      if (.not. is_usable(handle)) return
-      if (.not. is_position(handle, k, size(handle%session%numbers%x))) return
+      handle => handle_at(model, k, code)
+      if (.not. associated(handle)) return
       value = handle%session%numbers%value(k + 1)
-      code = ek_ok
    end function ek_get_at
 
    integer(c_int) function ek_set_at(model, k, value) bind(c) result(code)
@@ -99,10 +105,8 @@ contains
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
 
-      handle => handle_of(model)
-      code = refuse(handle, '')
-      if (.not. is_usable(handle)) return
-      if (.not. is_position(handle, k, size(handle%session%numbers%x))) return
+      handle => handle_at(model, k, code)
+      if (.not. associated(handle)) return
       call set_all(handle%session, [value], error, first=k + 1)
       code = finish(handle, error)
    end function ek_set_at
@@ -113,8 +117,7 @@ contains
       type(handle_t), pointer :: handle
       real(c_double), pointer :: place(:)
 
-      handle => handle_of(model)
-      call take_array(handle, n, values, place, code)
+      call take_all(model, n, values, handle, place, code)
       if (code == ek_ok) place = handle%session%numbers%value
    end function ek_get_all
 
@@ -125,29 +128,25 @@ contains
       type(error_t), allocatable :: error
       real(c_double), pointer :: place(:)
 
-      handle => handle_of(model)
-      call take_array(handle, n, values, place, code)
+      call take_all(model, n, values, handle, place, code)
       if (code /= ek_ok) return
       call set_all(handle%session, place, error)
       code = finish(handle, error)
    end function ek_set_all
 
-   !> The array of a caller, which must have as many numbers as there are parameters.
-   subroutine take_array(handle, n, values, place, code)
-      type(handle_t), pointer, intent(in) :: handle
+   !> The array of a caller for all parameters.
+   subroutine take_all(model, n, values, handle, place, code)
+      type(c_ptr), intent(in) :: model, values
       integer(c_int), intent(in) :: n
-      type(c_ptr), intent(in) :: values
+      type(handle_t), pointer, intent(out) :: handle
       real(c_double), pointer, intent(out) :: place(:)
       integer(c_int), intent(out) :: code
 
       nullify (place)
-      code = refuse(handle, 'the array must have as many numbers as there are parameters (ek_parameter_count)')
-      if (.not. associated(handle)) return
-      if (.not. handle%is_open) return
-      if (n /= size(handle%session%numbers%x) .or. .not. c_associated(values)) return
-      call c_f_pointer(values, place, [n])
-      code = ek_ok
-   end subroutine take_array
+      call take_handle(model, handle, code)
+      if (code == ek_ok) call take_array(handle, values, n, size(handle%session%numbers%x), &
+         'the array must have as many numbers as there are parameters (ek_parameter_count)', place, code)
+   end subroutine take_all
 
    integer(c_int) function ek_get(model, path, value) bind(c) result(code)
       type(c_ptr), value :: model, path
@@ -156,10 +155,9 @@ contains
       type(error_t), allocatable :: error
       character(:), allocatable :: name
 
-      handle => handle_of(model)
       value = ieee_value(value, ieee_quiet_nan)
-      code = refuse(handle, '')
-      if (.not. is_usable(handle)) return
+      call take_handle(model, handle, code)
+      if (code /= ek_ok) return
       call from_c(path, name)
       call get_number(handle%session, name, value, error)
       if (allocated(error)) value = ieee_value(value, ieee_quiet_nan)
@@ -173,9 +171,8 @@ contains
       type(error_t), allocatable :: error
       character(:), allocatable :: name
 
-      handle => handle_of(model)
-      code = refuse(handle, '')
-      if (.not. is_usable(handle)) return
+      call take_handle(model, handle, code)
+      if (code /= ek_ok) return
       call from_c(path, name)
       call set_number(handle%session, name, value, error)
       code = finish(handle, error)
@@ -187,9 +184,8 @@ contains
       type(error_t), allocatable :: error
       character(:), allocatable :: name, value
 
-      handle => handle_of(model)
-      code = refuse(handle, '')
-      if (.not. is_usable(handle)) return
+      call take_handle(model, handle, code)
+      if (code /= ek_ok) return
       call from_c(path, name)
       call from_c(text, value)
       call set_text(handle%session, name, value, error)
@@ -201,9 +197,8 @@ contains
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
 
-      handle => handle_of(model)
-      code = refuse(handle, '')
-      if (.not. is_usable(handle)) return
+      call take_handle(model, handle, code)
+      if (code /= ek_ok) return
       call reset(handle%session, error)
       code = finish(handle, error)
    end function ek_reset

@@ -1,20 +1,20 @@
 !> The C interface (include/elastokin.h): solving a case, and the arrays of its results.
 module ek_c_results
-   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_text, only: quoted
    use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
    use ek_response, only: no_column
    use ek_table, only: name_length, column_index
    use ek_case_result, only: case_result_t
    use ek_session_solution, only: solve, result_of, compliance_at, read_remark
-   use ek_c_handle, only: handle_t, handle_of, is_usable, finish, refuse, say, from_c, is_position, ek_ok
+   use ek_session_derivatives, only: find_slopes
+   use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_names, finish, refuse, say, &
+      from_c, is_position, ek_ok
    implicit none(type, external)
    private
    public :: ek_solve, ek_row_count, ek_column_count, ek_column_name, ek_column_unit, ek_column_title, ek_column_sign, ek_values, &
-      ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance
+      ek_column_values, ek_remark_count, ek_remark_text, ek_remark_severity, ek_compliance, ek_derivatives
 
 contains
 
@@ -23,24 +23,16 @@ contains
       integer(c_int), value :: n_columns
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
-      character(:), allocatable :: case, text
+      character(:), allocatable :: case
       character(name_length), allocatable :: names(:)
-      type(c_ptr), pointer :: addresses(:)
-      integer :: k
 
-      handle => handle_of(model)
-      code = refuse(handle, 'n_columns must be 0 or more, and columns must not be NULL')
-      if (.not. associated(handle)) return
-      if (.not. handle%is_open .or. n_columns < 0) return
-      allocate (names(n_columns))
-      if (n_columns > 0) then
-         if (.not. c_associated(columns)) return
-         call c_f_pointer(columns, addresses, [n_columns])
-         do k = 1, n_columns
-            call from_c(addresses(k), text)
-            names(k) = text
-         end do
+      call take_handle(model, handle, code)
+      if (code /= ek_ok) return
+      if (n_columns < 0 .or. (n_columns > 0 .and. .not. c_associated(columns))) then
+         code = refuse(handle, 'n_columns must be 0 or more, and columns must not be NULL')
+         return
       end if
+      call take_names(columns, n_columns, names)
       call from_c(name, case)
       call solve(handle%session, case, error, names)
       code = finish(handle, error)
@@ -48,18 +40,30 @@ contains
 
    !> The last solution; not associated if there is none.
    function solution_of(handle) result(last)
-      type(handle_t), pointer, intent(in) :: handle
+      type(handle_t), pointer, intent(in) :: handle          !! of open_handle
       type(case_result_t), pointer :: last
 
       nullify (last)
-      if (is_usable(handle)) last => result_of(handle%session)
+      if (associated(handle)) last => result_of(handle%session)
    end function solution_of
+
+   !> The last solution for a call that returns a code: not ek_ok if there is none.
+   subroutine take_solution(model, handle, last, code)
+      type(c_ptr), intent(in) :: model
+      type(handle_t), pointer, intent(out) :: handle
+      type(case_result_t), pointer, intent(out) :: last
+      integer(c_int), intent(out) :: code
+
+      call take_handle(model, handle, code)
+      last => solution_of(handle)
+      if (code == ek_ok .and. .not. associated(last)) code = refuse(handle, 'there is no solution')
+   end subroutine take_solution
 
    integer(c_int) function ek_row_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(case_result_t), pointer :: last
 
-      last => solution_of(handle_of(model))
+      last => solution_of(open_handle(model))
       count = 0
       if (associated(last)) count = int(size(last%table%values, 2), c_int)
    end function ek_row_count
@@ -68,7 +72,7 @@ contains
       type(c_ptr), value :: model
       type(case_result_t), pointer :: last
 
-      last => solution_of(handle_of(model))
+      last => solution_of(open_handle(model))
       count = 0
       if (associated(last)) count = int(size(last%table%values, 1), c_int)
    end function ek_column_count
@@ -76,25 +80,25 @@ contains
    type(c_ptr) function ek_column_name(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_column(handle_of(model), k, 'name')
+      address = text_of_column(open_handle(model), k, 'name')
    end function ek_column_name
 
    type(c_ptr) function ek_column_unit(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_column(handle_of(model), k, 'unit')
+      address = text_of_column(open_handle(model), k, 'unit')
    end function ek_column_unit
 
    type(c_ptr) function ek_column_title(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_column(handle_of(model), k, 'title')
+      address = text_of_column(open_handle(model), k, 'title')
    end function ek_column_title
 
    type(c_ptr) function ek_column_sign(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_column(handle_of(model), k, 'sign')
+      address = text_of_column(open_handle(model), k, 'sign')
    end function ek_column_sign
 
    !> Name, unit, title or sign of a column of the last solution.
@@ -134,19 +138,20 @@ contains
       integer(c_int), value :: n
       type(handle_t), pointer :: handle
       type(case_result_t), pointer :: last
-      real(c_double), pointer :: place(:, :)
+      real(c_double), pointer :: place(:)
 
-      handle => handle_of(model)
-      last => solution_of(handle)
-      code = refuse(handle, 'there is no solution')
-      if (.not. associated(last)) return
-      code = refuse(handle, 'the array must have rows x columns numbers (ek_row_count, ek_column_count)')
-      if (n /= size(last%table%values) .or. .not. c_associated(values)) return
-      call c_f_pointer(values, place, shape(last%table%values))
-      place = last%table%values
-      handle%message = achar(0)
-      code = ek_ok
+      call take_solution(model, handle, last, code)
+      if (code == ek_ok) call take_array(handle, values, n, size(last%table%values), &
+         'the array must have rows x columns numbers (ek_row_count, ek_column_count)', place, code)
+      if (code == ek_ok) call put_grid(last%table%values, place)
    end function ek_values
+
+   !> Column after column of a matrix.
+   pure subroutine put_grid(grid, place)
+      real(wp), intent(in) :: grid(:, :)
+      real(c_double), intent(inout) :: place(size(grid, 1), size(grid, 2))
+      place = grid
+   end subroutine put_grid
 
    integer(c_int) function ek_column_values(model, name, n, values) bind(c) result(code)
       type(c_ptr), value :: model, name, values
@@ -157,10 +162,8 @@ contains
       character(:), allocatable :: head
       integer :: k
 
-      handle => handle_of(model)
-      last => solution_of(handle)
-      code = refuse(handle, 'there is no solution')
-      if (.not. associated(last)) return
+      call take_solution(model, handle, last, code)
+      if (code /= ek_ok) return
       call from_c(name, head)
       k = column_index(last%table, head)
       if (k == 0) then
@@ -169,19 +172,16 @@ contains
          !$omp end critical (ek_words)
          return
       end if
-      code = refuse(handle, 'the array must have as many numbers as there are rows (ek_row_count)')
-      if (n /= size(last%table%values, 2) .or. .not. c_associated(values)) return
-      call c_f_pointer(values, place, [n])
-      place = last%table%values(k, :)
-      handle%message = achar(0)
-      code = ek_ok
+      call take_array(handle, values, n, size(last%table%values, 2), &
+         'the array must have as many numbers as there are rows (ek_row_count)', place, code)
+      if (code == ek_ok) place = last%table%values(k, :)
    end function ek_column_values
 
    integer(c_int) function ek_remark_count(model) bind(c) result(count)
       type(c_ptr), value :: model
       type(case_result_t), pointer :: last
 
-      last => solution_of(handle_of(model))
+      last => solution_of(open_handle(model))
       count = 0
       if (associated(last)) count = int(last%remarks%count(), c_int)
    end function ek_remark_count
@@ -189,13 +189,13 @@ contains
    type(c_ptr) function ek_remark_text(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_remark(handle_of(model), k, is_severity=.false.)
+      address = text_of_remark(open_handle(model), k, is_severity=.false.)
    end function ek_remark_text
 
    type(c_ptr) function ek_remark_severity(model, k) bind(c) result(address)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      address = text_of_remark(handle_of(model), k, is_severity=.true.)
+      address = text_of_remark(open_handle(model), k, is_severity=.true.)
    end function ek_remark_severity
 
    !> A remark on the last solution, or its severity.
@@ -222,24 +222,52 @@ contains
       integer(c_int), value :: row, n
       type(handle_t), pointer :: handle
       type(case_result_t), pointer :: last
-      real(c_double), pointer :: place(:, :)
+      real(c_double), pointer :: place(:)
+      type(error_t), allocatable :: error
       real(wp), allocatable :: c(:, :)
       integer :: wide
 
-      handle => handle_of(model)
-      last => solution_of(handle)
-      code = refuse(handle, 'there is no solution')
-      if (.not. associated(last)) return
-      if (.not. is_position(handle, row, size(last%table%values, 2))) return
+      call take_solution(model, handle, last, code)
+      if (code /= ek_ok) return
+      if (.not. is_position(handle, row, size(last%table%values, 2), code)) return
       wide = 6*size(last%suspension%wheels)
-      code = refuse(handle, 'the array must have (6 x wheels) squared numbers (ek_wheel_count)')
-      if (n /= wide**2 .or. .not. c_associated(values)) return
-      call c_f_pointer(values, place, [wide, wide])
+      call take_array(handle, values, n, wide**2, 'the array must have (6 x wheels) squared numbers (ek_wheel_count)', place, code)
+      if (code /= ek_ok) return
       allocate (c(wide, wide))
-      call compliance_at(last, row + 1, c)
-      place = transpose(c)
-      handle%message = achar(0)
-      code = ek_ok
+      call compliance_at(handle%session, row + 1, c, error)
+      code = finish(handle, error)
+      if (code == ek_ok) call put_grid(transpose(c), place)
    end function ek_compliance
+
+   integer(c_int) function ek_derivatives(model, row, n_columns, columns, n_numbers, paths, values, errors) bind(c) result(code)
+      type(c_ptr), value :: model, columns, paths, values, errors
+      integer(c_int), value :: row, n_columns, n_numbers
+      type(handle_t), pointer :: handle
+      type(case_result_t), pointer :: last
+      type(error_t), allocatable :: error
+      real(c_double), pointer :: place(:)
+      character(name_length), allocatable :: names(:), numbers(:)
+      real(wp), allocatable :: slopes(:, :), doubts(:, :)
+
+      call take_solution(model, handle, last, code)
+      if (code /= ek_ok) return
+      if (.not. is_position(handle, row, size(last%table%values, 2), code)) return
+      if (n_columns <= 0 .or. n_numbers <= 0 .or. .not. (c_associated(columns) .and. c_associated(paths) .and. &
+         c_associated(values))) then
+         code = refuse(handle, 'n_columns and n_numbers must be positive, and columns, paths and values must not be NULL')
+         return
+      end if
+      call take_names(columns, n_columns, names)
+      call take_names(paths, n_numbers, numbers)
+      allocate (slopes(n_columns, n_numbers), doubts(n_columns, n_numbers))
+      call find_slopes(handle%session, row + 1, names, numbers, slopes, doubts, error)
+      code = finish(handle, error)
+      if (code /= ek_ok) return
+      call c_f_pointer(values, place, [n_columns*n_numbers])
+      call put_grid(transpose(slopes), place)
+      if (.not. c_associated(errors)) return
+      call c_f_pointer(errors, place, [n_columns*n_numbers])
+      call put_grid(transpose(doubts), place)
+   end function ek_derivatives
 
 end module ek_c_results

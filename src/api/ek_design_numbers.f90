@@ -66,13 +66,28 @@ contains
       numbers%is_new = .true.
    end subroutine reset_numbers
 
-   !> A number as a person would have written it: the conversion to SI and back changes its last digit.
+   !> A number as a person would have written it, with at most 15 digits: the conversion to SI and back changes its last digit. A whole
+   !> number of 15 digits and a power of ten up to 1e22 are exact, and one division or product rounds once: the nearest number to
+   !> the decimal one, as reading its text gives (W. D. Clinger, PLDI 1990).
    real(wp) function written(value)
       real(wp), intent(in) :: value
+      integer :: places                            ! after the decimal point
+      real(wp) :: digits
       character(32) :: text
 
-      write (text, '(es23.14e3)') value
-      read (text, *) written
+      written = value
+      if (.not. abs(value) > 0.0_wp) return
+      places = 14 - floor(log10(abs(value)))
+      if (abs(places) > 22) then
+         write (text, '(es23.14e3)') value
+         read (text, *) written
+      else if (places >= 0) then
+         digits = anint(value*10.0_wp**places)
+         written = digits/10.0_wp**places
+      else
+         digits = anint(value/10.0_wp**(-places))
+         written = digits*10.0_wp**(-places)
+      end if
    end function written
 
    !> The setting of a path that was used before; 0 if it was not.

@@ -4,7 +4,7 @@ module ek_session
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: quoted, replace
-   use ek_deck, only: deck_t, read_deck, parse_deck, set_value, deck_checksum
+   use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, set_value, deck_checksum
    use ek_parameter, only: choice_t, find_parameters
    use ek_case_result, only: solve_options_t
    use ek_factor_paths, only: shortest
@@ -13,10 +13,12 @@ module ek_session
       apply_settings
    use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers
    use ek_named_numbers, only: named_numbers_t
+   use ek_derivatives, only: derivatives_t
    implicit none(type, external)
    private
-   public :: session_t, prepared_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, take_new_numbers
-   public :: changed_deck, checksum_of, without_option
+   public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, set_number, set_text
+   public :: get_number, set_all, reset
+   public :: take_new_numbers, changed_deck, checksum_of, without_option
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -25,34 +27,50 @@ module ek_session
       type(solve_options_t) :: options
    end type prepared_t
 
+   !> Derivatives that were asked last: the same of another design make no text.
+   type :: derived_t
+      type(derivatives_t) :: derivatives
+      character(name_length), allocatable :: columns(:), paths(:)      !! as the caller wrote them
+      integer, allocatable :: column(:), direction(:)                  !! where each stands in `derivatives`
+   end type derived_t
+
    !> A deck, its present numbers, and its last solution. A caller may read the components, and changes them by procedures only.
    type :: session_t
       type(deck_t) :: original                      !! as opened
       type(deck_t) :: deck                          !! with the settings of set_text
-      type(design_solver_t) :: solver               !! of this deck
+      class(design_solver_t), allocatable :: solver !! of this deck; allocated when opened. A class as in worker_case_t
       type(design_numbers_t) :: numbers             !! changed since
       logical, private :: is_text_changed = .false.
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
       type(prepared_t), allocatable :: prepared(:)  !! of each case
-      type(design_solver_t), allocatable :: other   !! of the deck with the numbers as text, for one solution
+      class(design_solver_t), allocatable :: other  !! of the deck with the numbers as text, for one solution
+      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution, if it is not that of `other`
+      class(derived_t), allocatable :: derived      !! ek_session_derivatives
       ! ek_session_numbers
-      type(named_numbers_t) :: named                !! key numbers that were asked for last
+      class(named_numbers_t), allocatable :: named  !! key numbers that were asked for last
       character(name_length), allocatable :: names(:)
       logical :: is_named_ready = .false.           !! they were read before: to read them again makes no text
    end type session_t
 
 contains
 
+   !> One place where gfortran writes out how a session is given back.
+   subroutine empty_session(session)
+      type(session_t), intent(out) :: session
+      session%solved = 0
+   end subroutine empty_session
+
    !> Opens a deck file; '-' is standard input.
    subroutine open_file(path, session, error)
       character(*), intent(in) :: path
-      type(session_t), intent(out) :: session
+      type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_file, exit_deck: every mistake of the deck
 
+      call empty_session(session)
       !$omp critical (ek_words)
       call read_deck(path, session%original, error)
-      if (.not. allocated(error)) call begin(session%original, session, error)
+      if (.not. allocated(error)) call begin_opened(session, error)
       !$omp end critical (ek_words)
    end subroutine open_file
 
@@ -60,31 +78,79 @@ contains
    subroutine open_text(text, name, session, error)
       character(*), intent(in) :: text
       character(*), intent(in) :: name                     !! for messages; its folder is that of included files and load tables
-      type(session_t), intent(out) :: session
+      type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_deck: every mistake of the deck
 
+      call empty_session(session)
       !$omp critical (ek_words)
       call parse_deck(text, name, session%original, error)
-      if (.not. allocated(error)) call begin(session%original, session, error)
+      if (.not. allocated(error)) call begin_opened(session, error)
       !$omp end critical (ek_words)
    end subroutine open_text
 
-   !> Takes a deck; the session stays as it was if the deck has mistakes.
+   !> Opens a deck that was read.
+   subroutine open_deck(deck, session, error)
+      type(deck_t), intent(in) :: deck
+      type(session_t), intent(inout) :: session
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every mistake of the deck
+      type(deck_t) :: copy
+
+      !$omp critical (ek_words)
+      copy = deck
+      !$omp end critical (ek_words)
+      call take_deck(copy, session, error)
+   end subroutine open_deck
+
+   !> As open_deck; the deck is handed over.
+   subroutine take_deck(deck, session, error)
+      type(deck_t), intent(inout) :: deck
+      type(session_t), intent(inout) :: session
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: every mistake of the deck
+
+      call empty_session(session)
+      !$omp critical (ek_words)
+      call move_deck(deck, session%original)
+      call begin_opened(session, error)
+      !$omp end critical (ek_words)
+   end subroutine take_deck
+
+   !> Takes the deck as opened.
+   subroutine begin_opened(session, error)
+      type(session_t), intent(inout) :: session
+      type(error_t), allocatable, intent(out) :: error
+
+      allocate (session%solver)
+      call begin_design_solver(session%original, session%solver, error)
+      if (allocated(error)) return
+      session%deck = session%original
+      call begin_solver(session)
+   end subroutine begin_opened
+
+   !> Takes another deck; the session stays as it was if the deck has mistakes.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
       type(error_t), allocatable, intent(out) :: error
-      type(design_solver_t) :: solver
+      class(design_solver_t), allocatable :: solver
 
+      allocate (solver)
       call begin_design_solver(deck, solver, error)
       if (allocated(error)) return
       session%deck = deck
-      session%solver = solver
-      if (allocated(session%prepared)) deallocate (session%prepared)
-      allocate (session%prepared(size(solver%cases)))
-      call begin_numbers(session%solver%design, session%numbers)
-      session%is_named_ready = .false.
+      call move_alloc(solver, session%solver)
+      call begin_solver(session)
    end subroutine begin
+
+   !> What a session holds of its solver's deck.
+   subroutine begin_solver(session)
+      type(session_t), intent(inout) :: session
+
+      if (allocated(session%prepared)) deallocate (session%prepared)
+      allocate (session%prepared(size(session%solver%cases)))
+      call begin_numbers(session%solver%design, session%numbers)
+      session%numbers%is_new = .false.                     ! the solver was made with them
+      session%is_named_ready = .false.
+   end subroutine begin_solver
 
    !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. A value outside its
    !> legal range is reported by the next solution.

@@ -1,11 +1,11 @@
 !> A deck opened for a program that calls elastokin: key numbers by name. Part of the Fortran interface (ek_api).
 module ek_session_numbers
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_convergence
+   use ek_error, only: error_t, message_list_t
    use ek_deck, only: deck_t
    use ek_case, only: case_t
-   use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, lost_states
+   use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, explain_missing
    use ek_design_solver, only: design_solver_t, begin_design_solver, settle_fully, settle_again, report_cases
    use ek_session, only: session_t, without_option, take_new_numbers, changed_deck
    implicit none(type, external)
@@ -21,8 +21,10 @@ contains
       character(*), intent(in) :: names(:)
       real(wp), intent(out) :: values(:)                   !! in the units of key_numbers.csv
       type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck, exit_model: none has a value; exit_convergence:
-      !!                                                      some have none (not a number), or belong to a path that lost a state
+      !!                                                      some are not a number; the message names them and the states that
+      !!                                                      they need and that were not found
       type(case_t), allocatable :: cases(:)
+      type(message_list_t) :: none                         ! a case with a defect is not read from numbers alone
       logical :: is_done, is_whole
       integer :: k
 
@@ -41,7 +43,7 @@ contains
       end if
       !$omp critical (ek_words)
       if (is_done) then
-         call lost_numbers(session%named, names, values, error)
+         call explain_missing(session%named, names, values, none, error)
       else
          call read_with_words(session, names, values, error)
       end if
@@ -54,17 +56,19 @@ contains
       character(*), intent(in) :: names(:)
       real(wp), intent(inout) :: values(:)
       type(error_t), allocatable, intent(out) :: error
-      type(design_solver_t) :: other
-      type(named_numbers_t) :: named
+      class(design_solver_t), allocatable :: other
+      class(named_numbers_t), allocatable :: named
       type(deck_t) :: changed
       logical :: is_done
 
       session%is_named_ready = .false.
       session%names = names
+      if (.not. allocated(session%named)) allocate (session%named)
       call read_of(session%solver, session%named, is_done)
       if (allocated(error)) return
       session%is_named_ready = is_done
       if (is_done) return
+      allocate (other, named)
       call changed_deck(session, changed, error)
       if (.not. allocated(error)) call begin_design_solver(changed, other, error)
       if (.not. allocated(error)) call read_of(other, named, is_done)
@@ -77,36 +81,19 @@ contains
          type(named_numbers_t), intent(inout) :: numbers
          logical, intent(out) :: is_done
          type(case_t), allocatable :: cases(:)
+         type(message_list_t) :: defects
          logical :: is_solvable(size(solver%report_order)), is_whole
 
          call report_cases(solver, cases)
          call prepare_numbers(names, solver%raw, cases, numbers, error)
          is_done = .false.
-         if (.not. allocated(error)) call settle_fully(needed_tests(numbers), solver, is_solvable, is_done, error)
+         if (.not. allocated(error)) call settle_fully(needed_tests(numbers), solver, is_solvable, defects, is_done, error)
          if (allocated(error) .or. .not. is_done) return
          call report_cases(solver, cases)                 ! with the present numbers
          call read_numbers(numbers, solver%suspension, cases, values, is_whole, is_solvable)
-         if (.not. is_whole) call lost_numbers(numbers, names, values, error)
+         if (.not. is_whole) call explain_missing(numbers, names, values, defects, error)
       end subroutine read_of
 
    end subroutine read_with_words
-
-   !> Why key numbers have no value.
-   subroutine lost_numbers(named, names, values, error)
-      type(named_numbers_t), intent(inout) :: named
-      character(*), intent(in) :: names(:)
-      real(wp), intent(in) :: values(:)
-      type(error_t), allocatable, intent(out) :: error
-      character(:), allocatable :: words
-      integer :: k
-
-      call lost_states(named, error)
-      if (allocated(error)) return
-      words = 'the model does not define'
-      do k = 1, size(names)
-         if (.not. ieee_is_finite(values(k))) words = words//' '//trim(names(k))
-      end do
-      call fail(error, exit_convergence, words)
-   end subroutine lost_numbers
 
 end module ek_session_numbers

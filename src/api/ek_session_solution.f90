@@ -3,8 +3,7 @@ module ek_session_solution
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, is_like
-   use ek_group, only: did_you_mean
+   use ek_text, only: quoted, is_like, did_you_mean
    use ek_deck, only: deck_t
    use ek_case_result, only: case_result_t, solve_options_t, add_remarks, failure_of
    use ek_remark, only: remark_t, remark_list_t, note, warning
@@ -12,13 +11,13 @@ module ek_session_solution
    use ek_table, only: name_length, column_index
    use ek_compliance, only: compliance_t, new_compliance
    use ek_schedule, only: new_schedule
-   use ek_sweep_table, only: state_compliance
+   use ek_compliance_table, only: state_compliance
    use ek_wheel_side, only: deck_frame
    use ek_design_solver, only: design_solver_t, begin_design_solver, solve_case_fully, solve_case_again, heads_of_case, case_number
    use ek_session, only: session_t, without_option, prepared_t, take_new_numbers, changed_deck
    implicit none(type, external)
    private
-   public :: solve, result_of, read_remark, compliance_at
+   public :: solve, result_of, read_remark, compliance_at, state_of_row, refuse_other_numbers
 
 contains
 
@@ -145,6 +144,7 @@ contains
       if (result%is_run()) call add_remarks(options, result)
       call failure_of(result, error)
       if (.not. result%is_run()) session%solved = 0
+      session%solved_x = session%solver%x
    end subroutine end_solution
 
    !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
@@ -176,18 +176,45 @@ contains
       if (remark%severity == warning) severity = 'warning'
    end subroutine read_remark
 
-   !> The compliance matrix at the wheel centres in one row of a solution, left before right, frame of the deck: displacements
+   !> The state of the path that a row of the table shows.
+   pure integer function state_of_row(result, row)
+      type(case_result_t), intent(in) :: result
+      integer, intent(in) :: row
+      state_of_row = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
+   end function state_of_row
+
+   !> Refuses to go on from the last solution where key numbers were read of other numbers since: its model then has those.
+   subroutine refuse_other_numbers(session, error)
+      type(session_t), intent(in) :: session
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+
+      if (allocated(session%other)) return
+      if (any(abs(session%solver%x - session%solved_x) > 0.0_wp)) call fail(error, exit_usage, &
+         'key numbers were read of changed numbers since the last solution: solve again before its compliance matrix or '// &
+         'derivatives are read')
+   end subroutine refuse_other_numbers
+
+   !> The compliance matrix at the wheel centres in one row of the last solution, left before right, frame of the deck: displacements
    !> x y z and rotations [m, rad] by forces and moments [N, N m]; not a number where the state did not converge.
-   subroutine compliance_at(result, row, c)
-      type(case_result_t), intent(inout) :: result
+   subroutine compliance_at(session, row, c, error)
+      type(session_t), intent(inout), target :: session
       integer, intent(in) :: row
       real(wp), intent(out) :: c(:, :)                     !! 6 × wheels
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage: no solution, or the model has other numbers since
+      type(case_result_t), pointer :: result
       type(compliance_t) :: compliance
       real(wp) :: arm(3, size(c, 1)/6), frame(3)
       integer :: state, i, j
 
-      state = nint(result%table%values(column_index(result%table, 'state'), row)) + 1
       c = ieee_value(1.0_wp, ieee_quiet_nan)
+      result => result_of(session)
+      if (.not. associated(result)) then
+         call fail(error, exit_usage, 'there is no solution')
+      else
+         call refuse_other_numbers(session, error)
+      end if
+      if (allocated(error)) return
+      state = state_of_row(result, row)
       if (.not. result%path%is_reached(state)) return
       compliance = new_compliance(result%suspension, .false.)
       call state_compliance(result%suspension, new_schedule(result%suspension, result%case), result%path, state, result%kkt, &

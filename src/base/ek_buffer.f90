@@ -14,7 +14,7 @@ module ek_buffer
       integer :: used = 0
    contains
       procedure :: add => buffer_add, line => buffer_line, text => buffer_text, length => buffer_length, &
-         clear => buffer_clear
+         copy => buffer_copy, clear => buffer_clear
    end type buffer_t
 
 contains
@@ -53,16 +53,28 @@ contains
       if (allocated(self%letters)) text = self%letters(:self%used)
    end function buffer_text
 
+   !> Characters of the text from `first` on fill `part`: pieces of a long text without a copy of all of it.
+   pure subroutine buffer_copy(self, first, part)
+      class(buffer_t), intent(in) :: self
+      integer, intent(in) :: first
+      character(*), intent(inout) :: part       !! ends within the text
+
+      if (len(part) > 0) part = self%letters(first:first + len(part) - 1)
+   end subroutine buffer_copy
+
    !> The number of characters.
    pure integer function buffer_length(self) result(length)
       class(buffer_t), intent(in) :: self
       length = self%used
    end function buffer_length
 
-   !> Delete the text, keep the capacity.
-   pure subroutine buffer_clear(self)
+   !> Delete the text, or what is behind its first letters; keep the capacity.
+   pure subroutine buffer_clear(self, behind)
       class(buffer_t), intent(inout) :: self
+      integer, intent(in), optional :: behind   !! characters that remain, at most the length
+
       self%used = 0
+      if (present(behind)) self%used = behind
    end subroutine buffer_clear
 
 end module ek_buffer

@@ -107,11 +107,14 @@ contains
       integer :: first, k, used
 
       first = 1
-      if (index(text, byte_order_mark) == 1) first = len(byte_order_mark) + 1
+      if (index(text(:min(len(byte_order_mark), len(text))), byte_order_mark) == 1) first = len(byte_order_mark) + 1
+      do k = first, len(text)                      ! the library's index takes many times longer
+         if (text(k:k) == return) exit
+      end do
       plain = text(first:)
-      if (index(plain, return) == 0) return
-      used = 0
-      do k = first, len(text)
+      if (k > len(text)) return
+      used = k - first
+      do k = k, len(text)
          if (text(k:k) == newline .and. k > first) then
             if (text(k - 1:k - 1) == return) cycle       ! the newline is already there
          end if
@@ -127,7 +130,10 @@ contains
       character(*), intent(in) :: text
       integer :: k
 
-      lines = 1 + count([(text(k:k) == new_line('a'), k=1, len(text))])
+      lines = 1
+      do k = 1, len(text)
+         if (text(k:k) == new_line('a')) lines = lines + 1
+      end do
    end function line_count
 
    !> The character at byte k: its number and its length in bytes; length 0 where the bytes are not valid UTF-8.

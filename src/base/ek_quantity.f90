@@ -1,10 +1,10 @@
 !> The quantities of the results: name, unit, what a model needs to have them, title, sign, least span of a chart.
 !>
 !> A row stands at the place of its column in the table of results, section by section. The kernel of a section returns the
-!> values in SI, in the same order: ek_state_columns (wheel_position), ek_kandc_columns (wheel_rates to of_steering),
-!> ek_geometry_columns (wheel_geometry, axle_geometry). So a new quantity is a row here and its value there, at the same place;
-!> its unit is the end of its name. Heads, charts, key numbers and reserved names follow from the row. input/QUANTITIES.md
-!> defines each of them.
+!> values in SI, in the same order: ek_state_columns (wheel_position, steer_axis), ek_kandc_columns (wheel_now to of_rack) with
+!> ek_wheel_columns and ek_geometry_columns. A section is computed as a whole, and only if one of its columns is asked. So a new
+!> quantity is a row here and its value there, at the same place; its unit is the end of its name. Heads, charts, key numbers and
+!> reserved names follow from the row. input/QUANTITIES.md defines each of them.
 module ek_quantity
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
@@ -19,7 +19,7 @@ module ek_quantity
       integer :: needs = 0            !! sum of the conditions below
       character(56) :: title = ''
       character(49) :: sign = ''      !! meaning of a positive value, or a condition
-      real(wp) :: span = 0.0_wp       !! of a chart, in the unit: a smaller span is drawn flat; 0: no chart
+      real(wp) :: span = 0.0_wp       !! least span of a chart, in the unit: a smaller one is drawn flat; 0: no chart
    end type quantity_t
 
    ! Conditions: without one of them the model has no such column; without a known matrix the value is not a number
@@ -27,66 +27,80 @@ module ek_quantity
       rear = 256, mass = 512, sprung = 1024, width = 2048, corner = 4096
    integer, parameter :: turning = pair + car + rack, own = matrix + pair, shod = matrix + tyres, steered = matrix + axis
 
-   real(wp), parameter :: fine = 0.01_wp, tenth = 0.1_wp, whole = 1.0_wp
+   real(wp), parameter :: fine = 0.05_wp, middle = 1.0_wp, wide = 10.0_wp
    character(*), parameter :: inward = '+ top inward', outward = '+ top outward', rearward = '+ top rearward', &
       right = '+ patch moves with the force', to_left = '+ to the left', under = ' under a force to the right', &
       parallel = ', parallel (in phase), *', at_centre = 'at the wheel centre', body_down = '+ body moves down', &
       body_up = '+ body moves up', shortest = 'shortest distance'
 
    type(quantity_t), parameter, public :: wheel_position(*) = [ &
-      quantity_t('wheel_travel_mm', 0, 'Wheel travel', '+ bump', tenth), &
+      quantity_t('wheel_travel_mm', 0, 'Wheel travel', '+ bump', middle), &
       quantity_t('toe_deg', 0, 'Toe', '+ front edge inward', fine), &
       quantity_t('camber_deg', 0, 'Camber', outward, fine), &
-      quantity_t('track_change_mm', 0, 'Half-track change', 'contact patch, + outward', tenth), &
-      quantity_t('wheelbase_change_mm', 0, 'Wheelbase change', 'contact patch, + rearward', tenth), &
-      quantity_t('wheel_centre_x_mm', 0, 'Wheel centre, longitudinal', 'x of the deck', tenth), &
+      quantity_t('track_change_mm', 0, 'Half-track change', 'contact patch, + outward', middle), &
+      quantity_t('wheelbase_change_mm', 0, 'Wheelbase change', 'contact patch, + rearward', middle), &
+      quantity_t('wheel_centre_x_mm', 0, 'Wheel centre, longitudinal', 'x of the deck', middle), &
       quantity_t('wheel_centre_y_mm'), quantity_t('wheel_centre_z_mm'), &
-      quantity_t('contact_patch_x_mm'), quantity_t('contact_patch_y_mm'), quantity_t('contact_patch_z_mm'), &
+      quantity_t('contact_patch_x_mm'), quantity_t('contact_patch_y_mm'), quantity_t('contact_patch_z_mm')]
+
+   type(quantity_t), parameter, public :: steer_axis(*) = [ &
       quantity_t('caster_deg', axis, 'Caster', rearward, fine), &
       quantity_t('kingpin_inclination_deg', axis, 'Kingpin inclination', inward, fine), &
-      quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the patch', tenth), &
-      quantity_t('caster_trail_mm', axis, 'Caster trail', '+ axis meets the ground ahead of the patch', tenth), &
-      quantity_t('spindle_length_mm', axis, 'Spindle length', '+ wheel centre outboard of the axis', tenth), &
+      quantity_t('scrub_radius_mm', axis, 'Scrub radius', '+ axis meets the ground inboard of the patch', middle), &
+      quantity_t('caster_trail_mm', axis, 'Caster trail', '+ axis meets the ground ahead of the patch', middle), &
+      quantity_t('spindle_length_mm', axis, 'Spindle length', '+ wheel centre outboard of the axis', middle), &
       quantity_t('spindle_offset_mm', axis, 'Spindle offset', '+ wheel centre behind the axis')]
 
-   type(quantity_t), parameter, public :: wheel_rates(*) = [ &
+   type(quantity_t), parameter, public :: wheel_now(*) = [ &
       quantity_t('steer_deg', 0, 'Steer', to_left, fine), &
-      quantity_t('inclination_deg', pair, 'Camber relative to the road', outward, fine), &
-      quantity_t('vertical_force_n', 0, 'Wheel load', 'ground on wheel', whole), &
+      quantity_t('inclination_deg', pair, 'Camber relative to the road', outward, fine)]
+
+   type(quantity_t), parameter, public :: wheel_load(*) = [ &
+      quantity_t('vertical_force_n', 0, 'Wheel load', 'ground on wheel', wide)]
+
+   type(quantity_t), parameter, public :: instant_axis(*) = [ &
       quantity_t('instant_caster_deg', matrix, 'Caster, instant axis', rearward, fine), &
       quantity_t('instant_kingpin_inclination_deg', matrix, 'Kingpin inclination, instant axis', inward, fine), &
-      quantity_t('instant_scrub_radius_mm', matrix, 'Scrub radius, instant axis', '+ inboard of the patch', tenth), &
-      quantity_t('instant_caster_trail_mm', matrix, 'Caster trail, instant axis', '+ ahead of the patch', tenth), &
-      quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix), &
-      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels parallel (in phase)', tenth), &
+      quantity_t('instant_scrub_radius_mm', matrix, 'Scrub radius, instant axis', '+ inboard of the patch', middle), &
+      quantity_t('instant_caster_trail_mm', matrix, 'Caster trail, instant axis', '+ ahead of the patch', middle), &
+      quantity_t('instant_spindle_length_mm', matrix), quantity_t('instant_spindle_offset_mm', matrix)]
+
+   type(quantity_t), parameter, public :: wheel_rates(*) = [ &
+      quantity_t('wheel_rate_n_per_mm', matrix, 'Wheel rate', 'wheels parallel (in phase)', middle), &
       quantity_t('single_wheel_rate_load_held_n_per_mm', own), quantity_t('single_wheel_rate_height_held_n_per_mm', own), &
-      quantity_t('ride_rate_n_per_mm', shod, 'Ride rate', 'with the tyre', tenth), &
-      quantity_t('hop_rate_n_per_mm', shod, 'Hop rate', 'tyre in parallel'), &
-      quantity_t('bump_steer_deg_per_m', matrix, 'Bump steer, local slope', '+ to the left in bump', tenth), &
+      quantity_t('ride_rate_n_per_mm', shod, 'Ride rate', 'with the tyre', middle), &
+      quantity_t('hop_rate_n_per_mm', shod, 'Hop rate', 'tyre in parallel')]
+
+   type(quantity_t), parameter, public :: wheel_bump(*) = [ &
+      quantity_t('bump_steer_deg_per_m', matrix, 'Bump steer, local slope', '+ to the left in bump', middle), &
       quantity_t('bump_camber_deg_per_m', matrix), quantity_t('bump_caster_deg_per_m', steered), &
       quantity_t('bump_toe_deg_per_m', matrix), quantity_t('bump_rotation_x_deg_per_m', matrix), &
-      quantity_t('bump_rotation_y_deg_per_m', matrix), quantity_t('bump_rotation_z_deg_per_m', matrix), &
-      quantity_t('roll_steer_deg_per_deg', shod + pair, 'Roll steer with tyres, local slope', '', 0.001_wp), &
+      quantity_t('bump_rotation_y_deg_per_m', matrix), quantity_t('bump_rotation_z_deg_per_m', matrix)]
+
+   type(quantity_t), parameter, public :: wheel_roll(*) = [ &
+      quantity_t('roll_steer_deg_per_deg', shod + pair, 'Roll steer with tyres, local slope', '', 0.01_wp), &
       quantity_t('roll_camber_deg_per_deg', shod + pair), quantity_t('roll_caster_deg_per_deg', shod + pair + axis), &
       quantity_t('roll_steer_percent', shod + pair), quantity_t('roll_rotation_x_deg_per_deg', shod + pair), &
       quantity_t('roll_rotation_y_deg_per_deg', shod + pair), quantity_t('roll_rotation_z_deg_per_deg', shod + pair), &
       quantity_t('wheel_roll_steer_deg_per_deg', own), quantity_t('wheel_roll_camber_deg_per_deg', own), &
       quantity_t('wheel_roll_caster_deg_per_deg', own + axis), quantity_t('wheel_roll_steer_percent', own), &
       quantity_t('wheel_roll_rotation_x_deg_per_deg', own), quantity_t('wheel_roll_rotation_y_deg_per_deg', own), &
-      quantity_t('wheel_roll_rotation_z_deg_per_deg', own), &
-      quantity_t('side_view_arm_length_mm', matrix, 'Side-view swing arm length', '', whole), &
+      quantity_t('wheel_roll_rotation_z_deg_per_deg', own)]
+
+   type(quantity_t), parameter, public :: swing_arms(*) = [ &
+      quantity_t('side_view_arm_length_mm', matrix, 'Side-view swing arm length', '', wide), &
       quantity_t('side_view_arm_angle_deg', matrix, 'Side-view swing arm angle', '', fine), &
       quantity_t('side_view_arm_centre_x_mm', matrix), quantity_t('side_view_arm_centre_z_mm', matrix), &
-      quantity_t('front_view_arm_length_mm', matrix, 'Front-view swing arm length', '', whole), &
+      quantity_t('front_view_arm_length_mm', matrix, 'Front-view swing arm length', '', wide), &
       quantity_t('front_view_arm_angle_deg', matrix, 'Front-view swing arm angle', '', fine), &
       quantity_t('front_view_arm_centre_y_mm', matrix), quantity_t('front_view_arm_centre_z_mm', matrix)]
 
    ! twice: load_held: constant vertical forces; height_held: constant heights of the wheel centres
    type(quantity_t), parameter, public :: wheel_forces(*) = [ &
-      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//parallel, right, 1.0e-3_wp), &
+      quantity_t('lateral_in_*_deflection_mm_per_kn', matrix, 'Lateral deflection'//parallel, right, 0.02_wp), &
       quantity_t('lateral_in_*_centre_deflection_mm_per_kn', matrix), &
-      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//parallel, to_left//under, 1.0e-4_wp), &
-      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//parallel, outward//under, 1.0e-4_wp), &
+      quantity_t('lateral_in_*_steer_deg_per_kn', matrix, 'Lateral force steer'//parallel, to_left//under, 0.002_wp), &
+      quantity_t('lateral_in_*_camber_deg_per_kn', matrix, 'Lateral force camber'//parallel, outward//under, 0.002_wp), &
       quantity_t('lateral_in_trail_*_deflection_mm_per_kn', matrix), &
       quantity_t('lateral_in_trail_*_centre_deflection_mm_per_kn', matrix), &
       quantity_t('lateral_in_trail_*_steer_deg_per_kn', matrix), quantity_t('lateral_in_trail_*_camber_deg_per_kn', matrix), &
@@ -111,68 +125,84 @@ module ek_quantity
       quantity_t('traction_*_rotation_y_deg_per_kn', matrix, 'Traction wind-up, *', 'rotation of the carrier about y'), &
       quantity_t('traction_*_rotation_z_deg_per_kn', matrix)]
 
-   type(quantity_t), parameter, public :: wheel_stiffness(*) = [ &
+   type(quantity_t), parameter, public :: wheel_jacking(*) = [ &
       quantity_t('lateral_in_jacking_n_per_kn', own, 'Jacking, parallel (in phase)', '+ the ground pushes up'//under), &
-      quantity_t('lateral_anti_jacking_n_per_kn', own), &
+      quantity_t('lateral_anti_jacking_n_per_kn', own)]
+
+   type(quantity_t), parameter, public :: wheel_stiffness(*) = [ &
       quantity_t('fore_aft_stiffness_n_per_mm', matrix, 'Fore-aft stiffness', at_centre), &
       quantity_t('lateral_stiffness_n_per_mm', matrix, 'Lateral stiffness', at_centre), &
       quantity_t('vertical_stiffness_n_per_mm', matrix, 'Vertical stiffness', at_centre), &
       quantity_t('rotational_stiffness_x_nm_per_deg', matrix), quantity_t('rotational_stiffness_y_nm_per_deg', matrix), &
-      quantity_t('rotational_stiffness_z_nm_per_deg', matrix), &
-      quantity_t('anti_dive_percent', matrix + front, 'Anti-dive', 'braking, front', tenth), &
-      quantity_t('anti_lift_drive_percent', matrix + front, 'Anti-lift, drive', 'drive, front', tenth), &
-      quantity_t('anti_lift_brake_percent', matrix + rear, 'Anti-lift, braking', 'braking, rear', tenth), &
-      quantity_t('anti_squat_percent', matrix + rear, 'Anti-squat', 'drive, rear', tenth), &
+      quantity_t('rotational_stiffness_z_nm_per_deg', matrix)]
+
+   type(quantity_t), parameter, public :: wheel_pitch(*) = [ &
+      quantity_t('anti_dive_percent', matrix + front, 'Anti-dive', 'braking, front', middle), &
+      quantity_t('anti_lift_drive_percent', matrix + front, 'Anti-lift, drive', 'drive, front', middle), &
+      quantity_t('anti_lift_brake_percent', matrix + rear, 'Anti-lift, braking', 'braking, rear', middle), &
+      quantity_t('anti_squat_percent', matrix + rear, 'Anti-squat', 'drive, rear', middle), &
       quantity_t('brake_dive_mm_per_g', matrix + front + mass, 'Dive, braking', body_down), &
       quantity_t('drive_lift_mm_per_g', matrix + front + mass, 'Lift, drive', body_up), &
       quantity_t('brake_lift_mm_per_g', matrix + rear + mass, 'Lift, braking', body_up), &
       quantity_t('drive_squat_mm_per_g', matrix + rear + mass, 'Squat, drive', body_down)]
 
-   type(quantity_t), parameter, public :: of_axle(*) = [ &
-      quantity_t('suspension_roll_rate_nm_per_deg', own, 'Suspension roll rate', '', whole), &
-      quantity_t('total_roll_rate_nm_per_deg', own + tyres, 'Total roll rate', 'with the tyres', whole), &
-      quantity_t('tramp_rate_nm_per_deg', own + tyres, 'Tramp rate', 'tyres in parallel'), &
-      quantity_t('roll_moment_nm', pair, 'Roll moment', '+ left wheel loaded', whole), quantity_t('axle_roll_deg', pair), &
-      quantity_t('roll_centre_y_mm', own, 'Roll centre, lateral', 'y of the deck', tenth), &
-      quantity_t('roll_centre_z_mm', own, 'Roll centre, vertical', 'z of the deck', tenth), &
-      quantity_t('roll_centre_height_mm', own, 'Roll centre height', '+ above the ground', tenth), &
+   type(quantity_t), parameter, public :: axle_rates(*) = [ &
+      quantity_t('suspension_roll_rate_nm_per_deg', own, 'Suspension roll rate', '', wide), &
+      quantity_t('total_roll_rate_nm_per_deg', own + tyres, 'Total roll rate', 'with the tyres', wide), &
+      quantity_t('tramp_rate_nm_per_deg', own + tyres, 'Tramp rate', 'tyres in parallel')]
+
+   type(quantity_t), parameter, public :: axle_now(*) = [ &
+      quantity_t('roll_moment_nm', pair, 'Roll moment', '+ left wheel loaded', wide), quantity_t('axle_roll_deg', pair)]
+
+   type(quantity_t), parameter, public :: roll_centres(*) = [ &
+      quantity_t('roll_centre_y_mm', own, 'Roll centre, lateral', 'y of the deck', middle), &
+      quantity_t('roll_centre_z_mm', own, 'Roll centre, vertical', 'z of the deck', middle), &
+      quantity_t('roll_centre_height_mm', own, 'Roll centre height', '+ above the ground', middle), &
       quantity_t('roll_centre_with_tyres_y_mm', own + tyres), quantity_t('roll_centre_with_tyres_height_mm', own + tyres), &
-      quantity_t('force_roll_centre_height_mm', own, 'Force-based roll centre height', '+ above the ground'), &
-      quantity_t('turning_circle_m', turning, 'Turning circle', '', tenth), &
-      quantity_t('ackermann_percent', turning, 'Ackermann', '100: wheels roll about one point', tenth), &
+      quantity_t('force_roll_centre_height_mm', own, 'Force-based roll centre height', '+ above the ground')]
+
+   type(quantity_t), parameter, public :: of_turn(*) = [ &
+      quantity_t('turning_circle_m', turning, 'Turning circle', '', middle), &
+      quantity_t('ackermann_percent', turning, 'Ackermann', '100: wheels roll about one point', middle), &
       quantity_t('ackermann_error_deg', turning, 'Ackermann error', '', fine)]
 
    type(quantity_t), parameter, public :: of_steering(*) = [ &
       quantity_t('steering_ratio', matrix + rack + ratio, 'Steering ratio', 'steering wheel over road wheel', fine), &
-      quantity_t('steering_wheel_deg', matrix + rack + ratio, 'Steering wheel', '+ left', tenth)]
+      quantity_t('steering_wheel_deg', matrix + rack + ratio, 'Steering wheel', '+ left', middle)]
 
-   type(quantity_t), parameter, public :: wheel_geometry(*) = [ &
+   type(quantity_t), parameter, public :: wheel_axis(*) = [ &
       quantity_t('side_view_angle_deg', 0, 'Side-view angle', rearward, fine), &
       quantity_t('centre_axis_distance_mm', axis, 'Steer-axis offset, wheel centre', shortest), &
       quantity_t('patch_axis_distance_mm', axis, 'Steer-axis offset, patch', shortest), &
       quantity_t('along_spindle_length_mm', axis, 'Spindle length, along', '+ wheel centre outboard, along the spin axis'), &
       quantity_t('across_spindle_offset_mm', axis, 'Spindle offset, across', '+ spin axis behind the steer axis'), &
+      quantity_t('spin_axis_x'), quantity_t('spin_axis_y'), quantity_t('spin_axis_z')]
+
+   type(quantity_t), parameter, public :: instant_distances(*) = [ &
       quantity_t('instant_centre_axis_distance_mm', matrix), quantity_t('instant_patch_axis_distance_mm', matrix), &
-      quantity_t('instant_along_spindle_length_mm', matrix), quantity_t('instant_across_spindle_offset_mm', matrix), &
-      quantity_t('recession_gradient_mm_per_m', matrix, 'Recession gradient', '+ rearward in bump', tenth), &
-      quantity_t('steer_camber_deg_per_deg', matrix + rack, 'Camber per steer', '+ top outward, steer to the left', 0.001_wp), &
-      quantity_t('ride_frequency_hz', matrix + sprung, 'Ride frequency', 'ride rate and sprung mass', 0.001_wp)]
+      quantity_t('instant_along_spindle_length_mm', matrix), quantity_t('instant_across_spindle_offset_mm', matrix)]
+
+   type(quantity_t), parameter, public :: wheel_slopes(*) = [ &
+      quantity_t('recession_gradient_mm_per_m', matrix, 'Recession gradient', '+ rearward in bump', middle), &
+      quantity_t('steer_camber_deg_per_deg', matrix + rack, 'Camber per steer', '+ top outward, steer to the left', 0.01_wp), &
+      quantity_t('ride_frequency_hz', matrix + sprung, 'Ride frequency', 'ride rate and sprung mass', 0.05_wp)]
 
    type(quantity_t), parameter, public :: axle_geometry(*) = [ &
-      quantity_t('total_track_mm', pair, 'Total track', 'distance of the patches', tenth), &
+      quantity_t('total_track_mm', pair, 'Total track', 'distance of the patches', middle), &
       quantity_t('total_track_change_mm', pair), quantity_t('ideal_outer_steer_deg', turning), &
       quantity_t('outer_steer_error_deg', turning, 'Deviation of the outer wheel', '+ steers more than ideal', fine), &
-      quantity_t('curb_to_curb_m', turning + width, 'Turning circle, curb to curb', '', tenth), &
-      quantity_t('wall_to_wall_m', turning + corner, 'Turning circle, wall to wall', '', tenth)]
+      quantity_t('curb_to_curb_m', turning + width, 'Turning circle, curb to curb', '', middle), &
+      quantity_t('wall_to_wall_m', turning + corner, 'Turning circle, wall to wall', '', middle)]
 
    type(quantity_t), parameter, public :: of_rack(*) = [ &
-      quantity_t('steering_rack_force_n', rack, 'Rack force', 'reaction of the driver', whole)]
+      quantity_t('steering_rack_force_n', rack, 'Rack force', 'reaction of the driver', wide)]
 
    type(quantity_t), parameter, public :: of_state(*) = [quantity_t('state'), quantity_t('factor'), quantity_t('converged'), &
       quantity_t('stable'), quantity_t('near_singular'), quantity_t('iterations'), quantity_t('constraint_error')]
 
-   type(quantity_t), parameter, public :: all_quantities(*) = [wheel_position, wheel_rates, wheel_forces, wheel_stiffness, &
-      of_axle, of_steering, wheel_geometry, axle_geometry, of_rack, of_state]
+   type(quantity_t), parameter, public :: all_quantities(*) = [wheel_position, steer_axis, wheel_now, wheel_load, instant_axis, &
+      wheel_rates, wheel_bump, wheel_roll, swing_arms, wheel_forces, wheel_jacking, wheel_stiffness, wheel_pitch, axle_rates, &
+      axle_now, roll_centres, of_turn, of_steering, wheel_axis, instant_distances, wheel_slopes, axle_geometry, of_rack, of_state]
 
    character(*), parameter :: conditions(2) = [character(11) :: 'load_held', 'height_held']
 

@@ -1,19 +1,20 @@
 !> The tests of the rig, one row each: the loads and heights of the wheels, and how the results are shown.
 !>
-!> | test            | swept value     | left, right wheel                      | wheels held by   |
-!> |-----------------|-----------------|----------------------------------------|------------------|
-!> | parallel_travel | travel          | both up                                | height, driven   |
-!> | opposite_travel | travel          | left up, right down                    | height, driven   |
-!> | single_travel   | travel          | one up, the other at rest              | height, driven   |
-!> | roll            | axle roll       | height(left) − height(right) = t tan φ | difference only: |
-!> |                 |                 |                                        | constant load    |
-!> | steering        | rack travel     | constant heights                       | height           |
-!> | lateral_force   | force           | +y at the patch, moment force × trail  | vertical force   |
-!> | braking         | force           | rearward at the patch                  | vertical force   |
-!> | traction        | force           | forward at the wheel centre            | vertical force   |
-!> | aligning_torque | moment          | about z, counterclockwise from above   | vertical force   |
-!> | vertical_force  | force           | upward at the patch                    | vertical force   |
-!> | table           | row of the file | its columns                            | vertical force   |
+!> | test                | swept value     | left, right wheel                      | wheels held by   |
+!> |---------------------|-----------------|----------------------------------------|------------------|
+!> | parallel_travel     | travel          | both up                                | height, driven   |
+!> | opposite_travel     | travel          | left up, right down                    | height, driven   |
+!> | single_travel       | travel          | one up, the other at rest              | height, driven   |
+!> | roll                | axle roll       | height(left) − height(right) = t tan φ | difference only: |
+!> |                     |                 |                                        | constant load    |
+!> | steering            | rack travel     | constant heights                       | height           |
+!> | lateral_force       | force           | +y at the patch, moment force × trail  | vertical force   |
+!> | braking             | force           | rearward at the patch                  | vertical force   |
+!> | traction            | force           | forward at the wheel centre            | vertical force   |
+!> | aligning_torque     | moment          | about z, counterclockwise from above   | vertical force   |
+!> | vertical_force      | force           | upward at the patch                    | vertical force   |
+!> | table               | row of the file | its columns                            | vertical force   |
+!> | travel_and_steering | state of a grid | both up; the rack moves, too           | height, driven   |
 !>
 !> A further test is a row here; if it has charts or gradients of its own, also a list in ek_test_charts and rows in
 !> ek_gradient_definition.
@@ -22,19 +23,20 @@ module ek_rig_test
    use ek_kinds, only: wp, degree, millimetre
    implicit none(type, external)
    private
-   public :: rig_test_t, rig_tests, rig_test, needs_both, of_one_wheel, lifts, swept_unit
-   public :: moves_heights, rolls, steers, loads_wheels, takes_table
-   public :: of_none, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, of_aligning, of_vertical, of_table
+   public :: rig_test_t, rig_tests, rig_test, needs_both, of_one_wheel, lifts, is_scattered, swept_unit
+   public :: moves_heights, rolls, steers, loads_wheels, takes_table, covers_grid
+   public :: of_none, of_travel, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, of_aligning, of_vertical, &
+      of_table, of_grid
 
    ! what a test does
-   integer, parameter :: moves_heights = 1, rolls = 2, steers = 3, loads_wheels = 4, takes_table = 5
+   integer, parameter :: moves_heights = 1, rolls = 2, steers = 3, loads_wheels = 4, takes_table = 5, covers_grid = 6
 
    ! its charts and its gradients
    integer, parameter :: of_none = 0, of_travel = 1, of_tilt = 2, of_roll = 3, of_steer = 4, of_lateral = 5, of_braking = 6, &
-      of_traction = 7, of_aligning = 8, of_vertical = 9, of_table = 10
+      of_traction = 7, of_aligning = 8, of_vertical = 9, of_table = 10, of_grid = 11
 
    type :: rig_test_t
-      character(15) :: name = ''
+      character(19) :: name = ''
       integer :: action = 0                  !! one of those above; 0: no test of the rig
       integer :: charts = of_none            !! set of charts and gradients
       character(6) :: control = ''           !! how the wheels are held, unless the case says otherwise
@@ -49,6 +51,7 @@ module ek_rig_test
       logical :: has_phase = .false.         !! the load on the right wheel may be reversed
       logical :: has_trail = .false.         !! the force may act behind the patch, at `offset`
       integer :: place = 0                   !! among the standard tests; 0: none of them
+      logical :: is_on_request = .false.     !! a standard test that runs only if it is asked by its name
       integer :: phases = 1                  !! 2: the standard tests contain it in parallel and opposed
       real(wp) :: reach = 0.0_wp             !! of the standard test: from −reach to reach, in `unit`
       integer :: increments = 40             !! likewise
@@ -79,7 +82,9 @@ module ek_rig_test
          'aligning torque [N m]    (+ to the left)', moment=up, has_phase=.true., place=6, phases=2, reach=100.0_wp), &
       rig_test_t('vertical_force', loads_wheels, of_vertical, 'force', 'N', 'change of vertical force at each patch', 'factor', &
          'vertical force [N]    (+ up)', force=up), &
-      rig_test_t('table', takes_table, of_table, 'force', '-', '', 'factor', 'row of the table')]
+      rig_test_t('table', takes_table, of_table, 'force', '-', '', 'factor', 'row of the table'), &
+      rig_test_t('travel_and_steering', covers_grid, of_grid, 'centre', '-', 'state of the grid', 'factor', 'state of the grid', &
+         place=9, is_on_request=.true., reach=80.0_wp, increments=16)]
 
 contains
 
@@ -110,6 +115,15 @@ contains
       type(rig_test_t), intent(in) :: test
       lifts = sum(test%shares) > 0.0_wp .or. test%force(3) > 0.0_wp
    end function lifts
+
+   !> Whether the states of a test form no path, so that they are drawn as points.
+   pure logical function is_scattered(name)
+      character(*), intent(in) :: name
+      type(rig_test_t) :: test
+
+      test = rig_test(name)
+      is_scattered = any(test%action == [takes_table, covers_grid])
+   end function is_scattered
 
    !> The SI value of a unit of the swept value.
    pure real(wp) function swept_unit(unit)

@@ -5,7 +5,7 @@ module ek_text
    use ek_letters, only: visible, printable
    implicit none(type, external)
    private
-   public :: str, lower, quoted, nearest_name, is_like, vector_text, plural, printable, spaced, replace
+   public :: str, lower, quoted, nearest_name, suggestion, did_you_mean, is_like, vector_text, plural, printable, spaced, replace
 
    !> A number as text, in the shortest form a person would write.
    interface str
@@ -19,9 +19,21 @@ contains
       integer, intent(in) :: value
       character(:), allocatable :: text
       character(20) :: buffer
+      integer :: rest, first
 
-      write (buffer, '(i0)') value
-      text = trim(buffer)
+      rest = value                              ! digit by digit: a formatted write takes a microsecond
+      first = len(buffer) + 1
+      do
+         first = first - 1
+         buffer(first:first) = achar(iachar('0') + abs(mod(rest, 10)))
+         rest = rest/10
+         if (rest == 0) exit
+      end do
+      if (value < 0) then
+         first = first - 1
+         buffer(first:first) = '-'
+      end if
+      text = buffer(first:)
    end function str_integer
 
    !> A real with `digits` significant digits (default 6), without trailing zeros: 0.25, 1E-05, infinite.
@@ -124,8 +136,8 @@ contains
       if (count == 1) text = '1 '//singular
    end function plural
 
-   !> The candidate most similar to a mistyped name, or '' if none is similar
-   !> (edit distance at most a third of the length, at least 1).
+   !> The candidate most similar to a mistyped name, or '' if none is similar: the first that ends in '_name', as left_toe_deg in
+   !> toe_deg; otherwise that of the least edit distance, at most a third of the length, at least 1. A pattern (*) has none.
    pure function nearest_name(name, candidates) result(best)
       character(*), intent(in) :: name
       character(*), intent(in) :: candidates(:)
@@ -133,7 +145,13 @@ contains
       integer :: k, distance, least
 
       best = ''
-      if (name == '') return
+      if (name == '' .or. index(name, '*') > 0) return
+      do k = 1, size(candidates)
+         if (index(trim(candidates(k)), '_'//trim(name), back=.true.) /= len_trim(candidates(k)) - len_trim(name)) cycle
+         if (len_trim(candidates(k)) <= len_trim(name)) cycle
+         best = trim(candidates(k))
+         return
+      end do
       least = max(1, len_trim(name)/3) + 1
       do k = 1, size(candidates)
          if (candidates(k) == '') cycle
@@ -146,6 +164,37 @@ contains
          end if
       end do
    end function nearest_name
+
+   !> " (did you mean 'kt'?)" if one candidate is similar, otherwise ''.
+   pure function suggestion(name, candidates) result(words)
+      character(*), intent(in) :: name, candidates(:)      !! blank candidates are ignored
+      character(:), allocatable :: words
+
+      words = nearest_name(name, candidates)
+      if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
+   end function suggestion
+
+   !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.
+   pure function did_you_mean(name, candidates) result(words)
+      character(*), intent(in) :: name
+      character(*), intent(in) :: candidates(:)    !! blank ones are ignored
+      character(:), allocatable :: words
+      integer, parameter :: max_listed = 20
+      integer :: k
+
+      words = suggestion(name, candidates)
+      if (words /= '') return
+      if (count(candidates /= '') == 0) then
+         words = ' (there is none)'
+      else if (count(candidates /= '') <= max_listed) then
+         do k = 1, size(candidates)
+            if (candidates(k) == '') cycle
+            if (words /= '') words = words//', '
+            words = words//trim(candidates(k))
+         end do
+         words = ' (known: '//words//')'
+      end if
+   end function did_you_mean
 
    !> Whether a text has the form of a pattern, in which * stands for any characters, also none.
    pure recursive logical function is_like(text, pattern) result(fits)
@@ -160,6 +209,11 @@ contains
       fits = .false.
       if (len(text) < star - 1) return
       if (text(:star - 1) /= pattern(:star - 1)) return
+      if (index(pattern(star + 1:), '*') == 0) then          ! the last one: the rest is the end of the text
+         k = len_trim(text) - len_trim(pattern) + star + 1
+         if (k >= star) fits = text(k:) == pattern(star + 1:)
+         return
+      end if
       do k = star, len(text) + 1
          fits = is_like(text(k:), pattern(star + 1:))
          if (fits) return

@@ -135,8 +135,10 @@ contains
 
       if (len(self%reason) > 0 .or. .not. c_associated(self%stream)) return
       self%is_empty = .false.
-      call self%rows%add(text)
-      if (self%rows%length() > max_held .and. .not. self%is_part) call self%flush()
+      if (len(text) <= max_held .or. self%is_part) call self%rows%add(text)
+      if (max(self%rows%length(), len(text)) > max_held .and. .not. self%is_part) call self%flush()
+      if (len(text) <= max_held .or. self%is_part .or. len(self%reason) > 0) return
+      if (.not. write_bytes(c_fileno(self%stream), text)) self%reason = system_reason()      ! not copied: a page has megabytes
    end subroutine writer_add
 
    !> Passes the added text to the system, so that it survives the end of this process. The text added to a part since the

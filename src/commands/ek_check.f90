@@ -12,9 +12,9 @@ module ek_check
    use ek_examination, only: add_distinct, examine_case
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t, new_kkt
-   use ek_balance, only: balance, balance_remarks
+   use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t, diagnose
-   use ek_plausibility, only: doubt
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases
    implicit none(type, external)
@@ -74,7 +74,7 @@ contains
          if (.not. diagnosis%is_solvable()) call add_distinct(found, diagnosis%words())
       end if
       call add(findings, 'warnings', diagnosis%warnings%text())
-      call add_remarks(base, cases, found%count() == 0, diagnosis%warnings%count() > 0, findings, trouble)
+      call add_remarks(base, cases, chosen, found%count() == 0, diagnosis%warnings%count() > 0, findings, trouble)
       if (found%count() > 0) then
          call fail(error, exit_model, settings%file//': the model cannot be solved'//new_line('a')//found%text())
          return
@@ -82,15 +82,15 @@ contains
       if (size(chosen) > 0) call move_alloc(trouble, error)
    end subroutine examine
 
-   !> Remarks on implausible values, evaluated on the balanced model if balance succeeds.
-   subroutine add_remarks(base, cases, is_solvable, has_warnings, findings, error)
+   !> The remarks on the model, balanced if balance succeeds. The preloads that balance finds are results, not findings.
+   subroutine add_remarks(base, cases, chosen, is_solvable, has_warnings, findings, error)
       type(suspension_t), intent(in) :: base
-      type(case_t), intent(in) :: cases(:)
+      type(case_t), intent(in) :: cases(:), chosen(:)
       logical, intent(in) :: is_solvable, has_warnings
       type(buffer_t), intent(inout) :: findings
       type(error_t), allocatable, intent(out) :: error    !! of balance
       type(suspension_t) :: balanced
-      type(message_list_t) :: remarks
+      type(model_remarks_t) :: remarks
       real(wp) :: tolerance
       integer :: k
 
@@ -101,12 +101,11 @@ contains
          call balance(balanced, tolerance, error)
          if (allocated(error)) balanced = base
       end if
-      if (is_solvable .and. .not. allocated(error)) call balance_remarks(balanced, remarks)
-      if (remarks%count() > 0) call findings%line(remarks%text())
-      call doubt(balanced, cases, remarks)
-      do k = 1, remarks%count()
-         if (has_warnings .and. index(remarks%line(k), 'very soft') == 1) cycle       ! already among the warnings
-         call add(findings, 'remark', remarks%line(k))
+      call find_model_remarks(balanced, cases, chosen, is_solvable .and. .not. allocated(error), remarks)
+      if (remarks%warnings%count() > 0) call findings%line(remarks%warnings%text())
+      do k = 1, remarks%doubts%count()
+         if (has_warnings .and. index(remarks%doubts%line(k), 'very soft') == 1) cycle       ! already among the warnings
+         call add(findings, 'remark', remarks%doubts%line(k))
       end do
    end subroutine add_remarks
 
@@ -124,6 +123,7 @@ contains
       call add(findings, 'unknowns', str(diagnosis%unknowns)//' = 6 × '//str(size(suspension%bodies)))
       call add(findings, 'constraints', str(diagnosis%constraints)//' in '//plural(size(suspension%joints), 'joint', 'joints')// &
          ', rank '//str(diagnosis%rank))
+      call add(findings, 'matrix', matrix_text(suspension))
       held = ''
       do kind = 1, size(element_kinds)         ! bushings and springs are listed even if there are none
          k = count(suspension%elements%kind == kind)
@@ -145,6 +145,18 @@ contains
       end do
       call add(findings, 'unused points', unused(3:))
    end subroutine add_model
+
+   !> The size of the system of an increment without the rows of a rig, for LAPACK and for the plan of elimination. Numbers are those
+   !> of the lower triangle.
+   function matrix_text(suspension) result(text)
+      type(suspension_t), intent(in) :: suspension
+      character(:), allocatable :: text
+      type(kkt_t) :: kkt
+
+      kkt = new_kkt(suspension, wants_plan=.true.)
+      text = 'order '//str(kkt%n)//', '//plural(kkt%pattern%entries, 'nonzero', 'nonzeros')//', '// &
+         str(kkt%plan(1)%length)//' with fill; dense '//str((kkt%n*(kkt%n + 1))/2)
+   end function matrix_text
 
    !> "universal 'outer': axis_2_vector = 0, 1, 0": the axis that the program has chosen, in the frame of the deck.
    function axis_text(suspension, k) result(text)

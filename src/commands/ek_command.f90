@@ -10,9 +10,13 @@ module ek_command
    use ek_compare, only: compare
    use ek_study_command, only: run_study_command, run_merge_command
    use ek_plot, only: run_plot_command
+   use ek_derivatives_command, only: derive
+   use ek_solve_command, only: solve_for
+   use ek_fit_command, only: run_fit
    use ek_bench, only: bench
    use ek_import, only: import
    use ek_export, only: export
+   use ek_explain, only: explain
    implicit none(type, external)
    private
    public :: commands, options, exit_status_text, help_text, obey
@@ -39,13 +43,18 @@ module ek_command
       'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
       'test, key_numbers and gradients as .csv and .json (slopes with window, unit and sign), compliance.csv'//nl// &
       '(the compliance matrix at every state of the first test), picture.png and picture.svg,'//nl// &
-      'and figures/ with every chart as SVG and its gnuplot script.', ''), &
+      'and figures/ with every chart as SVG, its gnuplot script, and views.svg with the names of the hardpoints.', ''), &
+      command_t('explain', 'explain DECK [options]', 'explain DECK', 'who contributes what to each compliance, and load paths', &
+      'Splits each column that is linear in the compliance matrix into what every axis of every bushing, spring, bar,'//nl// &
+      'stop and every preload adds to it; exactly, at every state. Prints the largest ten at design and writes into DIR:'//nl// &
+      '<model>_<case>_contributions.csv, and <model>_<case>_load_paths.csv: force and moment in every element and joint'//nl// &
+      'per newton at a contact point, with shares of strain energy.', exit_status_text), &
       command_t('compare', 'compare A.csv B.csv …   or   elastokin compare REPORT_A REPORT_B …', 'compare A B', &
       'overlay results and list the differences', &
-      'Overlays the results of one case, or two reports (folders written by report): compare.html shows all'//nl// &
-      'common columns in shared charts, and a table of all gradients against those of the first result.'//nl// &
-      'The table is also printed to standard output and written to differences.csv. Columns missing from one'//nl// &
-      'result are listed.', '', 2), &
+      'Compares reports (folders written by report), or the results of one case: compare.html lists what was changed'//nl// &
+      'in the deck, the key numbers and gradients sorted by change, and shows each chart with the curves of all results.'//nl// &
+      'The gradients are also printed. Tables for programs, with change and verdict (changed, same, only in A, only in B,'//nl// &
+      'not a number): differences.csv, number-differences.csv, curve-differences.csv, deck-differences.csv.', '', 2), &
       command_t('study', 'study STUDY.nml [options]', 'study STUDY', 'many designs of a deck, or step-size convergence', &
       'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
       'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
@@ -69,16 +78,39 @@ module ek_command
       '  matlab-kc  <model>_kandc.m and .json: parameters of "Independent Suspension - K and C"'//nl// &
       '  csv        <model>_kinematics.csv, _loads.csv, _compliance.csv, and all of it in _tables.json'//nl// &
       'docs/EXPORT.md describes each file: frame, signs, units. If a number cannot be computed, nothing is written.', ''), &
-      command_t('bench', 'bench DECK', 'bench DECK', 'time per increment, relative to LAPACK''s solve alone', &
+      command_t('derivatives', 'derivatives DECK [options]', 'derivatives DECK', &
+      'how every column changes with every number of a deck', &
+      'Solves one case and writes DIR/<model>_<case>_derivatives.csv: the derivative of every column with respect to every'//nl// &
+      'number of the deck, in the unit of the column per unit of the number, with an estimate of its error. They are exact'//nl// &
+      'but for rounding; nothing is solved again. The motion of the state is included, and so are settling and balance.'//nl// &
+      'A number of a mirrored half deck acts on both sides; one of a side alone has its name: point.left_x.z. With --of,'//nl// &
+      'the numbers with the largest effects are printed: of 1 mm, of 0.06 deg, of 1 % of a rate or force.', &
+      exit_status_text), &
+      command_t('solve', 'solve DECK [options]', 'solve DECK', 'numbers of a deck for which quantities have given values', &
+      'Changes the numbers of --vary within their bounds until the quantities of --for have their values. A quantity is'//nl// &
+      'a column of a case, an entry of its compliance matrix, or a key number of the report. Derivatives are exact, so that'//nl// &
+      'Newton''s method needs a few sweeps. Says what was reached, what was not and why; prints the changed records and'//nl// &
+      'writes DIR/<model>_solve.set for --set-file. Where several solutions exist, the smallest change is taken.', &
+      exit_status_text), &
+      command_t('fit', 'fit FIT.nml [options]', 'fit FIT', 'factors of a deck at which measured or wanted curves are met', &
+      'Weighted least squares: the factors of a deck within their bounds at which curves, slopes, key numbers and limits of'//nl// &
+      'several cases are met best; hardpoints for wanted curves, or bushing rates from measured ones. Prints and draws start,'// &
+      nl//'target and result, the 95 % confidence of each factor, active bounds, and what these tests leave open. Writes'//nl// &
+      'DIR/<fit>_factors.csv, <fit>_points.csv, <fit>.set for --set-file, and the figure <fit>.png and .svg.', &
+      exit_status_text), &
+      command_t('bench', 'bench DECK   or   elastokin bench --growth N', 'bench DECK', &
+      'time per increment, relative to LAPACK''s solve alone', &
       'Times one complete increment of each method relative to LAPACK''s dsysv alone (factor and solve)'//nl// &
-      'on the same matrices in the same run, a design of 20 increments from numbers to a column (as in a study)'//nl// &
-      'relative to its states, and all steps from deck to CSV. --quiet omits the latter; --json prints one object.', '')]
+      'on the same matrices in the same run, by LAPACK and by plan, with its parts; packs of four designs; a row of the'//nl// &
+      'compliance matrix; a design of 20 increments from numbers to a column (as in a study) relative to its states;'//nl// &
+      'and all steps from deck to CSV. --quiet omits the latter; --json prints one object.', '', alone='--growth')]
 
    ! In the order of the help; neighbours with the same help share a line
    type(option_t), parameter :: options(*) = [ &
       option_t('run', '--out DIR', 'output folder (default: out); - writes the CSV to standard output'), &
-      option_t('run', '--case NAME', 'run this case only'), &
+      option_t('run', '--case NAME', 'run this case, or standard test, only'), &
       option_t('run', '--method M', 'recursive | corrected | equilibrium; overrides the deck'), &
+      option_t('run', '--solver S', 'lapack | plan (sparse elimination, faster); overrides the deck'), &
       option_t('run', '--increments N', 'increments of the whole range; overrides the deck'), &
       option_t('run', '--set path=value', 'replace a value of the deck, with the same checks; may be repeated:'//indent// &
       '--set point.lower_ball_joint.z=-105 --set "bushing.top_mount.kt(1)=500"'), &
@@ -88,6 +120,7 @@ module ek_command
       option_t('run', '--columns a,b,c', 'only these columns, beside state, factor, converged …; left_* stands for many'), &
       option_t('run', '--json', 'also write DIR/<model>_run.json: tables, remarks and status; with --out - only this'), &
       option_t('run', '--compliance', 'also write DIR/<model>_<case>_compliance.csv: the compliance matrix at every state'), &
+      option_t('run', '--loads', 'also write loads.csv (every member at every state) and peak-loads.csv for all cases'), &
       option_t('run', '--plot', 'also write gnuplot scripts, and PNG and SVG figures if gnuplot is installed'), &
       option_t('run', '--quiet', quiet_help), &
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
@@ -97,13 +130,45 @@ module ek_command
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
       'travel=15 (mm) roll=1 (deg) force=1000 (N) torque=100 (N m) rack=10 (mm) wheel=20 (deg)'), &
       option_t('report', '--case NAME', 'run this test only'), &
-      option_t('report', '--method M', 'as for run'), option_t('report', '--increments N', 'as for run'), &
+      option_t('report', '--method M', 'as for run'), option_t('report', '--solver S', 'as for run'), &
+      option_t('report', '--increments N', 'as for run'), &
       option_t('report', '--set path=value', 'as for run'), option_t('report', '--set-file FILE', 'as for run'), &
+      option_t('report', '--loads', 'also write loads.csv (every member at every state of every test) and peak-loads.csv'), &
       option_t('report', '--no-plots', no_plots_help), &
+      option_t('report', '--scales DIR', 'charts with the axes of the report in DIR, to lay both side by side'), &
+      option_t('report', '--static', 'a page without script: its charts are the pictures drawn by gnuplot'), &
+      option_t('report', '--live N', 'sliders on the page for the N rates (1 to 24) that contribute most to the compliances:'// &
+      indent//'numbers and curves that are linear in the compliance matrix follow them; not with --static'), &
       option_t('report', '--quiet', quiet_help), &
+      option_t('explain', '--out DIR', 'output folder (default: out)'), &
+      option_t('explain', '--case NAME', 'this case only'), &
+      option_t('explain', '--of a,b,c', 'these columns: of forces and torques (lateral_in_load_held_steer_deg_per_kn), or'// &
+      indent//'entries of the matrix (patch_z_by_fz_mm_per_kn); * stands for any letters; default: key ones'), &
+      option_t('explain', '--at VALUE', 'only the state nearest to this swept value (default: all; design is printed)'), &
+      option_t('explain', '--rigid NAME', 'what the columns would be if this element were rigid (arm_front), or'//indent// &
+      'one axis of it (arm_front.x); may be repeated'), &
+      option_t('explain', '--scan', 'where 1 kN/mm more would change the columns most'), &
+      option_t('explain', '--json', 'also write DIR/<model>_contributions.json'), &
+      option_t('explain', '--increments N', 'as for run'), option_t('explain', '--solver S', 'as for run'), &
+      option_t('explain', '--set path=value', 'as for run'), option_t('explain', '--set-file FILE', 'as for run'), &
+      option_t('explain', '--quiet', quiet_help), &
+      option_t('solve', '--vary path=lo:hi', 'a number that may change, and its bounds; may be repeated:'//indent// &
+      '--vary point.tie_rod_inner.z=-80:-50'), &
+      option_t('solve', '--for name=value', 'a quantity and its value: --for left_bump_steer=0; also with its'// &
+      indent//'case and swept value: --for "roll:left_camber_deg@2=-1.5"; may be repeated'), &
+      option_t('solve', '--case NAME', 'case of the columns (default: the first)'), &
+      option_t('solve', '--at VALUE', 'swept value at which columns are read (default: design)'), &
+      option_t('solve', '--out DIR', 'output folder (default: out)'), &
+      option_t('solve', '--set path=value', 'as for run'), option_t('solve', '--set-file FILE', 'as for run'), &
+      option_t('solve', '--quiet', quiet_help), &
+      option_t('fit', '--out DIR', 'output folder (default: out, next to the fit)'), &
+      option_t('fit', '--set path=value', 'change the deck of the fit'), &
+      option_t('fit', '--no-plots', no_plots_help), option_t('fit', '--quiet', quiet_help), &
       option_t('compare', '--out DIR', 'output folder (default: out)'), &
       option_t('compare', '--window what=half', 'as for report, if gradients are computed from CSV files'), &
+      option_t('compare', '--threshold P%', 'a change beyond this counts, of A or of the least span of a chart (default: 1%)'), &
       option_t('compare', '--no-plots', no_plots_help), &
+      option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
       option_t('study', '--jobs N', 'threads (default: one per processor; under mpirun one per process)'), &
@@ -141,7 +206,17 @@ module ek_command
       option_t('export', '--quiet', quiet_help), &
       option_t('import', '--out FILE', 'write this file (default: -, standard output)'), &
       option_t('import', '--quiet', quiet_help), &
+      option_t('derivatives', '--case NAME', 'of this case or standard test (default: the first of the deck)'), &
+      option_t('derivatives', '--of a,b,c', 'only these columns, also of the compliance matrix (as in run --compliance); '// &
+      'left_* stands for many'), &
+      option_t('derivatives', '--with paths', 'only these numbers, as in --set: point.lca_front.z,bushing.*.kt; may be repeated'), &
+      option_t('derivatives', '--at a,b,c', 'at the states nearest to these swept values, or all (default: 0, the design state)'), &
+      option_t('derivatives', '--out DIR', 'output folder (default: out); - writes the CSV to standard output'), &
+      option_t('derivatives', '--set path=value', 'as for run'), option_t('derivatives', '--set-file FILE', 'as for run'), &
+      option_t('derivatives', '--quiet', quiet_help), &
       option_t('bench', '--case NAME', ''), option_t('bench', '--increments N', ''), option_t('bench', '--set path=value', ''), &
+      option_t('bench', '--growth N', 'instead of a deck: chains with matrices of 100 to 2000 rows, as far as N'), &
+      option_t('bench', '--derivatives', 'instead: what derivatives cost, in sweeps by LAPACK of the same states'), &
       option_t('bench', '--json', 'print one JSON object'), option_t('bench', '--quiet', ''), &
       ! of every command
       option_t('', '--log FILE', 'append a record of this run (one line of JSON: arguments, messages, results, exit status)'), &
@@ -163,6 +238,8 @@ contains
          call check(line, error)
       case ('report')
          call report(line, error)
+      case ('explain')
+         call explain(line, error)
       case ('compare')
          call compare(line, error)
       case ('study')
@@ -175,6 +252,12 @@ contains
          call import(line, error)
       case ('export')
          call export(line, error)
+      case ('derivatives')
+         call derive(line, error)
+      case ('solve')
+         call solve_for(line, error)
+      case ('fit')
+         call run_fit(line, error)
       case ('bench')
          call bench(line, error)
       end select

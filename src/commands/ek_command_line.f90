@@ -3,29 +3,31 @@
 module ek_command_line
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: nearest_name, quoted
+   use ek_text, only: suggestion, quoted
    use ek_decimal, only: get_decimal
    use ek_gradient_definition, only: windows_t, set_window
    implicit none(type, external)
    private
    public :: command_t, option_t, option_name, command_line_t, read_command_line, refuse_stream, read_windows, argument
+   public :: read_threshold
 
    !> A command, as --help describes it.
    type :: command_t
-      character(7) :: name
+      character(11) :: name
       character(80) :: usage      !! after 'elastokin'; options without a line of help are appended
-      character(15) :: brief      !! the same in the overview
+      character(18) :: brief      !! the same in the overview
       character(60) :: summary    !! line of the overview
       character(620) :: text      !! description
       character(180) :: ending    !! after the options
       integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
+      character(13) :: alone = '' !! option that is given in place of the files
    end type command_t
 
    !> An option that a command takes.
    type :: option_t
-      character(7) :: command     !! '' for every command
+      character(11) :: command    !! '' for every command
       character(19) :: label      !! '--plot', '--out DIR': the name, and what follows it; N: a number, a=b: may be repeated
-      character(190) :: help      !! its line in the help of the command; '' if the line of usage suffices
+      character(200) :: help      !! its line in the help of the command; '' if the line of usage suffices
    end type option_t
 
    type :: command_line_t
@@ -98,7 +100,7 @@ contains
    end subroutine read_number
 
    !> '--out' of '--out DIR'.
-   elemental character(12) function option_name(option) result(name)
+   elemental character(13) function option_name(option) result(name)
       type(option_t), intent(in) :: option
       name = option%label(:index(option%label, ' ') - 1)
    end function option_name
@@ -135,7 +137,7 @@ contains
       if (k == 0 .or. line%has('--help') .or. line%has('--version') .or. line%has('--help-files')) return
       if (n == 0) then
          call fail(error, exit_usage, 'no command: expected '//names_of(commands))
-      else if (line%files%count() < max(commands(n)%files, 1)) then
+      else if (line%files%count() < max(commands(n)%files, 1) .and. .not. line%has(trim(commands(n)%alone))) then
          call fail(error, exit_usage, line%command//' needs '//trim(merge('a file              ', 'at least two results', &
             commands(n)%files < 2))//': elastokin '//trim(commands(n)%brief))
       end if
@@ -163,7 +165,8 @@ contains
       if (equals > 0) name = word(:equals - 1)
       if (name == '-q') name = '--quiet'
       if (name == '-h') name = '--help'
-      n = findloc(option_name(options) == name, .true., dim=1)
+      n = findloc(option_name(options) == name .and. options%command == line%command, .true., dim=1)
+      if (n == 0) n = findloc(option_name(options) == name, .true., dim=1)      ! a slip, or before the command
       if (n == 0) then
          call fail(error, exit_usage, 'unknown option '//quoted(name)//suggestion(name, option_name(options)))
          return
@@ -228,6 +231,31 @@ contains
       end do
    end subroutine read_windows
 
+   !> Reads --threshold, a change in percent with or without its sign, as a share.
+   subroutine read_threshold(line, threshold, error)
+      type(command_line_t), intent(in) :: line
+      real(wp), intent(inout) :: threshold
+      type(error_t), allocatable, intent(out) :: error     !! no number, or a negative one
+      character(:), allocatable :: text
+      real(wp) :: value
+      integer :: last
+      logical :: is_number
+
+      if (.not. line%has('--threshold')) return
+      text = trim(line%value('--threshold'))
+      last = len(text)
+      if (last > 1) then
+         if (text(last:) == '%') last = len_trim(text(:last - 1))
+      end if
+      is_number = verify(text(:last), '0123456789.') == 0
+      if (is_number) call get_decimal(text(:last), value, is_number)
+      if (is_number) then
+         threshold = value/100
+      else
+         call fail(error, exit_usage, '--threshold: expected a change in percent, as in 1% or 0.2%, found '//quoted(text))
+      end if
+   end subroutine read_threshold
+
    !> 'run, check, report, compare, study, merge, plot, import or bench'
    pure function names_of(commands) result(text)
       type(command_t), intent(in) :: commands(:)
@@ -239,15 +267,6 @@ contains
          text = text//trim(merge(' or', ',  ', k == size(commands)))//' '//trim(commands(k)%name)
       end do
    end function names_of
-
-   !> '; did you mean …?', or '' without a similar name.
-   function suggestion(word, names) result(text)
-      character(*), intent(in) :: word, names(:)
-      character(:), allocatable :: text
-
-      text = nearest_name(word, names)
-      if (len(text) > 0) text = '; did you mean '//quoted(text)//'?'
-   end function suggestion
 
    !> Argument number k in full length.
    function argument(k) result(text)

@@ -1,21 +1,24 @@
-!> elastokin compare: overlaid results, and a table of the differences of their gradients.
+!> elastokin compare: what was changed between results, what this did, and their curves over each other.
 module ek_compare
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: decimal
    use ek_file, only: make_folder, write_whole, join_path
-   use ek_table, only: column_index
+   use ek_table, only: column_index, name_index, name_length
    use ek_chart, only: chart_t, charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
-   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv
-   use ek_report_files, only: results_t, read_results
+   use ek_report_files, only: results_t, read_results, test_number
    use ek_gradient_definition, only: windows_t
-   use ek_command_line, only: command_line_t, refuse_stream, read_windows
+   use ek_command_line, only: command_line_t, refuse_stream, read_windows, read_threshold
    use ek_console, only: print_note, print_text
-   use ek_compare_page, only: comparison_t, difference_t, compare_gradients, difference, percent, overlay, page_of, test_number, &
-      letter_of
+   use ek_change, only: change_of, verdict_of, letter_of
+   use ek_comparison, only: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, percent
+   use ek_compare_charts, only: compare_charts
+   use ek_deck_file, only: deck_record_t
+   use ek_deck_difference, only: deck_difference_t, find_differences, step_text
+   use ek_compare_tables, only: write_tables
+   use ek_compare_page, only: page_of, verdicts
    implicit none(type, external)
    private
    public :: compare
@@ -31,13 +34,16 @@ contains
       type(error_t), allocatable :: undrawn, unprinted
       character(:), allocatable :: message, path
       integer :: k, l
+      type(deck_record_t), allocatable :: decks(:)
       logical :: is_quiet, has_plots
 
       is_quiet = line%has('--quiet')
       has_plots = .not. line%has('--no-plots')
       call refuse_stream(line, error)
       if (.not. allocated(error)) call read_windows(line, windows, error)
+      if (.not. allocated(error)) call read_threshold(line, this%threshold, error)
       if (allocated(error)) return
+      this%is_static = line%has('--static')
       allocate (this%results(line%files%count()))
       do k = 1, size(this%results)
          call read_results(line%files%line(k), windows, this%results(k), error)
@@ -60,15 +66,19 @@ contains
       if (.not. allocated(error)) call make_folder(join_path(this%folder, 'figures'), error)
       if (allocated(error)) return
 
+      decks = this%results%deck
+      call find_differences(decks, this%facts, this%deck)
       call compare_gradients(this%results, this%rows)
+      call compare_numbers(this%results, this%numbers)
+      this%shown = results_shown(this%numbers, this%rows)
+      call compare_charts(this%results, this%threshold, this%charts, this%changes, this%curves)
       call find_missing(this%results, this%rows, this%missing)
-      call print_text(text_of(this%results, this%rows), unprinted)     ! the files are written even if it is closed
+      call print_text(text_of(this), unprinted)     ! the files are written even if it is closed
       do k = 1, this%missing%count()
          call print_note(is_quiet, this%missing%line(k))
       end do
-      call write_differences(this%results, this%rows, join_path(this%folder, 'differences.csv'), error)
+      call write_tables(this, error)
       if (allocated(error)) return
-      call overlay(this%results, this%charts)
       ! first without its pictures: the page then exists even if gnuplot fails or hangs
       path = join_path(this%folder, 'compare.html')
       message = ''
@@ -134,16 +144,19 @@ contains
    function columns_lacking(one, other) result(lacking)
       type(results_t), intent(in) :: one, other
       type(message_list_t) :: lacking
+      character(name_length), allocatable :: names(:)      ! those of the list, for the search
       integer :: t, u, k
 
+      allocate (names(sum([(size(one%tests(t)%table%columns), t=1, size(one%tests))])))
       do t = 1, size(one%tests)
          u = test_number(other, one%tests(t)%name)
          if (u == 0) cycle
          associate (columns => one%tests(t)%table%columns)
             do k = 1, size(columns)
                if (column_index(other%tests(u)%table, columns(k)) > 0) cycle
-               if (index(new_line('a')//lacking%text()//new_line('a'), new_line('a')//trim(columns(k))//new_line('a')) == 0) &
-                  call lacking%add(trim(columns(k)))
+               if (columns(k) == '' .or. name_index(names(:lacking%count()), columns(k)) > 0) cycle
+               call lacking%add(trim(columns(k)))
+               names(lacking%count()) = columns(k)
             end do
          end associate
       end do
@@ -164,44 +177,109 @@ contains
       if (names%count() > enough) text = text//' and '//str(names%count() - enough)//' more'
    end function some_of
 
-   !> The table for standard output.
-   function text_of(results, rows) result(text)
-      type(results_t), intent(in) :: results(:)
-      type(difference_t), intent(in) :: rows(:)
+   !> The text for standard output: what was changed, how many results did, and the table of gradients.
+   function text_of(this) result(text)
+      type(comparison_t), intent(in) :: this
       character(:), allocatable :: text
+      type(message_list_t) :: lines
       type(buffer_t) :: out
-      character(:), allocatable :: test
       integer :: k, r
 
-      if (size(rows) == 0) then
-         text = 'no gradients to compare'//new_line('a')
-         return
-      end if
-      do r = 1, size(results)
-         call out%line(letter_of(r)//': '//results(r)%path)
+      do r = 1, size(this%results)
+         call out%line(letter_of(r)//': '//this%results(r)%path)
       end do
+      call out%line('')
+      call add_changes(out, this%facts, this%deck)
+      call verdicts(this, lines)
+      do k = 1, lines%count()
+         call out%line(lines%line(k))
+      end do
+      if (size(this%rows) == 0) then
+         call out%line('no gradients to compare')
+      else
+         call add_gradients(out, this)
+      end if
+      text = out%text()
+   end function text_of
+
+   !> 'Deck checksum: 12ab → 34cd', 'point.seat.y: -500 → -520 (-20)'; of many values the first ones.
+   subroutine add_changes(out, facts, values)
+      type(buffer_t), intent(inout) :: out
+      type(deck_difference_t), intent(in) :: facts(:), values(:)
+      integer, parameter :: most = 30
+      integer :: k
+
+      do k = 1, size(facts)
+         call add_change(facts(k))
+      end do
+      do k = 1, min(size(values), most)
+         call add_change(values(k))
+      end do
+      if (size(values) > most) call out%line('and '//str(size(values) - most)//' more; see deck-differences.csv')
+      if (size(facts) + size(values) > 0) call out%line('')
+
+   contains
+
+      subroutine add_change(change)
+         type(deck_difference_t), intent(in) :: change
+         character(:), allocatable :: step
+         integer :: r
+
+         call out%add(change%path//': '//given(change%texts%line(1)))
+         do r = 2, change%texts%count()
+            call out%add(' → '//given(change%texts%line(r)))
+         end do
+         step = ''
+         if (change%texts%count() == 2) step = step_text(change%texts%line(1), change%texts%line(2))
+         if (step /= '') call out%add(' ('//step//')')
+         if (change%sides /= '') call out%add(', '//change%sides)
+         call out%line('')
+      end subroutine add_change
+
+      pure function given(words) result(text)
+         character(*), intent(in) :: words
+         character(:), allocatable :: text
+
+         text = words
+         if (words == '') text = 'not given'
+      end function given
+
+   end subroutine add_changes
+
+   !> The table of gradients.
+   subroutine add_gradients(out, this)
+      type(buffer_t), intent(inout) :: out
+      type(comparison_t), intent(in) :: this
+      character(:), allocatable :: test
+      real(wp) :: change
+      integer :: k, r
+
       test = ''
-      do k = 1, size(rows)
-         associate (row => rows(k))
+      do k = 1, size(this%rows)
+         associate (row => this%rows(k))
             if (row%test /= test) then
                test = row%test
                call out%line('')
                call out%add(padded(test, -42)//padded('A', 12))
-               do r = 2, size(results)
+               do r = 2, size(this%results)
                   call out%add(padded(letter_of(r), 12)//padded('difference', 12)//padded('percent', 9))
                end do
                call out%line('  unit')
             end if
             call out%add(padded(trim(row%quantity//' '//row%side), -42)//number_text(row%values(1), 6, 12))
-            do r = 2, size(results)
+            do r = 2, size(this%results)
                call out%add(number_text(row%values(r), 6, 12)//number_text(difference(row%values(1), row%values(r)), 4, 12)// &
                   number_text(percent(row%values(1), row%values(r)), 3, 9))
             end do
-            call out%line('  '//row%unit)
+            call out%add('  '//padded(row%unit, -12))
+            do r = 2, size(this%results)
+               change = change_of(row%values(1), row%values(r), row%least)
+               call out%add(' '//trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r)))
+            end do
+            call out%line('')
          end associate
       end do
-      text = out%text()
-   end function text_of
+   end subroutine add_gradients
 
    !> A number for the table on the terminal; '-' for a missing value.
    pure function number_text(value, digits, width) result(text)
@@ -224,36 +302,6 @@ contains
       filled = blanks//text
       if (width < 0) filled = text//blanks
    end function padded
-
-   !> differences.csv: one row per gradient and per result compared with the first.
-   subroutine write_differences(results, rows, path, error)
-      type(results_t), intent(in) :: results(:)
-      type(difference_t), intent(in) :: rows(:)
-      character(*), intent(in) :: path
-      type(error_t), allocatable, intent(out) :: error
-      type(text_table_t) :: table
-      integer :: k, r
-
-      table = new_text_table([character(10) :: 'test', 'quantity', 'side', 'unit', 'window', 'a_file', 'b_file', 'a', 'b', &
-         'difference', 'percent'])
-      do k = 1, size(rows)
-         do r = 2, size(results)
-            call add_row(table)
-            table%cells(1, table%rows)%text = rows(k)%test
-            table%cells(2, table%rows)%text = rows(k)%quantity
-            table%cells(3, table%rows)%text = rows(k)%side
-            table%cells(4, table%rows)%text = rows(k)%unit
-            table%cells(5, table%rows)%text = rows(k)%window
-            table%cells(6, table%rows)%text = results(1)%path
-            table%cells(7, table%rows)%text = results(r)%path
-            table%cells(8, table%rows)%text = decimal(rows(k)%values(1))
-            table%cells(9, table%rows)%text = decimal(rows(k)%values(r))
-            table%cells(10, table%rows)%text = decimal(difference(rows(k)%values(1), rows(k)%values(r)))
-            table%cells(11, table%rows)%text = decimal(percent(rows(k)%values(1), rows(k)%values(r)))
-         end do
-      end do
-      call write_whole(path, text_table_csv(table), error)
-   end subroutine write_differences
 
    !> Draws all charts in one run of gnuplot.
    subroutine draw(is_wanted, charts, folder, message, is_drawn, error)

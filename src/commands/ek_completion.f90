@@ -155,7 +155,7 @@ contains
       type(option_t), intent(in) :: options(:)
       character(:), allocatable :: text
       character(:), allocatable :: condition
-      character(12) :: name
+      character(13) :: name
       type(buffer_t) :: script
       integer :: k
 

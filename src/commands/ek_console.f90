@@ -5,11 +5,8 @@ module ek_console
    use ek_text, only: str, plural, printable
    use ek_file, only: is_terminal, write_standard_output, write_standard_error
    use ek_table, only: table_t, write_csv
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t
-   use ek_balance, only: balance_remarks
-   use ek_plausibility, only: doubt
-   use ek_remark, only: remark_t, remark_list_t, note, warning, patch_remarks, spring_remarks, preload_remarks
+   use ek_remark, only: remark_t, remark_list_t, note, warning
+   use ek_model_remark, only: model_remarks_t, doubt_mark
    use ek_run_log, only: log_message, log_output
    implicit none(type, external)
    private
@@ -89,35 +86,29 @@ contains
       if (is_terminal(2)) call write_standard_error(achar(13)//repeat(' ', 40)//achar(13))
    end subroutine clear_progress
 
-   !> Prints the messages on a balanced model before its cases are run: of the remarks on implausible values the first, and a
-   !> reference to the others. `page` collects the warnings, and every remark.
-   subroutine print_model_remarks(quiet, suspension, cases, chosen, page)
+   !> Prints the remarks on a model before its cases are run: of those on implausible values the first, and a reference to the
+   !> others. `page` collects the warnings, and every remark.
+   subroutine print_model_remarks(quiet, remarks, page)
       logical, intent(in) :: quiet
-      type(suspension_t), intent(in) :: suspension      !! balanced
-      type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
+      type(model_remarks_t), intent(in) :: remarks
       type(message_list_t), intent(inout), optional :: page
-      type(message_list_t) :: notes, warnings, remarks
       character(:), allocatable :: more
       integer :: k
 
-      call preload_remarks(suspension, notes)
-      do k = 1, notes%count()
-         call print_note(quiet, notes%line(k))
+      do k = 1, remarks%notes%count()
+         call print_note(quiet, remarks%notes%line(k))
       end do
-      call patch_remarks(suspension, warnings)
-      call spring_remarks(suspension, chosen, warnings)
-      call balance_remarks(suspension, warnings)
-      do k = 1, warnings%count()
-         call print_warning(warnings%line(k))
-         if (present(page)) call page%add(warnings%line(k))
+      do k = 1, remarks%warnings%count()
+         call print_warning(remarks%warnings%line(k))
+         if (present(page)) call page%add(remarks%warnings%line(k))
       end do
-      call doubt(suspension, cases, remarks)
-      if (remarks%count() == 0) return
+      k = remarks%doubts%count()
+      if (k == 0) return
       more = ''
-      if (remarks%count() > 1) more = '; and '//plural(remarks%count() - 1, 'more remark', 'more remarks')//': see elastokin check'
-      call print_warning('plausible? '//remarks%line(1)//more)
-      do k = 1, remarks%count()
-         if (present(page)) call page%add('plausible? '//remarks%line(k))
+      if (k > 1) more = '; and '//plural(k - 1, 'more remark', 'more remarks')//': see elastokin check'
+      call print_warning(doubt_mark//remarks%doubts%line(1)//more)
+      do k = 1, remarks%doubts%count()
+         if (present(page)) call page%add(doubt_mark//remarks%doubts%line(k))
       end do
    end subroutine print_model_remarks
 

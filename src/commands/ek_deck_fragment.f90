@@ -1,64 +1,112 @@
-!> The part of a deck that makes a design of a study: the records whose numbers its factors change, with the new numbers.
+!> The part of a deck that makes another design: the records whose numbers change, with the new numbers.
 module ek_deck_fragment
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_record, only: element
+   use ek_record, only: element, own_name
+   use ek_parameter, only: choice_t
+   use ek_reader, only: design_t
    use ek_worker, only: worker_t, put_factor
    use ek_study_design, only: designer_t
    implicit none(type, external)
    private
-   public :: deck_fragment
+   public :: deck_fragment, records_with
 
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 60        !! a study of every number of a model would fill the page
 
 contains
 
-   !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, all numbers of the key. '' if a factor is
-   !> no number of the design space.
+   !> The part of a deck that makes a design of a study. '' if a factor is no number of the design space.
    function deck_fragment(designer, values) result(text)
       type(designer_t), intent(in) :: designer     !! with the numbers of the deck
       real(wp), intent(in) :: values(:)            !! of the factors
       character(:), allocatable :: text
       type(worker_t) :: worker
-      integer :: f, j, lines
+      type(choice_t), allocatable :: found(:)
+      integer :: f
 
       text = ''
       worker%design = designer%worker%design
       worker%x = worker%design%parameters%x
+      allocate (found(0))
       do f = 1, size(values)
          if (size(designer%paths(f)%found) == 0) return
          call put_factor(designer%paths(f), values(f), worker)
+         found = [found, designer%paths(f)%found]
       end do
+      text = records_with(worker%design, worker%x, found)
+   end function deck_fragment
+
+   !> Lines such as `&bushing name = 'lca_front', kt = 8000, 2000, 8000 /`: one per key, all numbers of the key. Where the numbers
+   !> of both sides change as one, the record of the half deck.
+   function records_with(design, x, found) result(text)
+      type(design_t), intent(in) :: design
+      real(wp), intent(in) :: x(:)                 !! numbers of the new design [SI, axes of the deck]
+      type(choice_t), intent(in) :: found(:)       !! those that change
+      character(:), allocatable :: text
+      integer :: j, lines
+
+      text = ''
       lines = 0
-      do f = 1, size(values)
-         do j = 1, size(designer%paths(f)%found)
-            call add_line(worker, designer%paths(f)%found(j)%number, lines, text)
-         end do
+      do j = 1, size(found)
+         if (is_image(design, x, found, found(j)%number)) cycle
+         call add_line(design, x, found(j)%number, has_image(design, x, found, found(j)%number), lines, text)
       end do
       if (lines > most_lines) text = text//'! and '//str(lines - most_lines)//' more lines'//nl
       if (len(text) > 0) text = text(:len(text) - 1)
-   end function deck_fragment
+   end function records_with
+
+   !> Whether a number of the right side is that of the half deck, and changes with the one on the left.
+   pure logical function is_image(design, x, found, number)
+      type(design_t), intent(in) :: design
+      real(wp), intent(in) :: x(:)
+      type(choice_t), intent(in) :: found(:)
+      integer, intent(in) :: number
+
+      associate (this => design%parameters%list(number))
+         is_image = this%tied > 0
+         if (is_image) is_image = any(found%number == this%tied) .and. abs(x(number) - this%sign*x(this%tied)) <= &
+            1.0e-14_wp*abs(x(number))
+      end associate
+   end function is_image
+
+   !> Whether a number of the left side has such an image.
+   pure logical function has_image(design, x, found, number)
+      type(design_t), intent(in) :: design
+      real(wp), intent(in) :: x(:)
+      type(choice_t), intent(in) :: found(:)
+      integer, intent(in) :: number
+      integer :: j
+
+      has_image = .false.
+      do j = 1, size(found)
+         if (design%parameters%list(found(j)%number)%tied == number) has_image = is_image(design, x, found, found(j)%number)
+         if (has_image) return
+      end do
+   end function has_image
 
    !> The line of the key of a parameter, unless it is there.
-   subroutine add_line(worker, number, lines, text)
-      type(worker_t), intent(in) :: worker
+   subroutine add_line(design, x, number, is_half, lines, text)
+      type(design_t), intent(in) :: design
+      real(wp), intent(in) :: x(:)
       integer, intent(in) :: number
+      logical, intent(in) :: is_half               !! as in the half deck
       integer, intent(inout) :: lines
       character(:), allocatable, intent(inout) :: text
-      character(:), allocatable :: line
+      character(:), allocatable :: line, name
       integer :: k
 
-      associate (design => worker%design, this => worker%design%parameters%list(number))
+      associate (this => design%parameters%list(number))
          line = '&'//design%records(this%record)%group
-         if (element(design%records(this%record), 'name', 1) /= '') line = line//' name = '''// &
-            element(design%records(this%record), 'name', 1)//''','
+         name = element(design%records(this%record), 'name', 1)
+         if (is_half) name = own_name(design%records(this%record))
+         if (name /= '') line = line//' name = '''//name//''','
          line = line//' '//trim(this%key)//' ='
          do k = 1, design%parameters%used
             associate (other => design%parameters%list(k))
                if (other%record /= this%record .or. other%key /= this%key) cycle
                if (line(len(line):) /= '=') line = line//','
-               line = line//' '//number_text(worker%x(k)/other%unit)
+               line = line//' '//number_text(x(k)/other%unit)
             end associate
          end do
          line = line//' /'//nl

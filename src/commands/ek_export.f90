@@ -7,6 +7,7 @@ module ek_export
    use ek_case, only: case_t, default_tolerance
    use ek_balance, only: balance
    use ek_table, only: table_t
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: load_deck
    use ek_console, only: print_path, print_note, print_model_remarks, write_table
@@ -17,7 +18,7 @@ module ek_export
    use ek_monotonic, only: check_monotonic, check_steer
    use ek_carmaker, only: carmaker_text
    use ek_carsim, only: carsim_text
-   use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json
+   use ek_mathworks, only: kandc_parameters_t, find_parameters, mathworks_script, mathworks_json, corner_names
    use ek_plain_tables, only: kinematics_table, loads_table, compliance_of_map, tables_json
    use ek_export_sources, only: sources_t, solve_sources
    use ek_export_figure, only: panel_list_t, draw_export
@@ -90,6 +91,7 @@ contains
       type(axle_map_t), intent(out) :: axle
       type(error_t), allocatable, intent(out) :: error
       type(case_t), allocatable :: cases(:)
+      type(model_remarks_t) :: remarks
 
       call load_deck(settings, axle%suspension, cases, axle%checksum, error)
       if (.not. allocated(error)) call make_request(settings, axle%suspension, cases, axle%request, error)
@@ -97,7 +99,8 @@ contains
          call front_of(settings, axle%suspension, axle%is_front, error)
       if (.not. allocated(error)) call balance(axle%suspension, default_tolerance, error)
       if (allocated(error)) return
-      call print_model_remarks(settings%is_quiet, axle%suspension, cases, cases)
+      call find_model_remarks(axle%suspension, cases, cases, .true., remarks)
+      call print_model_remarks(settings%is_quiet, remarks)
       call solve_map(axle%suspension, axle%request, axle%map, error)
    end subroutine solve_axle
 
@@ -151,7 +154,6 @@ contains
       type(panel_list_t), intent(out) :: panels
       type(error_t), allocatable, intent(inout) :: unprinted
       type(error_t), allocatable, intent(out) :: error
-      character(2), parameter :: corners(4) = ['FL', 'FR', 'RL', 'RR']
       type(kandc_parameters_t) :: p
       character(:), allocatable :: text
       integer :: place, k
@@ -172,7 +174,7 @@ contains
       if (.not. allocated(error)) &
          call write_text(settings, axle%map%model//'_kandc.json', mathworks_json(p), unprinted, error)
       if (allocated(error) .or. .not. settings%has_plots) return
-      call mathworks_panels(sources, axle%map%model//'_kandc.m', text, corners(2*place - 2 + sources%side), &
+      call mathworks_panels(sources, axle%map%model//'_kandc.m', text, corner_names(2*place - 2 + sources%side), &
          size(axle%map%travel), panels)
    end subroutine write_mathworks
 

@@ -2,7 +2,7 @@
 module ek_export_settings
    use ek_kinds, only: wp, millimetre
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
-   use ek_text, only: str, quoted, nearest_name
+   use ek_text, only: str, quoted
    use ek_decimal, only: get_decimal
    use ek_suspension, only: suspension_t, driver_row
    use ek_measure, only: is_of_angle

@@ -1,26 +1,31 @@
 !> From a path and settings to a model: the first step of every command.
 module ek_load_deck
    use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck, exit_model
-   use ek_text, only: str, quoted, nearest_name
+   use ek_text, only: str, quoted, suggestion
    use ek_deck, only: deck_t, read_deck, set_value, deck_checksum
    use ek_setting, only: split_setting
    use ek_set_file, only: set_file_t, read_set_file, apply_set_file, show_set_file
    use ek_reader, only: design_t
+   use ek_target_band, only: target_band_t
    use ek_design_solver, only: read_checked
+   use ek_session, only: session_t, take_deck
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, method_names, max_increments
+   use ek_standard_tests, only: standard_tests
+   use ek_case, only: case_t, method_names, solver_names, max_increments
    use ek_command_line, only: command_line_t
    use ek_examination, only: examination_t, examine_cases
    use ek_run_log, only: is_logging, log_deck
    implicit none(type, external)
    private
-   public :: deck_settings_t, read_deck_settings, load_deck, read_changed, chosen_cases, examine_chosen
+   public :: deck_settings_t, read_deck_settings, load_deck, load_session, read_changed, add_asked_test, chosen_cases, &
+      examine_chosen
 
    !> What a command on a deck may say; a command extends it by its own settings. An option that it does not take is not given.
    type :: deck_settings_t
       character(:), allocatable :: file          !! '-' is standard input
       character(:), allocatable :: case          !! '' for all
       character(:), allocatable :: method        !! '': as in the deck
+      character(:), allocatable :: solver        !! '': as in the deck
       character(:), allocatable :: out           !! the folder, or - for standard output
       integer :: increments = 0                  !! 0: as in the deck
       logical :: is_quiet = .false.
@@ -37,6 +42,7 @@ contains
       settings%file = line%files%line(1)
       settings%case = line%value('--case')
       settings%method = line%value('--method')
+      settings%solver = line%value('--solver')
       settings%out = line%value('--out', 'out')
       settings%increments = line%number('--increments')
       settings%is_quiet = line%has('--quiet')
@@ -45,17 +51,53 @@ contains
    end subroutine read_deck_settings
 
    !> Reads a deck, applies --set, builds the model, and checks the tables and targets of its cases; reports all errors together.
-   subroutine load_deck(settings, suspension, cases, checksum, error, needs_tables)
+   subroutine load_deck(settings, suspension, cases, checksum, error, needs_tables, targets, used_deck)
       class(deck_settings_t), intent(in) :: settings
       type(suspension_t), intent(out) :: suspension
       type(case_t), allocatable, intent(out) :: cases(:)
       character(:), allocatable, intent(out), optional :: checksum     !! of the deck as it was used
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: needs_tables          !! if .true., a missing table is an error, also of a case not run
+      type(target_band_t), allocatable, intent(out), optional :: targets(:)    !! of key numbers
+      type(deck_t), intent(out), optional :: used_deck       !! with the settings made
       type(deck_t) :: deck
       type(design_t) :: design
       type(set_file_t), allocatable :: files(:)
       type(error_t), allocatable :: unset
+
+      call read_set_deck(settings, deck, files, unset, error)
+      if (allocated(error)) return
+      call read_checked(deck, design, suspension, error, needs_tables)
+      call move_alloc(design%cases, cases)
+      if (present(targets)) call move_alloc(design%targets, targets)
+      call add_unset(files, unset, error)
+      if (allocated(error)) return
+      if (present(checksum)) checksum = deck_checksum(deck)
+      if (present(used_deck)) used_deck = deck
+   end subroutine load_deck
+
+   !> As load_deck, for what the session of a program does too.
+   subroutine load_session(settings, session, error)
+      class(deck_settings_t), intent(in) :: settings
+      type(session_t), intent(out) :: session
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: deck
+      type(set_file_t), allocatable :: files(:)
+      type(error_t), allocatable :: unset
+
+      call read_set_deck(settings, deck, files, unset, error)
+      if (allocated(error)) return
+      call take_deck(deck, session, error)
+      call add_unset(files, unset, error)
+   end subroutine load_session
+
+   !> The deck with --set-file and --set applied.
+   subroutine read_set_deck(settings, deck, files, unset, error)
+      class(deck_settings_t), intent(in) :: settings
+      type(deck_t), intent(out) :: deck
+      type(set_file_t), allocatable, intent(out) :: files(:)
+      type(error_t), allocatable, intent(out) :: unset       !! mistakes of settings; the other settings may contain mistakes too
+      type(error_t), allocatable, intent(out) :: error
       integer :: k
 
       allocate (files(settings%set_files%count()))
@@ -63,12 +105,16 @@ contains
          if (.not. allocated(error)) call read_set_file(settings%set_files%line(k), files(k), error)
       end do
       if (.not. allocated(error)) call read_changed(settings%file, settings%changes, deck, error, files)
-      if (allocated(error)) then
-         if (size(files) == 0 .or. error%code /= exit_deck .or. deck%deck_errors%count() > 0) return
-         call move_alloc(error, unset)                     ! the other settings may contain mistakes too
-      end if
-      call read_checked(deck, design, suspension, error, needs_tables)
-      call move_alloc(design%cases, cases)
+      if (.not. allocated(error)) return
+      if (size(files) > 0 .and. error%code == exit_deck .and. deck%deck_errors%count() == 0) call move_alloc(error, unset)
+   end subroutine read_set_deck
+
+   !> The mistakes of settings together with those of the deck, each with the line of its file of settings.
+   subroutine add_unset(files, unset, error)
+      type(set_file_t), intent(in) :: files(:)
+      type(error_t), allocatable, intent(inout) :: unset, error
+      integer :: k
+
       if (allocated(unset)) then
          if (allocated(error)) unset%message = unset%message//new_line('a')//error%message
          call move_alloc(unset, error)
@@ -76,9 +122,7 @@ contains
       do k = 1, size(files)
          if (allocated(error)) call show_set_file(files(k), error%message)
       end do
-      if (allocated(error)) return
-      if (present(checksum)) checksum = deck_checksum(deck)
-   end subroutine load_deck
+   end subroutine add_unset
 
    !> Reads a deck and applies files of settings, then --set path=value, in the order given. All mistakes of a file are reported.
    subroutine read_changed(file, changes, deck, error, set_files)
@@ -104,7 +148,27 @@ contains
       if (is_logging() .and. .not. allocated(error)) call log_deck(file, deck_checksum(deck))
    end subroutine read_changed
 
-   !> The cases to run, with --case, --method and --increments applied.
+   !> Adds the standard test that --case names, if the deck has no case of this name.
+   subroutine add_asked_test(settings, suspension, cases)
+      class(deck_settings_t), intent(in) :: settings
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), allocatable, intent(inout) :: cases(:)
+      type(case_t), allocatable :: tests(:)
+      integer :: k
+
+      if (len(settings%case) == 0 .or. size(suspension%wheels) == 0) return
+      do k = 1, size(cases)
+         if (cases(k)%name == settings%case) return
+      end do
+      call standard_tests(suspension, cases, tests, settings%case)
+      do k = 1, size(tests)
+         if (tests(k)%name /= settings%case) cycle
+         cases = [cases, tests(k)]
+         return
+      end do
+   end subroutine add_asked_test
+
+   !> The cases to run, with --case, --method, --solver and --increments applied.
    subroutine chosen_cases(settings, cases, chosen, error)
       class(deck_settings_t), intent(in) :: settings
       type(case_t), intent(in) :: cases(:)
@@ -124,15 +188,15 @@ contains
          if (len(settings%case) == 0 .or. settings%case == cases(k)%name) chosen = [chosen, cases(k)]
       end do
       if (size(chosen) == 0) then
-         hint = nearest_name(settings%case, names)
-         if (len(hint) > 0) hint = ' (did you mean '//quoted(hint)//'?)'
-         hint = hint//'; it has'
+         hint = suggestion(settings%case, names)//'; it has'
          do k = 1, size(names)
             hint = hint//' '//quoted(names(k))
          end do
          call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file//hint)
       else if (settings%method /= '' .and. .not. any(method_names == settings%method)) then
          call fail(error, exit_usage, '--method: expected recursive, corrected or equilibrium, found '//quoted(settings%method))
+      else if (settings%solver /= '' .and. .not. any(solver_names == settings%solver)) then
+         call fail(error, exit_usage, '--solver: expected lapack or plan, found '//quoted(settings%solver))
       else if (settings%increments > max_increments) then
          call fail(error, exit_usage, '--increments: expected 1 to '//str(max_increments)//', found '//str(settings%increments))
       end if
@@ -144,6 +208,11 @@ contains
             return
          end if
          if (settings%method /= '') chosen(k)%method = settings%method
+         if (.not. chosen(k)%says_solver) chosen(k)%uses_plan = .false.      ! also where a session prefers the plan
+         if (settings%solver /= '') then
+            chosen(k)%uses_plan = settings%solver == 'plan'
+            chosen(k)%says_solver = .true.
+         end if
          if (settings%increments > 0) chosen(k)%increments = settings%increments
       end do
    end subroutine chosen_cases

@@ -12,6 +12,7 @@ module ek_opened_study
    use ek_study_plan, only: study_plan_t, new_plan
    use ek_study_tables, only: responses_name
    use ek_store, only: store_texts_t, keep_texts, store_name
+   use ek_tolerance, only: tolerance_t
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: read_changed
    implicit none(type, external)
@@ -27,6 +28,7 @@ module ek_opened_study
       type(study_plan_t) :: plan
       logical :: has_store = .false.                 !! the results go into a NetCDF file
       type(store_texts_t) :: texts
+      type(tolerance_t), allocatable :: tolerance    !! of a tolerance study, by derivatives
    end type opened_study_t
 
 contains

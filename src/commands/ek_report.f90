@@ -12,30 +12,50 @@ module ek_report
    use ek_standard_tests, only: standard_tests
    use ek_table, only: table_t, new_table
    use ek_test_charts, only: test_charts
+   use ek_grid, only: is_grid
+   use ek_grid_figures, only: find_grid, envelope_text
+   use ek_chart, only: chart_t
+   use ek_scales, only: read_scales, take_scales
    use ek_gradient, only: test_gradients, write_gradients
-   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, numbers_file, test_line
+   use ek_report_files, only: write_contents, contents_file, gradients_file, compliance_file, numbers_file, deck_file, test_line
+   use ek_deck_file, only: write_deck_file
+   use ek_deck, only: deck_t
+   use ek_deck_values, only: list_values
    use ek_planned_test, only: planned_tests
-   use ek_key_numbers, only: key_number_t, key_numbers
+   use ek_key_numbers, only: key_numbers
    use ek_key_number_table, only: write_key_numbers
-   use ek_report_page, only: report_t, report_page, add_fact
+   use ek_report_content, only: report_t, add_fact
+   use ek_report_data, only: report_data
+   use ek_report_page, only: report_page
    use ek_report_pictures, only: draw_pictures
+   use ek_explanation, only: explanation_t, find_explanations
+   use ek_live, only: live_t, add_live
+   use ek_turntable, only: make_turntable
    use ek_gradient_definition, only: windows_t
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t, refuse_stream, read_windows
+   use ek_number_targets, only: set_targets
+   use ek_target_band, only: target_band_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
    use ek_console, only: print_note, print_error, print_path, print_model_remarks, write_table
    use ek_kinds, only: wp, millimetre
    use ek_path, only: path_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
    use ek_remark, only: remark_t, failure, on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure
-   use ek_sweep_table, only: compliance_table
+   use ek_compliance_table, only: compliance_table
+   use ek_member_loads, only: load_record_t, begin_loads, add_loads
+   use ek_load_files, only: write_loads, remove_loads
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa
    implicit none(type, external)
    private
    public :: report, run_planned
 
+   integer, parameter :: most_live = 24      ! rates: more make the page slow and large
+
    type, extends(deck_settings_t) :: settings_t
       type(windows_t) :: windows                     !! of gradients
-      logical :: has_plots = .true., is_animated = .false.
+      logical :: has_plots = .true., is_animated = .false., is_static = .false., has_loads = .false.
+      integer :: live = 0                            !! rates that the page can change
    end type settings_t
 
 contains
@@ -48,41 +68,66 @@ contains
       type(settings_t) :: settings
       type(report_t) :: page
       type(suspension_t) :: suspension
+      type(deck_t) :: deck
       type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)      ! of the deck; those of this report
       type(examination_t) :: found
-      type(key_number_t), allocatable :: numbers(:)
+      type(model_remarks_t) :: remarks
       type(message_list_t) :: warnings
+      type(chart_t), allocatable :: scales(:)                           ! of another report
+      type(target_band_t), allocatable :: targets(:)
       type(error_t), allocatable :: undrawn, unprinted, incomplete
       character(:), allocatable :: checksum, message
 
       call read_settings(line, settings, error)
-      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
+      if (.not. allocated(error) .and. line%has('--scales')) &
+         call read_scales(line%value('--scales'), settings%windows, scales, error)
+      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error, targets=targets, used_deck=deck)
       if (allocated(error)) return
       all_cases = cases                                     ! of a model without a wheel
-      if (size(suspension%wheels) > 0) call standard_tests(suspension, cases, all_cases)
+      if (size(suspension%wheels) > 0) call standard_tests(suspension, cases, all_cases, settings%case)
       call chosen_cases(settings, all_cases, chosen, error)
       if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
       if (allocated(error)) return
       page%folder = settings%out
+      page%is_static = settings%is_static
+      if (suspension%axle%has_axle) page%axle = merge(-1, 1, suspension%axle%is_front)
       call make_folder(page%folder, error)
       if (.not. allocated(error)) call make_folder(join_path(page%folder, 'figures'), error)
       if (.not. allocated(error)) call balance(suspension, default_tolerance, error)
       if (allocated(error)) return
       call planned_tests(suspension, chosen, page%tests)
-      call print_model_remarks(settings%is_quiet, suspension, cases, chosen, page%warnings)
+      call find_model_remarks(suspension, cases, chosen, .true., remarks)
+      call print_model_remarks(settings%is_quiet, remarks, page%warnings)
       call remove_file(join_path(page%folder, 'report.html'))     ! a page of an earlier report must not be mistaken for this one
       call remove_file(join_path(page%folder, contents_file))
       call remove_file(join_path(page%folder, compliance_file))
+      call remove_file(join_path(page%folder, deck_file))
+      call remove_loads(page%folder)
 
+      if (settings%has_loads) then
+         allocate (page%loads)
+         call begin_loads(suspension, suspension%name, checksum, page%loads)
+      end if
+      if (settings%live > 0) then
+         allocate (page%live)
+         page%live%most = settings%live
+      end if
       call run_tests(settings%windows, suspension, chosen, found, checksum, page, unprinted, incomplete, error)
+      if (.not. allocated(error) .and. allocated(page%loads)) call write_loads(page%loads, page%folder, unprinted, error)
       if (allocated(error)) return
+      if (allocated(page%live)) then
+         if (.not. allocated(page%live%rates)) call page%warnings%add('--live: no rate can be changed on the page: no test has '// &
+            'a design state at which a bushing, spring or bar with a constant rate contributes to a key compliance')
+      end if
+      if (allocated(scales)) call take_scales(scales, page%charts)
       call write_gradients(page%gradients, suspension%name, checksum, join_path(page%folder, gradients_file), &
          join_path(page%folder, 'gradients.json'), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, gradients_file), unprinted)
       call print_path(join_path(page%folder, 'gradients.json'), unprinted)
-      call key_numbers(page%tests, page%gradients, numbers)
-      call write_key_numbers(numbers, size(suspension%wheels) > 1, suspension%name, checksum, &
+      call key_numbers(page%tests, page%gradients, page%numbers)
+      call set_targets(targets, page%numbers, page%warnings)
+      call write_key_numbers(page%numbers, size(suspension%wheels) > 1, suspension%name, checksum, &
          join_path(page%folder, numbers_file), join_path(page%folder, 'key_numbers.json'), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, numbers_file), unprinted)
@@ -90,12 +135,21 @@ contains
       call write_contents(page%tests, join_path(page%folder, contents_file), error)
       if (allocated(error)) return
 
+      if (.not. page%is_static) call make_turntable(suspension, page%tests, page%paths, page%turntable)
       call set_head(settings, suspension, checksum, page)
+      call list_values(deck, page%deck_paths, page%deck_texts)
+      call write_deck_file(join_path(page%folder, deck_file), page%names, page%values, page%deck_paths, &
+         page%deck_texts, error)
+      if (allocated(error)) return
+      call print_path(join_path(page%folder, deck_file), unprinted)
+      call write_whole(join_path(page%folder, 'data.json'), report_data(page), error)
+      if (allocated(error)) return
+      call print_path(join_path(page%folder, 'data.json'), unprinted)
       ! first the page without pictures: it then exists even if gnuplot fails or never ends
       if (settings%has_plots) then
          warnings = page%warnings
          call page%warnings%add('The page has no pictures: gnuplot has not finished')
-         call write_whole(join_path(page%folder, 'report.html'), report_page(page), error)
+         call write_whole(join_path(page%folder, 'report.html'), report_page(page), error, can_be_redrawn=.true.)
          if (allocated(error)) return
          page%warnings = warnings
       end if
@@ -128,11 +182,29 @@ contains
       call read_deck_settings(line, settings)
       settings%has_plots = .not. line%has('--no-plots')
       settings%is_animated = line%has('--animate')
+      settings%has_loads = line%has('--loads')
+      settings%is_static = line%has('--static')
       call refuse_stream(line, error)
       if (.not. allocated(error) .and. settings%is_animated .and. .not. settings%has_plots) &
          call fail(error, exit_usage, '--no-plots and --animate are mutually exclusive')
+      if (.not. allocated(error) .and. line%has('--live')) call read_live(line, settings, error)
       if (.not. allocated(error)) call read_windows(line, settings%windows, error)
    end subroutine read_settings
+
+   !> The number of rates of --live.
+   subroutine read_live(line, settings, error)
+      type(command_line_t), intent(in) :: line
+      type(settings_t), intent(inout) :: settings
+      type(error_t), allocatable, intent(out) :: error        !! exit_usage
+
+      settings%live = line%number('--live')
+      if (settings%is_static) then
+         call fail(error, exit_usage, '--live and --static are mutually exclusive: the rates are changed by the script of the '// &
+            'page, and --static writes a page without script')
+      else if (settings%live > most_live) then
+         call fail(error, exit_usage, '--live: expected at most '//str(most_live)//' rates, found '//str(settings%live))
+      end if
+   end subroutine read_live
 
    !> Runs the tests and writes their tables, and the compliance matrix at every state of the first that is run: travel, with
    !> design.
@@ -148,6 +220,7 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble
       type(table_t), allocatable :: compliance
+      type(explanation_t), allocatable :: explanations(:)
       integer :: k, failed, code
 
       allocate (page%paths(size(chosen)), page%charts(0), page%gradients(0))
@@ -155,7 +228,8 @@ contains
       failed = 0
       code = exit_convergence
       do k = 1, size(chosen)
-         call run_planned(suspension, chosen(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, compliance)
+         call run_planned(suspension, chosen(k), found%faults%line(k), checksum, page%tests(k), page%paths(k), trouble, &
+            compliance, page%loads, explanations, page%live)
          if (allocated(trouble)) then
             call print_error(trouble%message)
             failed = failed + 1
@@ -169,9 +243,16 @@ contains
             call write_table(compliance, join_path(page%folder, compliance_file), unprinted, error)
             if (allocated(error)) return
             deallocate (compliance)
+            call move_alloc(explanations, page%explanations)
          end if
          call test_gradients(page%tests(k), windows, page%gradients)
-         call test_charts(page%tests(k), page%charts, k)
+         if (.not. allocated(page%tests(k)%grid)) then
+            call test_charts(page%tests(k), page%charts, k)
+            cycle
+         end if
+         call write_whole(join_path(page%folder, page%tests(k)%envelope), envelope_text(page%tests(k), suspension), error)
+         if (allocated(error)) return
+         call print_path(join_path(page%folder, page%tests(k)%envelope), unprinted)
       end do
       if (failed > 0) call fail(incomplete, code, str(failed)//' of '//plural(size(chosen), 'test', 'tests')// &
          trim(merge(' is ', ' are', failed == 1))//' incomplete; see the warnings at the top of the report')
@@ -195,6 +276,11 @@ contains
          changes = changes//settings%changes%line(k)//' '
       end do
       if (len(changes) > 0) call add_fact(page, 'Changed by --set', trim(changes))
+      changes = ''
+      do k = 1, settings%set_files%count()
+         changes = changes//settings%set_files%line(k)//' '
+      end do
+      if (len(changes) > 0) call add_fact(page, 'Changed by --set-file', trim(changes))
       if (size(suspension%wheels) > 0) call add_fact(page, 'Road at design', 'z = '//str(( &
          suspension%bodies(suspension%wheels(1)%body)%origin(3) + suspension%wheels(1)%contact(3))/millimetre, 6)//' mm')
       call add_fact(page, 'Deck checksum', checksum)
@@ -204,7 +290,7 @@ contains
 
    !> Runs one test. Its remarks report every failure to converge; `error` then has exit_convergence (or exit_model if the
    !> model cannot be solved), and the table has the states before it.
-   subroutine run_planned(base, case, fault, checksum, test, path, error, compliance)
+   subroutine run_planned(base, case, fault, checksum, test, path, error, compliance, loads, explanations, live)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: case
       character(*), intent(in) :: fault            !! defect of the model in this test, which is then not run; '' for none
@@ -213,6 +299,9 @@ contains
       type(path_t), intent(out) :: path            !! states, for pictures
       type(error_t), allocatable, intent(out) :: error
       type(table_t), intent(out), optional :: compliance    !! the compliance matrix at every state; not set if the test is not run
+      type(load_record_t), intent(inout), optional :: loads !! receives the loads of the members
+      type(explanation_t), allocatable, intent(out), optional :: explanations(:)      !! with compliance
+      type(live_t), intent(inout), optional :: live         !! receives what other rates need
       integer, parameter :: topics(7) = [on_case, on_end, on_stability, on_settling, on_rack, on_curve, on_closure]
       type(solve_options_t) :: options
       type(case_result_t) :: result
@@ -241,8 +330,12 @@ contains
       if (present(compliance)) then
          call compliance_table(result%suspension, result%case, result%path, result%kkt, compliance)
          call add_header(compliance, result%suspension, result%case, checksum)
+         if (present(explanations)) call find_explanations(result, explanations)
       end if
+      if (present(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
+      if (present(live) .and. .not. is_grid(case)) call add_live(result, test, live)
       test%table = result%table
+      call find_grid(base, case, test)
       path = result%path
       call test%table%header%add(test_line(test%kind, test%is_anti, test%factor_size))
       if (size(base%wheels) > 0) call find_wheels(test, base%wheels(1)%side)

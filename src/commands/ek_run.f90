@@ -4,29 +4,32 @@ module ek_run
    use ek_error, only: error_t, fail, exit_usage, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_file, only: make_folder, join_path, base_name
-   use ek_rig_test, only: rig_test, lifts
+   use ek_rig_test, only: rig_test, lifts, is_scattered
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
    use ek_balance, only: balance
    use ek_examination, only: examination_t
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of, add_header
-   use ek_sweep_table, only: compliance_table
+   use ek_compliance_table, only: compliance_table
    use ek_target, only: target_t, find_target
    use ek_table, only: table_t, print_csv, name_length
    use ek_json, only: json_t
    use ek_gnuplot, only: figure_t, run_figures, draw_figures
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, add_asked_test, chosen_cases, examine_chosen
    use ek_run_numbers, only: run_numbers
    use ek_run_columns, only: choose_columns
    use ek_run_json, only: begin_run_json, add_run_json, write_run_json
    use ek_console, only: print_note, print_error, print_model_remarks, print_remarks, write_table, show_progress, clear_progress
+   use ek_member_loads, only: load_record_t, begin_loads, add_loads
+   use ek_load_files, only: write_loads, remove_loads
    implicit none(type, external)
    private
    public :: run
 
    type, extends(deck_settings_t) :: settings_t
-      logical :: has_plots = .false., has_compliance = .false., has_json = .false.
+      logical :: has_plots = .false., has_compliance = .false., has_json = .false., has_loads = .false.
       character(name_length), allocatable :: columns(:)     !! of the tables; not allocated: all
    end type settings_t
 
@@ -44,7 +47,9 @@ contains
       type(case_t), allocatable :: cases(:), chosen(:)
       type(error_t), allocatable :: trouble, unprinted
       type(examination_t) :: found
+      type(model_remarks_t) :: remarks
       type(json_t) :: json
+      type(load_record_t), allocatable :: loads
       character(:), allocatable :: checksum, words
       integer :: k, failed, code
 
@@ -54,6 +59,7 @@ contains
          return
       end if
       if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
+      if (.not. allocated(error)) call add_asked_test(settings, suspension, cases)
       if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
       if (.not. allocated(error) .and. line%has('--columns')) &
          call choose_columns(line%value('--columns'), suspension, chosen, settings%columns, error)
@@ -68,13 +74,19 @@ contains
       if (.not. allocated(error) .and. settings%out /= '-') call make_folder(settings%out, error)
       if (.not. allocated(error)) call balance(suspension, chosen(1)%tolerance, error)
       if (allocated(error)) return
-      call print_model_remarks(settings%is_quiet, suspension, cases, chosen)
+      call find_model_remarks(suspension, cases, chosen, .true., remarks)
+      call print_model_remarks(settings%is_quiet, remarks)
 
       failed = 0
       code = exit_convergence
       call begin_run_json(suspension%name, checksum, json)
+      if (settings%has_loads) then
+         call remove_loads(settings%out)
+         allocate (loads)
+         call begin_loads(suspension, suspension%name, checksum, loads)
+      end if
       do k = 1, size(chosen)
-         call run_case(settings, suspension, chosen(k), found%faults%line(k), checksum, json, unprinted, trouble)
+         call run_case(settings, suspension, chosen(k), found%faults%line(k), checksum, json, loads, unprinted, trouble)
          if (.not. allocated(trouble)) cycle
          failed = failed + 1
          if (code == exit_convergence) code = trouble%code     ! the first other than lack of convergence
@@ -84,6 +96,7 @@ contains
             call print_error(trouble%message)
          end if
       end do
+      if (.not. allocated(error) .and. allocated(loads)) call write_loads(loads, settings%out, unprinted, error)
       words = str(failed)//' of '//plural(size(chosen), 'case', 'cases')
       if (allocated(error)) then
          continue
@@ -106,6 +119,7 @@ contains
       settings%has_plots = line%has('--plot')
       settings%has_compliance = line%has('--compliance')
       settings%has_json = line%has('--json')
+      settings%has_loads = line%has('--loads')
       if (settings%has_plots .and. line%has('--columns')) then
          call fail(error, exit_usage, '--plot draws all columns and cannot be used with --columns')
          return
@@ -116,6 +130,8 @@ contains
          call fail(error, exit_usage, '--plot needs an output folder and cannot be used with --out -')
       else if (settings%has_compliance) then
          call fail(error, exit_usage, '--compliance writes a second file and cannot be used with --out -')
+      else if (settings%has_loads) then
+         call fail(error, exit_usage, '--loads writes further files and cannot be used with --out -')
       end if
    end subroutine read_settings
 
@@ -123,7 +139,7 @@ contains
    subroutine refuse_with_responses(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
-      character(*), parameter :: others(*) = [character(12) :: '--out', '--plot', '--compliance', '--columns', '--json']
+      character(*), parameter :: others(*) = [character(12) :: '--out', '--plot', '--compliance', '--loads', '--columns', '--json']
       integer :: k
 
       if (.not. line%has('--responses')) then
@@ -152,13 +168,14 @@ contains
    end subroutine refuse_double_files
 
    !> One case: solve, report, write, draw.
-   subroutine run_case(settings, base, wanted, fault, checksum, json, unprinted, error)
+   subroutine run_case(settings, base, wanted, fault, checksum, json, loads, unprinted, error)
       type(settings_t), intent(in) :: settings
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: wanted
       character(*), intent(in) :: fault                        !! defect of the model in this case; '' for none
       character(*), intent(in) :: checksum
       type(json_t), intent(inout) :: json
+      type(load_record_t), allocatable, intent(inout) :: loads   !! if they are wanted
       type(error_t), allocatable, intent(inout) :: unprinted     !! a path could not be printed
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: trouble, undrawn
@@ -176,6 +193,7 @@ contains
       call failure_of(result, error)
       if (settings%has_json) call add_run_json(result, wanted, json)
       if (.not. result%is_run()) return
+      if (allocated(loads)) call add_loads(result%suspension, result%case, result%path, result%kkt, loads)
       name = join_path(settings%out, result%suspension%name//'_'//wanted%name)
       if (settings%out == '-') then
          if (.not. settings%has_json) call print_csv(result%table, trouble)
@@ -249,7 +267,7 @@ contains
          if (case%unit_name /= '-') label = label//' ['//case%unit_name//']'
          if (is_vertical(suspension, case)) label = ''      ! over the wheel travel
          call run_figures(result%table, model, case%name, base_name(name//'.csv')//'.csv', figures, label, elements, &
-            case%test == 'table')
+            is_scattered(case%test))
       end associate
       call draw_figures(figures, settings%out, message, error)
       if (allocated(error)) return

@@ -1,7 +1,7 @@
 !> run --columns a,b,c: the columns of the results that are computed and written.
 module ek_run_columns
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, nearest_name, is_like
+   use ek_text, only: quoted, suggestion, is_like
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount
@@ -17,21 +17,25 @@ contains
 
    !> The columns that names, or patterns with *, mean in the results of the cases; also those of targets. All quantities may be
    !> named, whatever the cases say about them.
-   subroutine choose_columns(list, suspension, cases, columns, error)
+   subroutine choose_columns(list, suspension, cases, columns, error, option, others)
       character(*), intent(in) :: list                  !! names with commas between them
       type(suspension_t), intent(in) :: suspension      !! on no rig
       type(case_t), intent(inout) :: cases(:)
       character(name_length), allocatable, intent(out) :: columns(:)
       type(error_t), allocatable, intent(out) :: error  !! exit_usage: all names that mean no column
+      character(*), intent(in), optional :: option      !! that gives the names, for messages; default --columns
+      character(*), intent(in), optional :: others(:)   !! further columns that may be named
       type(suspension_t) :: on_rig
       type(case_t) :: this
       type(error_t), allocatable :: absent
       type(message_list_t) :: mistakes
       character(name_length), allocatable :: names(:), heads(:), all(:)
-      character(:), allocatable :: hint
+      character(:), allocatable :: given
       logical, allocatable :: is_known(:)
       integer :: c, k, place
 
+      given = '--columns'
+      if (present(option)) given = option
       call split_names(list, names)
       allocate (is_known(size(names)), source=.false.)
       allocate (columns(0), all(0))
@@ -40,6 +44,7 @@ contains
          if (.not. is_mountable(cases(c))) cycle
          call mount(suspension, cases(c), on_rig, this)
          call sweep_columns(on_rig, this, heads)
+         if (present(others)) heads = [character(name_length) :: heads, others]
          do k = 1, size(names)
             call take(k)
          end do
@@ -50,13 +55,9 @@ contains
       end do
       do k = 1, size(names)
          if (is_known(k)) cycle
-         hint = ''
-         if (index(names(k), '*') == 0) hint = nearest_name(trim(names(k)), all)
-         if (any(all == 'left_'//names(k))) hint = 'left_'//trim(names(k))
-         if (hint /= '') hint = ' (did you mean '//quoted(hint)//'?)'
-         call mistakes%add('--columns: the results have no column '//quoted(trim(names(k)))//hint)
+         call mistakes%add(given//': the results have no column '//quoted(trim(names(k)))//suggestion(trim(names(k)), all))
       end do
-      if (size(names) == 0) call mistakes%add('--columns: no column is named')
+      if (size(names) == 0) call mistakes%add(given//': no column is named')
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())
 
    contains

@@ -43,6 +43,7 @@ contains
       call json%item('name', json_string(case%name))
       call json%item('test', json_string(case%test))
       call json%item('method', json_string(case%method))
+      call json%item('solver', json_string(trim(merge('plan  ', 'lapack', case%uses_plan))))
       call json%item('outcome', json_string(trim(outcomes(result%outcome))))
       call json%open('[', 'remarks')
       do k = 1, result%remarks%count()

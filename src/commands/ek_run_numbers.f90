@@ -2,19 +2,19 @@
 !> and no other file.
 module ek_run_numbers
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_convergence
+   use ek_error, only: error_t, exit_convergence
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
    use ek_file, only: write_whole, write_standard_output
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, default_tolerance
-   use ek_balance, only: balance
-   use ek_standard_tests, only: standard_tests
-   use ek_examination, only: examination_t
+   use ek_case, only: case_t
    use ek_table, only: name_length
-   use ek_named_numbers, only: named_numbers_t, prepare_numbers, read_numbers, needed_tests, lost_states
+   use ek_design_solver, only: report_cases, restrict_cases
+   use ek_session, only: session_t
+   use ek_session_numbers, only: read_key_numbers
+   use ek_session_remarks, only: find_remarks
+   use ek_model_remark, only: model_remarks_t
    use ek_command_line, only: command_line_t
-   use ek_load_deck, only: deck_settings_t, load_deck, chosen_cases, examine_chosen
+   use ek_load_deck, only: deck_settings_t, load_session, chosen_cases
    use ek_console, only: print_model_remarks
    implicit none(type, external)
    private
@@ -71,78 +71,32 @@ contains
       end if
    end subroutine write_results
 
-   !> Solves what the numbers need.
+   !> Solves what the numbers need, in the session of a program.
    subroutine find_values(settings, names, values, error)
       class(deck_settings_t), intent(in) :: settings
       character(*), intent(in) :: names(:)
       real(wp), intent(out) :: values(:)
       type(error_t), allocatable, intent(out) :: error
-      type(suspension_t) :: suspension
-      type(case_t), allocatable :: cases(:), all_cases(:), chosen(:)
-      type(named_numbers_t) :: numbers
-      type(examination_t) :: found
-      logical, allocatable :: is_needed(:), is_solvable(:)
-      logical :: is_whole
+      type(session_t) :: session
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(model_remarks_t) :: remarks
+      type(error_t), allocatable :: unread
 
-      call load_deck(settings, suspension, cases, error=error)
+      call load_session(settings, session, error)
       if (allocated(error)) return
-      if (size(suspension%wheels) > 0) then
-         call standard_tests(suspension, cases, all_cases)
-      else
-         allocate (all_cases(0))
+      call report_cases(session%solver, cases)
+      if (size(cases) > 0) then
+         call chosen_cases(settings, cases, chosen, error)
+         if (allocated(error)) return
+         call restrict_cases(chosen, session%solver)
       end if
-      if (size(all_cases) > 0) then
-         call chosen_cases(settings, all_cases, chosen, error)
-      else
-         allocate (chosen(0))
+      call read_key_numbers(session, names, values, error)
+      if (allocated(error)) then
+         if (error%code /= exit_convergence) return
       end if
-      if (.not. allocated(error)) call prepare_numbers(names, suspension, chosen, numbers, error)
-      if (allocated(error)) return
-      is_needed = needed_tests(numbers)
-      call examine_chosen(settings%file, suspension, pack_cases(chosen, is_needed), found, error)
-      if (.not. allocated(error)) call balance(suspension, default_tolerance, error)     ! as in a report
-      if (allocated(error)) return
-      call print_model_remarks(.true., suspension, cases, pack_cases(chosen, is_needed))     ! warnings, no notes
-      allocate (is_solvable(size(chosen)), source=.true.)
-      is_solvable = unpack(found%is_solvable, is_needed, is_solvable)
-      call read_numbers(numbers, suspension, chosen, values, is_whole, is_solvable)
-      if (is_whole) return
-      call lost_states(numbers, error)
-      if (.not. allocated(error)) call fail(error, exit_convergence, no_value(names, values, found))
+      call find_remarks(session, remarks, unread)
+      if (.not. allocated(unread)) call print_model_remarks(.true., remarks)     ! warnings, no notes
    end subroutine find_values
-
-   !> The cases that are needed.
-   function pack_cases(cases, is_needed) result(some)
-      type(case_t), intent(in) :: cases(:)
-      logical, intent(in) :: is_needed(:)
-      type(case_t), allocatable :: some(:)
-      integer :: k, j
-
-      allocate (some(count(is_needed)))
-      j = 0
-      do k = 1, size(cases)
-         if (.not. is_needed(k)) cycle
-         j = j + 1
-         some(j) = cases(k)
-      end do
-   end function pack_cases
-
-   !> Which numbers have no value; the model of this design does not define them.
-   function no_value(names, values, found) result(words)
-      character(*), intent(in) :: names(:)
-      real(wp), intent(in) :: values(:)
-      type(examination_t), intent(in) :: found
-      character(:), allocatable :: words
-      integer :: k
-
-      words = 'no value of'
-      do k = 1, size(names)
-         if (decimal(values(k)) == 'nan') words = words//' '//trim(names(k))
-      end do
-      do k = 1, found%distinct%count()
-         words = words//nl//found%distinct%line(k)
-      end do
-   end function no_value
 
    !> The names of a list with commas, without blanks around them.
    subroutine split_names(list, names)

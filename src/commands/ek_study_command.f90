@@ -13,6 +13,7 @@ module ek_study_command
    use ek_command_line, only: command_line_t
    use ek_study_options, only: read_options
    use ek_opened_study, only: opened_study_t, open_study, plan_study, results_name
+   use ek_tolerance_outcome, only: expand_study
    use ek_study_progress, only: show_state, end_state, print_status
    use ek_study_outcome, only: write_results, write_step_size, show_results
    use ek_console, only: print_note
@@ -59,6 +60,8 @@ contains
       if (has_designs .and. .not. asks_status .and. .not. allocated(error)) &
          call choose_store(this%study, this%plan, this%has_store, error)
       if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
+      if (has_designs .and. .not. asks_status .and. ranks%is_first .and. options%shards == 1 .and. .not. allocated(error)) &
+         call expand_study(this, error)
       call agree(ranks, error)
       if (allocated(error)) return
       if (asks_status) then
@@ -103,6 +106,8 @@ contains
             'what is missing), or elastokin study '//line%files%line(1))
          return
       end if
+      call expand_study(this, error)
+      if (allocated(error)) return
       call open_parts(this%study, this%plan, this%out, hold, error)
       if (.not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
       call end_scratch(hold)

@@ -14,6 +14,7 @@ module ek_study_outcome
    use ek_step_size, only: step_size_text
    use ek_command_line, only: command_line_t
    use ek_opened_study, only: opened_study_t, results_name
+   use ek_tolerance_outcome, only: write_tolerance
    use ek_plot, only: draw_study
    use ek_console, only: print_note, print_warning, print_error, print_path
    implicit none(type, external)
@@ -96,6 +97,11 @@ contains
       do k = 1, tables%count()
          call print_path(join_path(this%out, tables%line(k)), unprinted)
       end do
+      if (allocated(this%tolerance)) then
+         call write_tolerance(this, undrawn)
+         if (allocated(undrawn) .and. .not. allocated(error)) call move_alloc(undrawn, error)
+         if (allocated(undrawn)) deallocate (undrawn)
+      end if
       if (line%has('--no-plots')) then
          if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
          return

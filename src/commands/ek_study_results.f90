@@ -12,7 +12,7 @@ module ek_study_results
    use ek_rig, only: rig_t, rig_of
    use ek_study, only: study_t, by_delta, by_scale
    use ek_sampler, only: sampler_t, designs_of
-   use ek_sampler_kind, only: sampler_kinds
+   use ek_sampler_kind, only: sampler_kinds, tolerance_kind
    use ek_sampler_settings, only: sampler_settings_t
    use ek_study_design, only: designer_t, begin_designer
    use ek_study_plan, only: plan_sampler
@@ -22,6 +22,7 @@ module ek_study_results
    use ek_writer, only: scratch_t, begin_scratch, end_scratch
    use ek_study_curves, only: read_curves, curve_step
    use ek_table_lines, only: lines_t, open_table, next_line, take_numbers, close_table
+   use ek_moment_tables, only: read_moments
    use ek_study_findings, only: summarise, find_effects, find_extremes
    implicit none(type, external)
    private
@@ -81,6 +82,7 @@ contains
          call find_effects(study, sampler, data, r, data%effects(r))
          call find_extremes(study, designer, data, r)
       end do
+      if (study%kind == tolerance_kind) call read_moments(out, data)
    end subroutine read_results_of
 
    !> The folder of the tables: that of the results, or a scratch folder with the tables of the store.
@@ -138,6 +140,7 @@ contains
             axis%label = response%name
             axis%note = response%of//' of '//response%column
             if (response%of == 'value' .or. response%of == 'slope') axis%note = axis%note//' at '//str(response%at)
+            if (response%of == 'difference') axis%note = trim(response%names(1))//' − '//trim(response%names(2))
             if (response%side /= '') axis%note = axis%note//', '//response%side//' wheel'
             if (response%case /= '') axis%note = axis%note//', case '//response%case
             axis%lower = response%lower
@@ -237,7 +240,7 @@ contains
 
       axis%name = head
       unit = unit_of(trim(study%responses(number)%column))
-      if (study%responses(number)%of == 'slope' .or. study%responses(number)%of == 'gradient') unit = unit_of(head)
+      if (any([character(10) :: 'slope', 'gradient', 'difference'] == study%responses(number)%of)) unit = unit_of(head)
       axis%label = study%responses(number)%name
       if (unit /= '') axis%label = axis%label//' ['//unit_text(unit)//']'
    end subroutine name_response

@@ -7,6 +7,8 @@ module ek_version_text
    use ek_system, only: program_folder
    use ek_loaded_library, only: library_with, text_from_library
    use ek_threads, only: processor_count
+   use ek_lane_instructions, only: get_instruction_set
+   use ek_study_pack, only: lanes, are_lanes_fast
    implicit none(type, external)
    private
    public :: build_t, program_name, version_text
@@ -54,10 +56,26 @@ contains
       else
          call lines%line('OpenMP     no')
       end if
+      call lines%line('packs      '//pack_text())
       call lines%line('MPI        '//beside('elastokin-mpi'))
       call lines%line('NetCDF     '//beside('elastokin-netcdf'))
       text = lines%text()
    end function version_text
+
+   !> The instruction set of packs, from the copy of their kernels that runs: 'x86-64-v3 (AVX2), 4 designs at a time'.
+   function pack_text() result(text)
+      character(:), allocatable :: text
+      character(60) :: name
+
+      text = 'no, this compiler makes no vector instructions of them'
+      if (.not. are_lanes_fast) return
+      text = str(lanes)//' designs at a time'
+      call get_instruction_set(name)
+      if (name == '') return
+      if (name == 'x86-64-v3') name(10:) = ' (AVX2)'
+      if (name == 'x86-64') name(7:) = ' (SSE2)'
+      text = trim(name)//', '//text
+   end function pack_text
 
    !> The library that contains a symbol.
    function library_text(symbol) result(text)

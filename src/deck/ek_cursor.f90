@@ -164,7 +164,12 @@ contains
    !> Whether a name can begin with this character.
    pure logical function is_word_begin(c)
       character, intent(in) :: c
-      is_word_begin = index(letters, c) > 0
+      select case (c)
+      case ('a':'z', 'A':'Z', '_')
+         is_word_begin = .true.
+      case default
+         is_word_begin = .false.
+      end select
    end function is_word_begin
 
    !> Takes the unit after the last value of an entry, as in `30.0 N/mm` and `30.0N/mm`; '' if there is none.
@@ -176,14 +181,18 @@ contains
       type(cursor_t) :: ahead
       character(:), allocatable :: value, more
       integer :: last, blanks
+      logical :: is_attached
 
       unit = ''
       if (entry%used == 0) return
       if (entry%values(entry%used)%is_string) return
       value = entry%values(entry%used)%text
-      last = verify(value//' ', '+-.'//digits) - 1
+      last = verify(value, '+-.'//digits) - 1
+      if (last < 0) last = len(value)
       if (scan(value(:last), digits) == 0) return
-      if (is_unit(value(last + 1:))) then
+      is_attached = .false.
+      if (last < len(value)) is_attached = is_unit(value(last + 1:))
+      if (is_attached) then
          unit = value(last + 1:)
          entry%values(entry%used)%text = value(:last)
          call take_quotient(text, cursor, unit)
@@ -195,6 +204,7 @@ contains
          blanks = verify(text(ahead%at:), ' '//tab) - 1
          if (blanks < 0) return
          ahead%at = ahead%at + blanks
+         if (.not. (is_word_begin(text(ahead%at:ahead%at)) .or. index('%'//degree_sign(:1), text(ahead%at:ahead%at)) > 0)) return
          if (key_follows(text, ahead)) return
          call take_unit_word(text, ahead, more)
          if (.not. is_unit(more)) return

@@ -23,7 +23,7 @@ module ek_deck
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
-   public :: deck_t, read_deck, parse_deck, set_value, finish_deck, split_setting, deck_checksum, include_records
+   public :: deck_t, read_deck, parse_deck, move_deck, set_value, finish_deck, split_setting, deck_checksum, include_records
 
    !> `path=text` for a record created by &mirror.
    type :: setting_t
@@ -187,6 +187,20 @@ contains
       end do
    end subroutine finish_deck
 
+   !> Hands over a deck, which has no records afterwards.
+   subroutine move_deck(from, to)
+      type(deck_t), intent(inout) :: from
+      type(deck_t), intent(out) :: to
+
+      call move_alloc(from%file, to%file)
+      call move_alloc(from%records, to%records)
+      call move_alloc(from%late, to%late)
+      to%used = from%used
+      to%deck_errors = from%deck_errors
+      to%is_finished = from%is_finished
+      from%used = 0
+   end subroutine move_deck
+
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
    !> notes, titles, layout and the file of a group are ignored; settings are included.
    function deck_checksum(deck) result(digits)
@@ -250,18 +264,20 @@ contains
       type(files_t), intent(inout) :: files
       type(deck_t), intent(inout) :: deck
       type(record_t), allocatable :: own(:)
+      type(record_t) :: include
       integer :: k, entry, own_used
 
       files%sources = files%sources + 1
       call scan_text(text, files%open(depth)%path, own, own_used, deck%deck_errors, files%sources)
       do k = 1, own_used
-         call add_record(deck%records, deck%used, own(k))
          entry = 0
          if (own(k)%group == 'include') entry = entry_index(own(k), 'file', 1)
+         if (entry > 0) include = own(k)
+         call add_record(deck%records, deck%used, own(k))
          if (entry == 0) cycle
-         associate (file => own(k)%entries(entry))
+         associate (file => include%entries(entry))
             if (file%used == 1 .and. file%values(1)%is_string .and. file%values(1)%text /= '') &
-               call take_file(trim(file%values(1)%text), place_of(own(k), entry), depth, files, deck)
+               call take_file(trim(file%values(1)%text), place_of(include, entry), depth, files, deck)
          end associate
       end do
    end subroutine take_text

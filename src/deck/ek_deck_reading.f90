@@ -6,6 +6,7 @@
 module ek_deck_reading
    use ek_kinds, only: wp, units_t
    use ek_text, only: str, lower, quoted
+   use ek_decimal, only: checked_number
    use ek_record, only: deck_errors_t, place_in, record_t, entry_index, is_given, place_of, line_text
    use ek_group, only: group_names, record_head, word_length, key_t, find_key, is_inside, range_text, acute
    use ek_blueprint, only: blueprint_t
@@ -168,7 +169,7 @@ contains
 
       value = default
       text = raw(reading, key, at)
-      if (text /= '') read (text, *) value
+      if (text /= '') value = checked_number(text)
    end function number_of
 
    !> Some numbers, 0 where not given.

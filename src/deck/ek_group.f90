@@ -3,26 +3,29 @@
 !> To add a key: its row here, and the reader of the group, which asks for its value.
 module ek_group
    use ek_kinds, only: wp, pi
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: quoted, did_you_mean
    use ek_quantity, only: name_length
    implicit none(type, external)
    private
    public :: group_names, group_number, is_deck_group, has_results, names_of_groups, is_single, is_element, can_be_doubled
-   public :: key_t, keys, find_key, record_head, did_you_mean, unknown_key, is_inside, range_text, spring_groups
+   public :: key_t, keys, find_key, record_head, unknown_key, is_inside, range_text, spring_groups
 
    integer, parameter, public :: model_group = 1, point_group = 2, body_group = 3, measure_group = 4, joint_group = 5, &
       bushing_group = 6, spring_group = 7, wheel_group = 8, load_group = 9, case_group = 10, &
       study_group = 11, factor_group = 12, response_group = 13, include_group = 14, mirror_group = 15, &
       curve_group = 16, damper_group = 17, stop_group = 18, torsion_group = 19, axle_group = 20, steering_group = 21, &
-      mass_group = 22, correlation_group = 23, hardpoints_group = 24
-   character(*), parameter :: group_names(24) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
+      mass_group = 22, correlation_group = 23, hardpoints_group = 24, target_group = 25, fit_group = 26, fit_target_group = 27
+   character(*), parameter :: group_names(27) = [character(11) :: 'model', 'point', 'body', 'measure', 'joint', &
       'bushing', 'spring', 'wheel', 'load', 'case', 'study', 'factor', 'response', 'include', 'mirror', 'curve', 'damper', &
-      'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints']
+      'stop', 'torsion', 'axle', 'steering', 'mass', 'correlation', 'hardpoints', 'target_band', &
+      'fit', 'target']
 
    integer, parameter :: every_group = 0      !! in the table of keys
    integer, parameter :: spring_groups(4) = [spring_group, damper_group, stop_group, torsion_group]   ! elements of one measure
    integer, parameter :: result_groups(*) = [measure_group, joint_group, bushing_group, spring_groups]   ! their names make columns
-   integer, parameter :: study_groups(4) = [study_group, factor_group, response_group, correlation_group]   ! all others belong to a deck
+   ! groups of a study, of a fit; all others belong to a deck
+   integer, parameter, public :: study_groups(4) = [study_group, factor_group, response_group, correlation_group], &
+      fit_groups(3) = [fit_group, factor_group, fit_target_group]
 
    ! types of value
    integer, parameter, public :: word = 1      !! quoted, at most word_length characters: names and choices
@@ -41,7 +44,8 @@ module ek_group
    integer, parameter, public :: max_loads = 12       !! scaled together by one case
 
    ! legal ranges of a number
-   integer, parameter :: any_number = 0, positive = 1, not_negative = 2, not_zero = 3, share = 4
+   integer, parameter, public :: any_number = 0
+   integer, parameter :: positive = 1, not_negative = 2, not_zero = 3, share = 4
    integer, parameter, public :: acute = 5     !! an angle, to either side: the only range whose limits have a unit
 
    ! roles under &mirror, y → −y, of the keys that differ between the sides: the name of a record that may be duplicated (its
@@ -53,7 +57,7 @@ module ek_group
 
    type :: key_t
       integer :: group
-      character(15) :: name
+      character(16) :: name
       integer :: type
       integer :: least, most     !! number of values
       logical :: is_required
@@ -62,9 +66,9 @@ module ek_group
       integer :: role = 0
    end type key_t
 
-   integer, parameter :: named(18) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
+   integer, parameter :: named(20) = [model_group, point_group, body_group, mass_group, measure_group, joint_group, &
       bushing_group, spring_group, curve_group, damper_group, stop_group, torsion_group, wheel_group, load_group, case_group, &
-      study_group, factor_group, response_group]
+      study_group, factor_group, response_group, fit_group, fit_target_group]
    integer :: j     ! implied-do index of the table, not used elsewhere
 
    type(key_t), parameter :: keys(*) = [ &
@@ -199,7 +203,11 @@ module ek_group
       key_t(case_group, 'from', number, 1, 1, .false.), &
       key_t(case_group, 'to', number, 1, 1, .false.), &
       key_t(case_group, 'increments', whole, 1, 1, .false.), &
+      key_t(case_group, 'steer_from', number, 1, 1, .false.), &
+      key_t(case_group, 'steer_to', number, 1, 1, .false.), &
+      key_t(case_group, 'steer_increments', whole, 1, 1, .false.), &
       key_t(case_group, 'method', word, 1, 1, .false.), &
+      key_t(case_group, 'solver', word, 1, 1, .false.), &
       key_t(case_group, 'follow', word, 1, 1, .false.), &
       key_t(case_group, 'tolerance', number, 1, 1, .false., positive), &
       key_t(study_group, 'title', prose, 1, 1, .false.), &
@@ -232,10 +240,12 @@ module ek_group
       key_t(factor_group, 'to', number, 1, 1, .false.), &
       key_t(factor_group, 'count', whole, 1, 1, .false.), &
       key_t(factor_group, 'spacing', word, 1, 1, .false.), &
+      key_t(factor_group, 'weights', number, 1, max_paths, .false.), &
       key_t(correlation_group, 'factors', word, 2, 2, .true.), &
       key_t(correlation_group, 'value', number, 1, 1, .true.), &
       key_t(response_group, 'case', word, 1, 1, .false.), &
-      key_t(response_group, 'column', heading, 1, 1, .true.), &
+      key_t(response_group, 'column', heading, 1, 1, .false.), &
+      key_t(response_group, 'responses', word, 2, 2, .false.), &
       key_t(response_group, 'of', word, 1, 1, .false.), &
       key_t(response_group, 'side', word, 1, 1, .false.), &
       key_t(response_group, 'at', number, 1, 1, .false.), &
@@ -244,11 +254,31 @@ module ek_group
       key_t(response_group, 'file', prose, 1, 1, .false.), &
       key_t(response_group, 'lower', number, 1, 1, .false.), &
       key_t(response_group, 'upper', number, 1, 1, .false.), &
+      key_t(fit_group, 'title', prose, 1, 1, .false.), &
+      key_t(fit_group, 'deck', prose, 1, 1, .true.), &
+      key_t(fit_group, 'case', word, 1, 1, .false.), &
+      key_t(fit_group, 'iterations', whole, 1, 1, .false.), &
+      key_t(fit_target_group, 'quantity', heading, 1, 1, .true.), &
+      key_t(fit_target_group, 'case', word, 1, 1, .false.), &
+      key_t(fit_target_group, 'of', word, 1, 1, .false.), &
+      key_t(fit_target_group, 'over', heading, 1, 1, .false.), &
+      key_t(fit_target_group, 'at', number, 1, 1, .false.), &
+      key_t(fit_target_group, 'window', number, 1, 1, .false., positive), &
+      key_t(fit_target_group, 'value', number, 1, 1, .false.), &
+      key_t(fit_target_group, 'low', number, 1, 1, .false.), &
+      key_t(fit_target_group, 'high', number, 1, 1, .false.), &
+      key_t(fit_target_group, 'file', prose, 1, 1, .false.), &
+      key_t(fit_target_group, 'column', heading, 1, 1, .false.), &
+      key_t(fit_target_group, 'deviation', number, 1, 1, .false., positive), &
+      key_t(fit_target_group, 'weight', number, 1, 1, .false., not_negative), &
       key_t(include_group, 'file', prose, 1, 1, .true.), &
       key_t(hardpoints_group, 'file', prose, 1, 1, .true.), &
       key_t(hardpoints_group, 'length', word, 1, 1, .false.), &
       key_t(hardpoints_group, 'axes', word, 1, 1, .false.), &
       key_t(hardpoints_group, 'side', word, 1, 1, .false.), &
+      key_t(target_group, 'quantity', word, 1, 1, .true.), &
+      key_t(target_group, 'low', number, 1, 1, .false.), &
+      key_t(target_group, 'high', number, 1, 1, .false.), &
       key_t(mirror_group, 'shared', word, 1, max_values, .false.), &
       key_t(every_group, 'note', prose, 1, 1, .false.)]
 
@@ -260,10 +290,10 @@ contains
       group_number = findloc(group_names, name, dim=1)
    end function group_number
 
-   !> Whether a group belongs to a deck; .false. for groups of a study and for 0.
+   !> Whether a group belongs to a deck; .false. for groups of a study or a fit and for 0.
    pure logical function is_deck_group(group)
       integer, intent(in) :: group
-      is_deck_group = group > 0 .and. .not. any(study_groups == group)
+      is_deck_group = group > 0 .and. .not. any([study_groups, fit_groups] == group)
    end function is_deck_group
 
    !> Whether records of a group have columns in the results: their names must differ. &mirror duplicates them.
@@ -290,7 +320,8 @@ contains
       character(len(group_names)), allocatable :: names(:)
       integer :: k
 
-      names = pack(group_names, [(is_deck_group(k) .eqv. of_deck, k=1, size(group_names))])
+      if (of_deck) names = pack(group_names, [(is_deck_group(k), k=1, size(group_names))])
+      if (.not. of_deck) names = group_names(study_groups)
    end function names_of_groups
 
    !> Whether --set addresses a group without a record name: &model, and the other groups without names.
@@ -366,34 +397,11 @@ contains
       integer, intent(in) :: group
       character(*), intent(in) :: name
       character(:), allocatable :: words
-      character(15) :: names(count(keys%group == group))
+      character(16) :: names(count(keys%group == group))
 
       names = pack(keys%name, keys%group == group)
       words = 'there is no key '//quoted(name)//' in &'//trim(group_names(group))// &
-         did_you_mean(name, [character(15) :: names(:1), 'note', names(2:)])
+         did_you_mean(name, [character(16) :: names(:1), 'note', names(2:)])
    end function unknown_key
-
-   !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.
-   pure function did_you_mean(name, candidates) result(words)
-      character(*), intent(in) :: name
-      character(*), intent(in) :: candidates(:)    !! blank ones are ignored
-      character(:), allocatable :: words
-      integer, parameter :: max_listed = 20
-      integer :: k
-
-      words = nearest_name(name, candidates)
-      if (words /= '') then
-         words = ' (did you mean '//quoted(words)//'?)'
-      else if (count(candidates /= '') == 0) then
-         words = ' (there is none)'
-      else if (count(candidates /= '') <= max_listed) then
-         do k = 1, size(candidates)
-            if (candidates(k) == '') cycle
-            if (words /= '') words = words//', '
-            words = words//trim(candidates(k))
-         end do
-         words = ' (known: '//words//')'
-      end if
-   end function did_you_mean
 
 end module ek_group

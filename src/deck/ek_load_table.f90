@@ -12,7 +12,7 @@
 module ek_load_table
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
-   use ek_text, only: str, quoted, nearest_name, plural
+   use ek_text, only: str, quoted, suggestion, plural
    use ek_case, only: case_t, load_table_t, table_column_t, max_driven
    use ek_measure, only: rotation
    use ek_suspension, only: suspension_t, driver_row
@@ -161,10 +161,9 @@ contains
          known(used + 1:used + 10) = prefix_of(suspension, wheels(side))//wheel_columns
          used = used + 10
       end do
-      words = nearest_name(name, known)
-      if (words /= '') then
-         words = ' (did you mean '//quoted(words)//'?)'
-      else if (index(name, ' ') > 0) then
+      words = suggestion(name, known)
+      if (words /= '') return
+      if (index(name, ' ') > 0) then
          words = ' (separate the columns by commas)'
       else if (used > 0) then
          words = ' (known: '//trim(known(1))//' … '//trim(known(used))//', <driver>_mm, <driver>_deg)'

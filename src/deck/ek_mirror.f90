@@ -9,10 +9,10 @@
 !> −M y: in marker axes, forces change the sign of y, moments the signs of x and z.
 module ek_mirror
    use ek_kinds, only: wp
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, lower, quoted, did_you_mean
    use ek_record, only: deck_errors_t, has_side, left_side, right_side, side_prefix, record_t, entry_t, add_record, &
       add_value, element, entry_index, place_of, line_text, role_of, sign_of_image, turns
-   use ek_group, only: group_names, group_number, word_length, record_head, did_you_mean, is_element, can_be_doubled, &
+   use ek_group, only: group_names, group_number, word_length, record_head, is_element, can_be_doubled, &
       number, point_group, body_group, measure_group, wheel_group, load_group, polar, axial, curves, wheel_side
    use ek_namelist, only: value_fault
    implicit none(type, external)

@@ -6,10 +6,12 @@
 module ek_namelist
    use ek_kinds, only: wp
    use ek_text, only: str, lower, quoted, plural
+   use ek_decimal, only: checked_number
    use ek_letters, only: bad_byte, visible
    use ek_quantity, only: column_of_stem
    use ek_record, only: deck_errors_t, record_t, entry_t, value_t, entry_index, is_given, place_of
-   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, acute, longest, number, whole, heading
+   use ek_group, only: key_t, keys, find_key, unknown_key, is_inside, range_text, any_number, acute, longest, number, &
+      whole, heading
    implicit none(type, external)
    private
    public :: check_record, value_fault, name_fault, is_legal_name
@@ -115,8 +117,9 @@ contains
       real(wp) :: value
 
       words = ''
+      if (key%range == any_number) return
       if (key%range == acute) return         ! here the unit of angles is unknown: `slot` of ek_deck_reading examines it
-      read (entry%values(k)%text, *) value
+      value = checked_number(entry%values(k)%text)
       if (is_inside(key%range, value)) return
       if (key%least == key%most) words = element_text(key, entry%first + k - 1)
       words = trim(key%name)//words//' '//range_text(key, str(value))

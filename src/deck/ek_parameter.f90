@@ -5,15 +5,15 @@
 module ek_parameter
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_text, only: str, lower, quoted, is_like
+   use ek_text, only: str, lower, quoted, is_like, did_you_mean
    use ek_record, only: record_t, right_side, element, own_name, sign_of_image
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, is_single, include_group, hardpoints_group, &
       point_group, &
-      key_t, find_key, is_inside, did_you_mean
+      key_t, find_key, is_inside
    implicit none(type, external)
    private
    public :: parameter_t, parameters_t, choice_t, add_parameter, find_parameters, put_value, put_change, in_range
-   public :: all_in_range, parameter_path
+   public :: all_in_range, parameter_path, value_path
    public :: path_t, split_path, is_meant, change_t, changed
 
    !> One number of the deck.
@@ -249,25 +249,41 @@ contains
    end function all_in_range
 
    !> 'point.tie_rod_inner.z', 'bushing.top_mount.kt(1)', 'axle.wheelbase'.
-   function parameter_path(this, records) result(path)
+   function parameter_path(this, records, is_of_pair) result(path)
       type(parameter_t), intent(in) :: this
       type(record_t), intent(in) :: records(:)
+      logical, intent(in), optional :: is_of_pair      !! .true.: the path of the half deck, which leads to both sides
       character(:), allocatable :: path
+
+      path = value_path(records(this%record), trim(this%key), this%at, is_of_pair)
+   end function parameter_path
+
+   !> The path of a value of a record: 'point.upper_ball_joint.z', 'bushing.top_mount.kt(1)', 'model.length'.
+   function value_path(record, key, at, is_of_pair) result(path)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: key
+      integer, intent(in) :: at                        !! subscript
+      logical, intent(in), optional :: is_of_pair      !! .true.: the path of the half deck, which leads to both sides
+      character(:), allocatable :: path
+      character(:), allocatable :: name
+      logical :: has_half
       character(*), parameter :: axes = 'xyz'
-      type(key_t) :: key
+      type(key_t) :: row
       logical :: is_known
 
-      associate (record => records(this%record))
-         path = record%group//'.'
-         if (element(record, 'name', 1) /= '') path = path//element(record, 'name', 1)//'.'
-         if (record%group == group_names(point_group)) then
-            path = path//axes(this%at:this%at)
-            return
-         end if
-         path = path//trim(this%key)
-         call find_key(group_number(record%group), trim(this%key), key, is_known)
-         if (is_known .and. key%most > 1) path = path//'('//str(this%at)//')'
-      end associate
-   end function parameter_path
+      has_half = .false.
+      if (present(is_of_pair)) has_half = is_of_pair
+      name = element(record, 'name', 1)
+      if (has_half) name = own_name(record)
+      path = record%group//'.'
+      if (name /= '' .and. .not. is_single(group_number(record%group))) path = path//name//'.'
+      if (record%group == group_names(point_group) .and. key == 'at' .and. at <= len(axes)) then
+         path = path//axes(at:at)
+         return
+      end if
+      path = path//key
+      call find_key(group_number(record%group), key, row, is_known)
+      if (is_known .and. row%most > 1) path = path//'('//str(at)//')'
+   end function value_path
 
 end module ek_parameter

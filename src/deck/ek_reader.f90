@@ -4,12 +4,12 @@
 !> collected; the blueprint is complete only if there are none.
 module ek_reader
    use ek_kinds, only: wp, units_t, millimetre, degree
-   use ek_text, only: lower
+   use ek_text, only: lower, did_you_mean
    use ek_error, only: error_t, fail, exit_deck
-   use ek_record, only: single, record_t, element, place_of, own_name
+   use ek_record, only: single, record_t, hand_over, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
       measure_group, joint_group, bushing_group, spring_groups, case_group, curve_group, mass_group, wheel_group, axle_group, &
-      steering_group, load_group, word_length, record_head, did_you_mean, has_results
+      steering_group, load_group, target_group, word_length, record_head, has_results
    use ek_namelist, only: check_record, name_fault
    use ek_deck, only: deck_t, finish_deck
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, where_of, line_of, choice, text_of, switch_of, &
@@ -18,6 +18,7 @@ module ek_reader
    use ek_reader_bodies, only: read_point, read_body, read_mass, read_load, read_wheel, read_axle, read_steering
    use ek_reader_joints, only: read_measure, read_joint
    use ek_reader_elements, only: read_curve, read_element
+   use ek_target_band, only: target_band_t, read_target_band
    use ek_reader_cases, only: read_case, refuse_one_file_for_two
    use ek_load_table, only: read_tables
    use ek_suspension, only: suspension_t, point_t
@@ -39,6 +40,7 @@ module ek_reader
       type(parameters_t) :: parameters           !! with their values in the deck, x
       type(record_t), allocatable :: records(:)  !! of the mirrored deck, to which the parameters refer
       type(case_t), allocatable :: cases(:)      !! with their tables; may be of size 0; includes cases with a mistake
+      type(target_band_t), allocatable :: targets(:)      !! of key numbers, for the page of a report
    end type design_t
 
 contains
@@ -91,10 +93,11 @@ contains
 
       call finish_deck(deck, finished)
       reading%deck_errors = finished%deck_errors
-      reading%records = finished%records(:finished%used)
+      call hand_over(finished%records, finished%used, reading%records)
       reading%file = deck%file
       allocate (design%cases(0))
       call read_records(reading, design%cases, is_complete, error)
+      call read_targets(reading, design%targets, error)
       if (is_complete) call complete_prototype(reading)
       call read_tables(design%cases, reading%plan%prototype, is_complete)
       design%plan = reading%plan
@@ -110,6 +113,7 @@ contains
       logical, intent(out) :: is_whole
       type(error_t), allocatable, intent(out) :: error
       type(case_t) :: case
+      character(:), allocatable :: command
       integer :: j, k, before, in_cases
 
       is_whole = .false.
@@ -123,8 +127,10 @@ contains
       call new_blueprint(reading%plan)
       if (is_study(reading%records)) then
          reading%k = 1
-         call fail(error, exit_deck, where_of(reading)//': this is a study (&'//reading%records(1)%group// &
-            '), not a deck; run it with: elastokin study '//reading%file)
+         command = 'study'
+         if (any([(reading%records(k)%group == 'fit', k=1, size(reading%records))])) command = 'fit'
+         call fail(error, exit_deck, where_of(reading)//': this is a '//command//' (&'//reading%records(1)%group// &
+            '), not a deck; run it with: elastokin '//command//' '//reading%file)
          return
       end if
       in_cases = 0
@@ -159,6 +165,27 @@ contains
       call refuse_one_file_for_two(reading, cases)
       if (reading%deck_errors%count() > 0) call fail(error, exit_deck, reading%deck_errors%text())
    end subroutine read_records
+
+   !> The targets of key numbers. Their mistakes come behind those of the records.
+   subroutine read_targets(reading, targets, error)
+      type(deck_reading_t), intent(inout) :: reading
+      type(target_band_t), allocatable, intent(out) :: targets(:)
+      type(error_t), allocatable, intent(inout) :: error
+      type(target_band_t) :: target
+      integer :: k
+
+      allocate (targets(0))
+      if (.not. allocated(reading%cards)) return
+      do k = 1, size(reading%records)
+         if (reading%cards(k)%group /= target_group) cycle
+         reading%k = k
+         call read_target_band(reading, target)
+         targets = [targets, target]
+      end do
+      if (size(targets) == 0 .or. reading%deck_errors%count() == 0) return
+      if (allocated(error)) deallocate (error)
+      call fail(error, exit_deck, reading%deck_errors%text())
+   end subroutine read_targets
 
    !> The record being read.
    subroutine read_record(reading)

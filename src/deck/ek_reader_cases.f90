@@ -2,8 +2,9 @@
 module ek_reader_cases
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, quoted
-   use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rolls, steers, loads_wheels, takes_table
-   use ek_case, only: case_t, method_names, follow_names, max_increments
+   use ek_rig_test, only: rig_test_t, rig_tests, needs_both, of_one_wheel, lifts, rig_test, rolls, steers, loads_wheels, &
+      takes_table, covers_grid
+   use ek_case, only: case_t, method_names, solver_names, follow_names, max_increments
    use ek_record, only: value_t, right_side, element, is_given, own_name
    use ek_namelist, only: value_fault
    use ek_realise, only: steepest_roll
@@ -29,31 +30,42 @@ contains
       type(deck_reading_t), intent(inout) :: reading
       type(case_t), intent(out) :: this
       type(case_plan_t) :: plan
-      real(wp) :: unit, from, to, tolerance
+      type(rig_test_t) :: test
+      real(wp) :: unit, steer_unit, from, to, reach, tolerance
       integer :: c
+      logical :: has_grid, has_table
 
       unit = 1.0_wp
+      test = rig_test(lower(text_of(reading, 'test')))
+      has_grid = test%action == covers_grid
+      has_table = test%action == takes_table
+      reach = 0.0_wp
+      if (has_grid) reach = test%reach*millimetre/reading%units%length
       this%test = ''
       this%vertical = ''
       this%file = ''
       this%drive = ''
-      from = number_of(reading, 'from', 0.0_wp)
-      to = number_of(reading, 'to', 0.0_wp)
+      from = number_of(reading, 'from', -reach)
+      to = number_of(reading, 'to', reach)
       if (has_key(reading, 'test')) then
-         call read_test(reading, from, to, this, unit)
+         call read_test(reading, from, to, this, unit, steer_unit)
       else
          call read_drive(reading, this, unit)
       end if
-      if (this%test /= 'table' .and. lower(text_of(reading, 'test')) /= 'table') then
-         if (.not. has_key(reading, 'from')) call complain(reading, '', "'from' is missing")
-         if (.not. has_key(reading, 'to')) call complain(reading, '', "'to' is missing")
+      if (.not. has_table) then
+         if (.not. (has_key(reading, 'from') .or. has_grid)) call complain(reading, '', "'from' is missing")
+         if (.not. (has_key(reading, 'to') .or. has_grid)) call complain(reading, '', "'to' is missing")
          if (reading%cards(reading%k)%is_good .and. .not. abs(to - from) > 0.0_wp) &
             call complain(reading, 'to', 'from and to must differ, found '//str(from)//' twice')
       end if
-      this%increments = whole_of(reading, 'increments', this%increments)
+      this%increments = whole_of(reading, 'increments', merge(test%increments, this%increments, has_grid))
       if (this%increments < 1 .or. this%increments > max_increments) call complain(reading, 'increments', &
          'increments must be 1 to '//str(max_increments)//', found '//str(this%increments))
+      if (has_grid) call read_grid()
       call choice(reading, 'method', method_names, c)
+      this%says_solver = has_key(reading, 'solver')
+      call choice(reading, 'solver', solver_names, c)
+      this%uses_plan = c == 2
       tolerance = number_of(reading, 'tolerance', this%tolerance/reading%units%length)*reading%units%length
       if (has_key(reading, 'tolerance')) this%tolerance = tolerance
       if (tolerance < min_tolerance .or. tolerance > max_tolerance) call complain(reading, 'tolerance', 'tolerance must be '// &
@@ -68,8 +80,8 @@ contains
       this%name = text_of(reading, 'name')
       this%where = where_of(reading)
       this%is_good = reading%cards(reading%k)%is_good
-      call slot(reading, 'from', unit, plan%from, default=0.0_wp)
-      call slot(reading, 'to', unit, plan%to, default=0.0_wp)
+      call slot(reading, 'from', unit, plan%from, default=-reach)
+      call slot(reading, 'to', unit, plan%to, default=reach)
       call slot(reading, 'offset', reading%units%length, plan%offset, default=0.0_wp)
       this%from = from*unit
       this%to = to*unit
@@ -77,6 +89,37 @@ contains
       reading%cards(reading%k)%index = size(reading%plan%cases)
 
    contains
+
+      !> The range of the driver in a grid; by default the travel of the rack, which the design gives.
+      subroutine read_grid()
+         character(*), parameter :: keys(2) = [character(10) :: 'steer_from', 'steer_to']
+         integer :: k, j
+         logical :: is_rack
+
+         this%steer_increments = whole_of(reading, 'steer_increments', this%steer_increments)
+         if (this%steer_increments < 1 .or. this%steer_increments > max_increments) then
+            call complain(reading, 'steer_increments', 'steer_increments must be 1 to '//str(max_increments)//', found '// &
+               str(this%steer_increments))
+         else if ((this%increments + 1.0_wp)*(this%steer_increments + 1.0_wp) > max_increments) then
+            call complain(reading, 'steer_increments', 'the grid must have at most '//str(max_increments)//' states, found '// &
+               str(this%increments + 1)//' x '//str(this%steer_increments + 1)//': use fewer increments')
+         end if
+         call slot(reading, 'steer_from', steer_unit, plan%steer_from)
+         call slot(reading, 'steer_to', steer_unit, plan%steer_to)
+         j = findloc(reading%cards%group, steering_group, dim=1)
+         is_rack = .false.
+         if (j > 0) is_rack = lower(element(reading%records(j), 'driver', 1)) == lower(this%drive)
+         if (is_rack .and. .not. any([has_key(reading, keys(1)), has_key(reading, keys(2))])) return
+         do k = 1, 2
+            if (.not. has_key(reading, trim(keys(k)))) call complain(reading, '', quoted(trim(keys(k)))// &
+               ' is missing: give both, or neither for the travel of &steering')
+         end do
+         this%steer_from = number_of(reading, 'steer_from', 0.0_wp)*steer_unit
+         this%steer_to = number_of(reading, 'steer_to', 0.0_wp)*steer_unit
+         if (reading%cards(reading%k)%is_good .and. .not. abs(this%steer_to - this%steer_from) > 0.0_wp) &
+            call complain(reading, 'steer_to', 'steer_from and steer_to must differ, found '// &
+            str(number_of(reading, 'steer_to', 0.0_wp))//' twice')
+      end subroutine read_grid
 
       !> target = 'column=value', the value in the unit of the column.
       subroutine read_target()
@@ -108,8 +151,9 @@ contains
          call choice(reading, 'follow', follow_names, c)
          this%follows_arc = c == 2
          if (c /= 2) return
-         if (this%test == 'table') then
-            call complain(reading, 'follow', "follow = 'arc' is not allowed in test 'table': each row of the table is one state")
+         if (has_table .or. has_grid) then
+            call complain(reading, 'follow', "follow = 'arc' is not allowed in test "//quoted(this%test)//': '//trim(merge( &
+               'each row of the table is one state', 'the states of a grid form no path ', has_table)))
          else if (this%target /= '') then
             call complain(reading, 'follow', "follow = 'arc' is not allowed with a target: a path that turns back "// &
                'passes the same factor more than once')
@@ -151,7 +195,8 @@ contains
       else if (.not. (has_key(reading, 'load') .or. has_key(reading, 'drive'))) then
          call complain(reading, '', "give 'load', 'drive' or 'test'")
       end if
-      call refuse(reading, [character(8) :: 'vertical', 'phase', 'offset', 'file'], "only a case with a 'test' takes this key")
+      call refuse(reading, [character(16) :: 'vertical', 'phase', 'offset', 'file', 'steer_from', 'steer_to', 'steer_increments'], &
+         "only a case with a 'test' takes this key")
       load = texts_of(reading, 'load', max_loads)
       loads = count(load /= '')
       refused = 0
@@ -201,21 +246,28 @@ contains
    end subroutine read_drive
 
    !> Reads a test; checks that it has all keys it needs and no others. Every mistake is reported.
-   subroutine read_test(reading, from, to, this, unit)
+   subroutine read_test(reading, from, to, this, unit, steer_unit)
       type(deck_reading_t), intent(inout) :: reading
       real(wp), intent(in) :: from, to       !! in the unit of the deck
       type(case_t), intent(inout) :: this
       real(wp), intent(inout) :: unit        !! of from and to → SI
+      real(wp), intent(out) :: steer_unit    !! likewise, of the driver in a grid
+      character(*), parameter :: no_grid = 'only test ''travel_and_steering'' has a second range'
       type(rig_test_t) :: test
       integer :: c, wheels(2)
 
+      steer_unit = 1.0_wp
       call choice(reading, 'test', rig_tests%name, c)
       this%load = ''
       if (c == 0) return
       test = rig_tests(c)
       this%test = trim(test%name)
       call refuse_in_test('load', .true., 'a test applies its own loads')
-      call refuse_in_test('drive', test%action /= steers, 'only test ''steering'' drives a joint')
+      call refuse_in_test('drive', .not. any(test%action == [steers, covers_grid]), &
+         'only tests ''steering'' and ''travel_and_steering'' drive a joint')
+      call refuse_in_test('steer_from', test%action /= covers_grid, no_grid)
+      call refuse_in_test('steer_to', test%action /= covers_grid, no_grid)
+      call refuse_in_test('steer_increments', test%action /= covers_grid, no_grid)
       call refuse_in_test('phase', .not. test%has_phase, 'only tests with forces or torques have a phase')
       call refuse_in_test('offset', .not. test%has_trail, 'only test ''lateral_force'' has an offset')
       call refuse_in_test('file', test%action /= takes_table, 'only test ''table'' reads a file')
@@ -223,11 +275,12 @@ contains
       call refuse_in_test('to', test%action == takes_table, 'the table sets the range')
       call refuse_in_test('increments', test%action == takes_table, 'each row of the table is one state')
       call refuse_in_test('target', test%action == takes_table, 'the rows of a table form no path to search')
+      call refuse_in_test('target', test%action == covers_grid, 'the states of a grid form no path to search')
 
       call count_wheels()
       call choice(reading, 'vertical', verticals, c)
       if (c > 0) this%vertical = trim(verticals(c))
-      if (test%action == rolls) call refuse_in_test('vertical', c == 3, &
+      if (any(test%action == [rolls, covers_grid])) call refuse_in_test('vertical', c == 3, &
          'the test prescribes heights: ''centre'', ''patch'' or ''road''')
       if (test%action == loads_wheels .and. lifts(test)) call refuse_in_test('vertical', c > 0 .and. c /= 3, &
          'the test prescribes the force')
@@ -250,6 +303,10 @@ contains
       if (test%action == rolls .and. max(abs(from), abs(to))*unit > steepest_roll) call complain(reading, 'to', &
          'the roll angle must stay within 0.5 rad (28.6 deg), found '//str(from)//' to '//str(to))
       if (test%action == steers) call find_steering(reading, this%drive, unit)
+      if (test%action == covers_grid) then
+         call find_steering(reading, this%drive, steer_unit)
+         unit = reading%units%length
+      end if
       if (test%action == takes_table) then
          if (.not. has_key(reading, 'file')) call complain(reading, '', "'file' is missing")
          this%file = text_of(reading, 'file')

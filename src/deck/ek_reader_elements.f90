@@ -6,7 +6,8 @@ module ek_reader_elements
    use ek_text, only: str, lower, quoted
    use ek_rotation, only: angle_between
    use ek_record, only: right_side
-   use ek_curve, only: curve_t, new_curve, look_up_curve, curve_kinds, min_step
+   use ek_curve, only: curve_t, look_up_curve
+   use ek_new_curve, only: new_curve, curve_kinds, min_step
    use ek_measure, only: measure_t, distance, rotation, is_of_angle
    use ek_element, only: element_t, set_kind, axial_spring, measure_spring, damper, stop_spring, torsion_spring, bushing_element, &
       rate_number, preload_number, free_length_number, clearance_number, rounding_number

@@ -9,7 +9,7 @@ module ek_record
    private
    public :: place_t, deck_errors_t, place_in, single, left_side, right_side, side_prefix, has_side
    public :: value_t, entry_t, record_t
-   public :: add_value, add_entry, add_record, entry_index, element, is_given, place_of, line_text, own_name
+   public :: add_value, add_entry, add_record, hand_over, entry_index, element, is_given, place_of, line_text, own_name
    public :: role_of, sign_of_image, turns
 
    !> The sides of the two records that &mirror creates from a record of the left half, which are in their names; or neither.
@@ -88,25 +88,69 @@ contains
    !> Append an entry to a record.
    pure subroutine add_entry(record, entry)
       type(record_t), intent(inout) :: record
-      type(entry_t), intent(in) :: entry
+      type(entry_t), intent(inout) :: entry         !! handed over: without its texts afterwards
 
       if (.not. allocated(record%entries)) allocate (record%entries(8))
       if (record%used == size(record%entries)) record%entries = [record%entries, record%entries]      ! twice the size
       record%used = record%used + 1
-      record%entries(record%used) = entry
+      associate (to => record%entries(record%used))
+         call move_alloc(entry%key, to%key)
+         call move_alloc(entry%setting, to%setting)
+         call move_alloc(entry%values, to%values)
+         to%first = entry%first
+         to%line = entry%line
+         to%is_bad = entry%is_bad
+         to%used = entry%used
+      end associate
+      entry%used = 0
    end subroutine add_entry
 
    !> Append a record to a list whose first `used` elements are filled.
    pure subroutine add_record(records, used, record)
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
-      type(record_t), intent(in) :: record
+      type(record_t), intent(inout) :: record       !! handed over: empty afterwards
+      type(record_t), allocatable :: before(:)
 
       if (.not. allocated(records)) allocate (records(32))
-      if (used == size(records)) records = [records, records]      ! twice the size
+      if (used == size(records)) then
+         call move_alloc(records, before)
+         call hand_over(before, used, records, room=2*used)
+      end if
       used = used + 1
-      records(used) = record
+      call move_record(record, records(used))
    end subroutine add_record
+
+   !> Hands over the first `used` records of a list, which is empty afterwards: to copy a deck asks for memory hundreds of times.
+   pure subroutine hand_over(from, used, to, room)
+      type(record_t), allocatable, intent(inout) :: from(:)
+      integer, intent(in) :: used
+      type(record_t), allocatable, intent(out) :: to(:)
+      integer, intent(in), optional :: room         !! size of the new list; default `used`
+      integer :: k, n
+
+      n = used
+      if (present(room)) n = room
+      allocate (to(n))
+      do k = 1, used
+         call move_record(from(k), to(k))
+      end do
+      if (allocated(from)) deallocate (from)
+   end subroutine hand_over
+
+   pure subroutine move_record(from, to)
+      type(record_t), intent(inout) :: from         !! empty afterwards
+      type(record_t), intent(inout) :: to
+
+      call move_alloc(from%group, to%group)
+      call move_alloc(from%file, to%file)
+      call move_alloc(from%entries, to%entries)
+      to%source = from%source
+      to%line = from%line
+      to%side = from%side
+      to%used = from%used
+      from%used = 0
+   end subroutine move_record
 
    !> The entry that contains element `at` of a key (any element if `at` is 0); 0 if there is none, as for the key ''.
    pure integer function entry_index(record, key, at)

@@ -3,9 +3,9 @@
 !> If an entry was already rejected, the searches report nothing.
 module ek_reference
    use ek_kinds, only: wp
-   use ek_text, only: lower, quoted
+   use ek_text, only: lower, quoted, did_you_mean
    use ek_record, only: element, own_name, has_side, single, left_side
-   use ek_group, only: group_names, did_you_mean, point_group, body_group, wheel_group, joint_group, curve_group, word_length
+   use ek_group, only: group_names, point_group, body_group, wheel_group, joint_group, curve_group, word_length
    use ek_blueprint, only: vector_t, add_vector, along, given
    use ek_design_vector, only: find_vectors
    use ek_deck_reading, only: deck_reading_t, complain, line_of, has_key, text_of, texts_of, numbers_of, refuse, slot

@@ -209,7 +209,7 @@ contains
 
    !> Adds a complete entry to its record, unless its key was given before.
    subroutine close_entry(entry, record, deck_errors)
-      type(entry_t), intent(in) :: entry
+      type(entry_t), intent(inout) :: entry         !! handed over
       type(record_t), intent(inout) :: record
       type(deck_errors_t), intent(inout) :: deck_errors
       integer :: k, before

@@ -13,11 +13,11 @@
 !> | +2     | a number: adds to it, in the unit of the deck; +-2 subtracts |
 module ek_setting
    use ek_kinds, only: wp
-   use ek_text, only: str, quoted, plural
+   use ek_text, only: str, quoted, plural, did_you_mean
    use ek_error, only: error_t, fail, exit_usage
    use ek_record, only: record_t, entry_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
-   use ek_group, only: group_names, is_single, did_you_mean, unknown_key, longest, number, word_length
+   use ek_group, only: group_names, is_single, unknown_key, longest, number, word_length
    use ek_namelist, only: value_fault
    use ek_parameter, only: path_t, split_path, is_meant, change_t, changed
    implicit none(type, external)

@@ -21,6 +21,7 @@
 !> Steps are reproducible: followed again from the same state, a path has the same lengths.
 !> No memory is allocated after new_arc.
 module ek_arc
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_measure, only: distance
    use ek_suspension, only: suspension_t, has_symmetric_loads
@@ -197,8 +198,9 @@ contains
          if (.not. is_found) return
          length = sqrt(inner(self, kkt, self%rhs(:, 1), self%rhs(:, 1)))
          is_found = .false.
-         ! reject a correction as long as the step (except beyond a corner), longer than the one before, or not a number
-         if (.not. length <= longest .or. length > 2.0_wp*before) return
+         ! reject a correction that is not a number, as long as the step (except beyond a corner), or longer than the one before
+         if (.not. ieee_is_finite(length)) return
+         if (length > longest .or. 0.5_wp*length > before) return
          call move_all(self, kkt, self%rhs(:, 1), self%state, self%place)
          is_found = length*self%size <= self%tolerance
          if (is_found) return
@@ -271,17 +273,20 @@ contains
       logical, intent(out) :: is_found
       real(wp), parameter :: part = 1.0e-5_wp      ! of the range: the inputs are smooth, most of them linear
       type(inputs_t) :: low, high
-      integer :: i, j, n, info
+      integer :: j, k, n, info
 
       call inputs_at(self%schedule, self%place - part*self%range, low)
       call inputs_at(self%schedule, self%place + part*self%range, high)
       call assemble_rate(suspension, self%state, inputs_rate(low, high, 2.0_wp*part*self%range), kkt)
       n = kkt%n
-      do j = 1, n
-         do i = j, n
-            self%matrix(i, j) = kkt%matrix(i, j)*(kkt%scale(i)*kkt%scale(j))
-            self%matrix(j, i) = self%matrix(i, j)
+      self%matrix(:n, :n) = 0.0_wp
+      associate (pattern => kkt%pattern)
+         do k = 1, pattern%entries
+            self%matrix(pattern%row(k), pattern%column(k)) = kkt%store(pattern%from(k))*kkt%scaling(k)
+            self%matrix(pattern%column(k), pattern%row(k)) = self%matrix(pattern%row(k), pattern%column(k))
          end do
+      end associate
+      do j = 1, n
          self%matrix(j, n + 1) = -kkt%rhs(j)*kkt%scale(j)*self%range
          self%matrix(n + 1, j) = 0.0_wp
          if (j <= kkt%nq) self%matrix(n + 1, j) = self%tangent_a(j)*weight(j)*kkt%scale(j)

@@ -9,35 +9,36 @@
 !> wheel instead of the spring: it is excluded from `all` unless its joint sets `balance = .true.`. Others (a rack, a steering
 !> column) take part.
 module ek_balance
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
    use ek_text, only: str, quoted, plural
    use ek_measure, only: evaluation_t, evaluate
    use ek_block, only: rotated, add_gradient
-   use ek_element, only: element_kinds, element_t
-   use ek_elastic, only: set_bushing_axes, design_rates
+   use ek_elastic, only: set_bushing_axes
    use ek_rotation, only: cross
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, design_state
-   use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, residual_only, whole_tangent
+   use ek_kkt, only: kkt_t, new_kkt, assemble, factorise, solve, whole_tangent
+   use ek_preload_problem, only: preload_problem_t, set_problem, clear_preloads, hold_by_elimination, hold_by_singular_values, &
+      is_free, takes_part, rank_share
    use ek_reach, only: settle, failure_t
    use ek_singular_values, only: singular_values_t, decompose, min_norm
    implicit none(type, external)
    private
-   public :: balance, balance_remarks, takes_part
+   public :: balance, balance_remarks
 
-   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
    character(*), parameter :: not_finite = 'the forces or stiffnesses at design are too large to calculate with'
 
 contains
 
    !> Sets the preloads according to suspension%balance ('none': no change).
-   subroutine balance(suspension, tolerance, error, is_terse)
+   subroutine balance(suspension, tolerance, error, is_terse, space)
       type(suspension_t), intent(inout) :: suspension
       real(wp), intent(in) :: tolerance                    !! m
       type(error_t), allocatable, intent(out) :: error     !! exit_model: no solution
       logical, intent(in), optional :: is_terse            !! .true.: a message without numbers and names, safe in a thread
+      type(preload_problem_t), intent(inout), optional :: space     !! work space, for one design of a model after the other
+      type(preload_problem_t) :: problem
       logical :: has_details
 
       has_details = .true.
@@ -46,35 +47,13 @@ contains
       case ('spring')
          call balance_springs(suspension, tolerance, has_details, error)
       case ('all')
-         call balance_all(suspension, has_details, error)
+         if (present(space)) then
+            call balance_all(suspension, has_details, space, error)
+         else
+            call balance_all(suspension, has_details, problem, error)
+         end if
       end select
    end subroutine balance
-
-   !> Whether balance may change the preload of an element.
-   elemental logical function is_free(element)
-      type(element_t), intent(in) :: element
-      is_free = element_kinds(element%kind)%is_axial_spring .and. element%is_balanced
-   end function is_free
-
-   !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel
-   !> (`balance` of their joint overrides this).
-   pure logical function takes_part(suspension, row)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: row
-      integer :: t
-
-      takes_part = .true.
-      if (.not. suspension%rows(row)%compliance > 0.0_wp) return
-      associate (joint => suspension%joints(suspension%rows(row)%joint))
-         takes_part = joint%is_balanced
-         if (joint%says_balance) return
-      end associate
-      do t = suspension%rows(row)%first, suspension%rows(row)%first + suspension%rows(row)%terms - 1
-         associate (m => suspension%terms(t)%measure)
-            if (any(suspension%wheels%body == m%body_i) .or. any(suspension%wheels%body == m%body_j)) takes_part = .false.
-         end associate
-      end do
-   end function takes_part
 
    !> Remarks about a balance: excluded drivers, preloads that are not unique.
    subroutine balance_remarks(suspension, words)
@@ -221,74 +200,31 @@ contains
    end function rise
 
    !> Solves one linear problem: min Σ f²/2k, subject to equilibrium of preloads, Φqᵀλ and loads at design.
-   subroutine balance_all(suspension, has_details, error)
+   subroutine balance_all(suspension, has_details, problem, error)
       type(suspension_t), intent(inout) :: suspension
       logical, intent(in) :: has_details
+      type(preload_problem_t), intent(inout) :: problem    !! work space
       type(error_t), allocatable, intent(out) :: error
-      type(kkt_t) :: kkt
-      type(state_t) :: state
-      type(evaluation_t) :: evaluation
-      type(singular_values_t) :: carried, held
-      real(wp), allocatable :: weighted(:, :), free(:, :), load(:), x(:), y(:), remainder(:), uncarried(:, :)
-      real(wp), allocatable :: root(:), column(:)
-      integer :: b, k, s, t, nx, ny
+      real(wp), allocatable :: x(:), y(:)
+      real(wp) :: remainder
+      logical :: is_sure, is_found
+      integer :: b
 
-      where (is_free(suspension%elements)) suspension%elements%preload = 0.0_wp
-      do b = 1, size(suspension%elements) - suspension%scalars
-         suspension%elements(suspension%scalars + b)%bushing%preload_force = 0.0_wp
-         suspension%elements(suspension%scalars + b)%bushing%preload_moment = 0.0_wp
-         call set_bushing_axes(suspension%elements(suspension%scalars + b)%bushing)
-      end do
-      kkt = new_kkt(suspension)
-      state = design_state(suspension)
-      call assemble(suspension, state, inputs_t(), residual_only, kkt)
-      allocate (load(kkt%nq), remainder(kkt%nq))
-      load = kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
-      nx = 6*(size(suspension%elements) - suspension%scalars)
-      ny = suspension%scalars + kkt%nc
-      allocate (weighted(kkt%nq, nx), free(kkt%nq, ny), root(nx), column(kkt%nq), source=0.0_wp)
-      do b = 1, size(suspension%elements) - suspension%scalars
-         root(6*b - 5:6*b) = sqrt(max(design_rates(suspension%elements(suspension%scalars + b)%bushing), 0.0_wp))
-         do k = 1, 6
-            call bushing_column(suspension, b, k, column)
-            weighted(:, 6*(b - 1) + k) = column*root(6*(b - 1) + k)*kkt%scale(:kkt%nq)
-         end do
-      end do
-      do s = 1, suspension%scalars
-         if (.not. is_free(suspension%elements(s))) cycle
-         associate (m => suspension%elements(s)%measure)
-            call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
-            call add_gradient(1.0_wp, evaluation%gradient, 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, s))
-         end associate
-      end do
-      do k = 1, kkt%nc
-         if (.not. takes_part(suspension, k)) cycle
-         do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
-            associate (m => suspension%terms(t)%measure)
-               call add_gradient(-1.0_wp, kkt%gradients(:, t), 6*(m%body_i - 1), 6*(m%body_j - 1), free(:, suspension%scalars + k))
-            end associate
-         end do
-      end do
-      free = free*spread(kkt%scale(:kkt%nq), 2, ny)
-
-      ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
-      ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
-      call decompose(free, rank_share, carried)
-      allocate (uncarried, source=transpose(carried%left(:, carried%rank + 1:)))
-      call decompose(matmul(uncarried, weighted), rank_share, held, whole=norm2(weighted))
-      if (.not. (carried%is_found .and. held%is_found .and. all(ieee_is_finite(load)))) then
-         call fail(error, exit_model, "balance = 'all': "//not_finite)
-         return
-      end if
-      allocate (x(nx), y(ny))
-      call min_norm(held, -matmul(uncarried, load), x)
-      remainder = -load - matmul(weighted, x)
-      call min_norm(carried, remainder, y)
-      remainder = remainder - matmul(free, y)
-      if (.not. norm2(remainder) <= 1.0e-8_wp*max(norm2(load), tiny(1.0_wp))) then
-         call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
-         if (has_details) error%message = error%message//kept_out(suspension)
-         return
+      call clear_preloads(suspension)
+      call set_problem(suspension, problem)
+      allocate (x(problem%nx), y(problem%ny))
+      call hold_by_elimination(problem, x, y, is_sure)
+      if (.not. is_sure) then
+         call hold_by_singular_values(problem, x, y, remainder, is_found)
+         if (.not. is_found) then
+            call fail(error, exit_model, "balance = 'all': "//not_finite)
+            return
+         end if
+         if (.not. remainder <= 1.0e-8_wp*max(norm2(problem%load), tiny(1.0_wp))) then
+            call fail(error, exit_model, "balance = 'all': no preload of springs and bushings holds the constant loads at design")
+            if (has_details) error%message = error%message//kept_out(suspension)
+            return
+         end if
       end if
       associate (springs => suspension%elements(:suspension%scalars))
          where (is_free(springs)) springs%preload = y(:suspension%scalars)
@@ -296,28 +232,12 @@ contains
       ! the prescribed value of a driver with a stiffness compensates its deflection
       suspension%rows%target = suspension%rows%target - suspension%rows%compliance*y(suspension%scalars + 1:)
       do b = 1, size(suspension%elements) - suspension%scalars
-         suspension%elements(suspension%scalars + b)%bushing%preload_force = x(6*b - 5:6*b - 3)*root(6*b - 5:6*b - 3)
-         suspension%elements(suspension%scalars + b)%bushing%preload_moment = x(6*b - 2:6*b)*root(6*b - 2:6*b)
-         call set_bushing_axes(suspension%elements(suspension%scalars + b)%bushing)
+         associate (bushing => suspension%elements(suspension%scalars + b)%bushing)
+            bushing%preload_force = x(6*b - 5:6*b - 3)*problem%root(6*b - 5:6*b - 3)
+            bushing%preload_moment = x(6*b - 2:6*b)*problem%root(6*b - 2:6*b)
+            call set_bushing_axes(bushing)
+         end associate
       end do
    end subroutine balance_all
-
-   !> The generalised force on the bodies at design of a unit preload component k of bushing b.
-   subroutine bushing_column(suspension, b, k, column)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: b, k
-      real(wp), intent(out) :: column(:)
-      real(wp), parameter :: none(3) = 0.0_wp
-      real(wp) :: axis(3), gradient(12)
-
-      column = 0.0_wp
-      associate (bushing => suspension%elements(suspension%scalars + b)%bushing, &
-         measure => suspension%elements(suspension%scalars + b)%measure)
-         axis = bushing%axes(:, merge(k, k - 3, k <= 3))
-         gradient = [none, -axis, none, axis]
-         if (k <= 3) gradient = [-axis, -cross(measure%arm_i + bushing%gap0, axis), axis, cross(measure%arm_j, axis)]
-         call add_gradient(1.0_wp, gradient, 6*(measure%body_i - 1), 6*(measure%body_j - 1), column)
-      end associate
-   end subroutine bushing_column
 
 end module ek_balance

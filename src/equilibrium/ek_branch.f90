@@ -15,19 +15,20 @@
 module ek_branch
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, inputs_t, design_state, coordinates, unpack_state, inputs_rate, motion_between, move_as_screw, &
-      largest_motion
+   use ek_state, only: state_t, inputs_t, design_state, return_to_design, coordinates, unpack_state, inputs_rate, motion_between, &
+      move_as_screw, largest_motion
    use ek_kkt, only: kkt_t, assemble, factorise, whole_tangent
    use ek_newton, only: outcome_t
    use ek_predictor, only: predictor_t, new_predictor, forget, remember, depth
-   use ek_tangent, only: tangent_t, new_tangent, find_tangent, body_motion, trapezoidal_rest, smooth
-   use ek_chord, only: chord_t, new_chord, straighten, evaluate_along_chord, at_a, at_b
+   use ek_tangent, only: tangent_t, new_tangent, renew_tangent, find_tangent, is_bend
+   use ek_motion, only: trapezoidal_rest, smooth
+   use ek_chord, only: chord_t, new_chord, renew_chord, straighten, evaluate_along_chord, at_a, at_b
    use ek_factors, only: factors_t, new_factors, mark, exchange
-   use ek_orientation, only: orientation_t, new_orientation, compare_orientation
+   use ek_orientation, only: orientation_t, new_orientation, renew_orientation, compare_orientation
    implicit none(type, external)
    private
-   public :: branch_t, new_branch, leave, compare, is_overturning, is_uneven, is_near_zero, accept
-   public :: note_crossing, go_along
+   public :: branch_t, new_branch, renew_branch, leave, compare, is_overturning, is_uneven, is_near_zero, accept
+   public :: note_crossing, go_along, even, exact, zero
    public :: same_branch, crossing, doubtful
 
    integer, parameter :: same_branch = 1   !! the step is accepted
@@ -38,10 +39,7 @@ module ek_branch
 
    integer, parameter, public :: max_crossings = 8   !! largest number of bifurcations reported
 
-   real(wp), parameter :: bent = 5.0e-2_wp         !! of the motion: allowed in the shortest steps
    real(wp), parameter :: shortest = 2.5e3_wp      !! of the least step, 1e-6 of the range: these may bend without a law
-   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
-   real(wp), parameter :: min_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
    real(wp), parameter :: even = 0.3_wp            !! change of ln |det N| in a step: near a loss of rank it is above 0.7
    real(wp), parameter, public :: tiny_step = 1.0e3_wp     !! of the least step: near a lock, states are found in shorter ones
    real(wp), parameter :: zero = 9.2_wp            !! fall of ln |det N|: less than 1e-4 of it is left
@@ -62,25 +60,15 @@ module ek_branch
       logical :: is_new_at_a = .false.      !! the tangents at a are from new factors there
    end type step_t
 
-   !> The last states of the path, data of the newest, and work space.
-   type :: branch_t
-      type(predictor_t) :: predictor
-      integer :: negative = -1              !! negative eigenvalues of N there; −1: not known
+   !> What is known of the newest state of a path and of the step compared last.
+   type :: known_t
+      integer :: negative = -1              !! negative eigenvalues of N at the newest state; −1: not known
       real(wp) :: log_determinant = huge(1.0_wp)   !! ln |det N| there; huge: not known
       logical :: was_uneven = .true.        !! |det N| changed much in the step to it
       logical :: has_tangent = .false.      !! tangent_a is that of the newest state
-      real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
-      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, from the state before to a [m, rad]
       real(wp) :: width_before = 0.0_wp     !! place of a minus place of the state before; 0: not known
-      type(orientation_t) :: orientation
-      type(tangent_t) :: work
-      type(chord_t) :: chord
-      type(factors_t) :: factors            !! of N at the newest state
       integer :: serial = -1                !! number of the last factorisation at or near b
       real(wp) :: missed = 0.0_wp           !! its distance from b [m]
-      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
-      real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
-      type(state_t) :: before, shifted
       logical :: is_singular = .false.      !! the joints lose rank at or too near to the end of the step compared last
       logical :: is_over = .false.          !! they are in another assembly there
       logical :: was_bent = .false.         !! the step compared last passes a corner of a law
@@ -90,6 +78,20 @@ module ek_branch
       real(wp) :: width = 0.0_wp            !! width of the step across a bifurcation [place]
       integer :: crossings = 0              !! bifurcations met so far
       real(wp) :: crossing_place(max_crossings) = 0.0_wp
+   end type known_t
+
+   !> The last states of the path, data of the newest, and work space.
+   type, extends(known_t) :: branch_t
+      type(predictor_t) :: predictor
+      real(wp), allocatable :: tangent_a(:), tangent_b(:)  !! dz/ds: twists of the bodies and reactions per place
+      real(wp), allocatable :: motion(:), motion_before(:) !! twists of the bodies from a to b, from the state before to a [m, rad]
+      real(wp), allocatable :: chord_a(:), chord_b(:)      !! tangents with the laws replaced by their chords
+      real(wp), allocatable :: twist(:)                    !! of the bodies, where one is handed on [m, rad]
+      type(orientation_t) :: orientation
+      type(tangent_t) :: work
+      type(chord_t) :: chord
+      type(factors_t) :: factors            !! of N at the newest state
+      type(state_t) :: before, shifted
    end type branch_t
 
 contains
@@ -103,7 +105,7 @@ contains
       self%orientation = new_orientation(suspension)
       self%work = new_tangent(suspension)
       self%chord = new_chord(suspension)
-      self%factors = new_factors(suspension%unknowns() + suspension%constraints())
+      self%factors = new_factors()
       allocate (self%tangent_a(suspension%unknowns() + suspension%constraints()), &
          self%tangent_b(suspension%unknowns() + suspension%constraints()), self%motion(suspension%unknowns()), &
          self%motion_before(suspension%unknowns()), self%twist(suspension%unknowns()), source=0.0_wp)
@@ -112,10 +114,39 @@ contains
       self%shifted = self%before
    end function new_branch
 
+   !> The same in place, for other numbers of the model for which it was made; an empty one, or one of another size, is made anew.
+   subroutine renew_branch(suspension, self)
+      type(suspension_t), intent(in) :: suspension
+      type(branch_t), intent(inout) :: self
+      logical :: is_alike
+
+      is_alike = allocated(self%motion)
+      if (is_alike) is_alike = size(self%motion) == suspension%unknowns() .and. &
+         size(self%tangent_a) == suspension%unknowns() + suspension%constraints()
+      if (.not. is_alike) then
+         self = new_branch(suspension)
+         return
+      end if
+      self%known_t = known_t()
+      call forget(self%predictor)
+      call renew_orientation(suspension, self%orientation)
+      call renew_tangent(suspension, self%work)
+      call renew_chord(suspension, self%chord)
+      call mark(self%factors, -1)
+      call return_to_design(suspension, self%before)
+      call return_to_design(suspension, self%shifted)
+      self%tangent_a(:) = 0.0_wp
+      self%tangent_b(:) = 0.0_wp
+      self%motion_before(:) = 0.0_wp
+      self%chord_a(:) = 0.0_wp
+      self%chord_b(:) = 0.0_wp
+   end subroutine renew_branch
+
    !> Continues from another state, of which only the inertia may be known.
    pure subroutine leave(self, place, packed, negative)
       type(branch_t), intent(inout) :: self
-      real(wp), intent(in) :: place, packed(:)      !! of that state
+      real(wp), intent(in) :: place                 !! of that state
+      real(wp), contiguous, intent(in) :: packed(:)
       integer, intent(in) :: negative               !! −1: not known
 
       call forget(self%predictor)
@@ -216,7 +247,7 @@ contains
       if (step%is_past) return
       if (self%negative < 0) call evaluate_beginning(self, step, suspension, .true., kkt)
       if (abs(step%width) <= shortest*self%least .and. (self%has_tangent .or. abs(self%width_before) > 0.0_wp)) &
-         step%is_past = is_bend(self, step%width, kkt%length)
+         step%is_past = is_bend(self%motion, self%tangent_a, self%tangent_b, step%width, kkt%length)
       if (step%is_past) return
       if (.not. step%is_new_at_a) call evaluate_beginning(self, step, suspension, .true., kkt)
       call decide(self, step, kkt%length)
@@ -327,39 +358,6 @@ contains
       self%crossings = min(self%crossings + 1, max_crossings)
       self%crossing_place(self%crossings) = place
    end subroutine note_crossing
-
-   !> Whether the motion lies between the tangents at both ends and no body changes direction.
-   pure logical function is_bend(self, width, length)
-      type(branch_t), intent(in) :: self
-      real(wp), intent(in) :: width, length
-      real(wp) :: share, rest, along, square, twist(6), change(6), scale(6), largest, a, b
-      integer :: k
-
-      is_bend = .false.
-      scale = [1.0_wp, 1.0_wp, 1.0_wp, length, length, length]
-      largest = largest_motion(self%motion, length)
-      along = 0.0_wp
-      square = 0.0_wp
-      do k = 1, size(self%motion), 6
-         twist = (self%motion(k:k + 5) - width*self%tangent_b(k:k + 5))*scale
-         change = width*(self%tangent_a(k:k + 5) - self%tangent_b(k:k + 5))*scale
-         along = along + dot_product(twist, change)
-         square = square + dot_product(change, change)
-      end do
-      if (.not. square < huge(square)) return
-      share = 0.5_wp
-      if (square > 0.0_wp) share = min(max(along/square, 0.0_wp), 1.0_wp)
-      rest = 0.0_wp
-      do k = 1, size(self%motion), 6
-         twist = self%motion(k:k + 5) - width*(share*self%tangent_a(k:k + 5) + (1.0_wp - share)*self%tangent_b(k:k + 5))
-         rest = max(rest, body_motion(twist, length))
-         if (body_motion(self%motion(k:k + 5), length) < takes_part*largest) cycle
-         a = norm2(self%tangent_a(k:k + 5)*scale)
-         b = norm2(self%tangent_b(k:k + 5)*scale)
-         if (dot_product(self%tangent_a(k:k + 5)*scale, self%tangent_b(k:k + 5)*scale) < min_cosine*a*b) return
-      end do
-      is_bend = rest <= bent*largest
-   end function is_bend
 
    !> Whether the assembly of the joints changes, or may, as its end is singular, in a predicted step that was not compared.
    logical function is_overturning(self, suspension, state_b, scale)

@@ -10,7 +10,7 @@ module ek_break
    use ek_state, only: state_t, inputs_t, design_state
    use ek_kkt, only: kkt_t, assemble, whole_tangent
    use ek_diagnosis, only: scaled_parts, modes
-   use ek_motion_text, only: body_parts
+   use ek_motion_text, only: main_body
    use ek_singular_values, only: singular_values_t, decompose
    implicit none(type, external)
    private
@@ -53,7 +53,7 @@ contains
       else if (abs(stiffness(2)) < vanished*abs(stiffness(1))) then
          found%reason = merge(mechanism, limit_point, abs(stiffness(2)) < gone*abs(stiffness(1)))
          found%motion = motion
-         found%body = maxloc(body_parts(motion), dim=1)
+         found%body = main_body(motion)
       end if
    end subroutine why_it_ends
 

@@ -23,7 +23,7 @@ module ek_chord
    use ek_dyads, only: dyads_t, new_dyads, add_dyad, solve_columns, set_changes
    implicit none(type, external)
    private
-   public :: chord_t, new_chord, straighten, evaluate_along_chord
+   public :: chord_t, new_chord, renew_chord, straighten, evaluate_along_chord
    public :: at_a, at_b, least, mean, most
 
    integer, parameter :: at_a = 1, at_b = 2
@@ -58,21 +58,54 @@ contains
       type(chord_t) :: self
       integer :: laws
 
+      laws = count_laws(suspension)
+      allocate (self%place(laws))
       call find_places(suspension, self%place)
-      laws = size(self%place)
       allocate (self%bent_law(laws), source=0)
       allocate (self%value(2, laws), self%force(2, laws), self%own(2, laws), self%slope(3, laws), self%change(laws), source=0.0_wp)
       if (laws > 0) self%dyads = new_dyads(suspension%unknowns() + suspension%constraints(), laws)
    end function new_chord
 
+   !> The same for other numbers of the model.
+   subroutine renew_chord(suspension, self)
+      type(suspension_t), intent(in) :: suspension
+      type(chord_t), intent(inout) :: self        !! of new_chord, for the same model
+
+      if (count_laws(suspension) /= size(self%place)) then
+         self = new_chord(suspension)
+         return
+      end if
+      call find_places(suspension, self%place)
+      self%bends = 0
+   end subroutine renew_chord
+
+   !> How many laws bend.
+   pure integer function count_laws(suspension) result(laws)
+      type(suspension_t), intent(in) :: suspension
+      integer :: k, component
+
+      laws = 0
+      do k = 1, size(suspension%elements)
+         associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
+            if (element%kind /= bushing_element) then
+               if (.not. is_linear(element)) laws = laws + 1
+               cycle
+            end if
+            if (.not. bushing%has_curves) cycle
+            do component = 1, 6
+               if (bushing%laws(component)%has_curve) laws = laws + 1
+            end do
+         end associate
+      end do
+   end function count_laws
+
    !> The laws of elements of one measure and of components of bushings; a component of a bushing acts along an axis of its
    !> marker, or about it.
    pure subroutine find_places(suspension, place)
       type(suspension_t), intent(in) :: suspension
-      type(place_t), allocatable, intent(out) :: place(:)
+      type(place_t), intent(out) :: place(:)     !! of each that count_laws counts
       integer :: k, component, law
 
-      allocate (place(6*size(suspension%elements)))
       law = 0
       do k = 1, size(suspension%elements)
          associate (element => suspension%elements(k), bushing => suspension%elements(k)%bushing)
@@ -95,7 +128,6 @@ contains
             end do
          end associate
       end do
-      place = place(:law)
    end subroutine find_places
 
    !> Replaces every law by its chord between two states; `is_bent`: the slope of one changes between them.

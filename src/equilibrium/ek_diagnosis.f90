@@ -17,11 +17,12 @@ module ek_diagnosis
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted, plural
-   use ek_element, only: element_kinds, bushing_element, element_label
+   use ek_element, only: element_kinds, bushing_element
+   use ek_element_label, only: element_label
    use ek_element_force, only: design_stiffness
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
-   use ek_kkt, only: kkt_t, assemble, condition, whole_tangent, material_only
+   use ek_kkt, only: kkt_t, assemble, condition, whole_matrix, whole_tangent, material_only
    use ek_motion_text, only: motion_text, body_parts, place
    use ek_singular_values, only: singular_values_t, decompose
    use ek_lapack, only: dsyev
@@ -117,20 +118,21 @@ contains
       type(kkt_t), intent(in) :: kkt
       integer, allocatable, intent(out) :: rows(:)
       real(wp), allocatable, intent(out) :: jacobian(:, :), stiffness(:, :)
-      real(wp) :: gradient(kkt%nq)
+      real(wp) :: gradient(kkt%nq), whole(kkt%n, kkt%n)
       integer :: i, j
 
+      whole = whole_matrix(kkt)
       rows = pack([(i, i=1, kkt%nc)], .not. suspension%rows%compliance > 0.0_wp)
       allocate (jacobian(size(rows), kkt%nq), stiffness(kkt%nq, kkt%nq))
       do j = 1, kkt%nq
-         jacobian(:, j) = kkt%matrix(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
+         jacobian(:, j) = whole(kkt%nq + rows, j)*kkt%scale(kkt%nq + rows)*kkt%scale(j)
          do i = 1, kkt%nq
-            stiffness(i, j) = kkt%matrix(max(i, j), min(i, j))*kkt%scale(i)*kkt%scale(j)
+            stiffness(i, j) = whole(i, j)*kkt%scale(i)*kkt%scale(j)
          end do
       end do
       do i = 1, kkt%nc       ! a driver with a stiffness is a spring
          if (.not. suspension%rows(i)%compliance > 0.0_wp) cycle
-         gradient = kkt%matrix(kkt%nq + i, :kkt%nq)*kkt%scale(:kkt%nq)
+         gradient = whole(kkt%nq + i, :kkt%nq)*kkt%scale(:kkt%nq)
          do j = 1, kkt%nq
             stiffness(:, j) = stiffness(:, j) + gradient*(gradient(j)/suspension%rows(i)%compliance)
          end do

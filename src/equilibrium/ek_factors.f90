@@ -14,19 +14,17 @@ module ek_factors
       integer, private :: serial = -1       !! number of their factorisation; −1: the state has none
       integer, private :: negative = 0      !! negative eigenvalues
       integer, private :: stage = nothing   !! what `matrix` holds, as in kkt_t
-      real(wp), allocatable, private :: matrix(:, :)
+      integer, private :: way = 0           !! plan that they follow, as in kkt_t
+      real(wp), allocatable, private :: matrix(:, :), planned(:)
       integer, allocatable, private :: pivots(:)
    end type factors_t
 
 contains
 
-   !> Allocates the work space.
-   pure function new_factors(n) result(self)
-      integer, intent(in) :: n              !! rows of N
+   !> No factors; work space like that of kkt_t is allocated when they are kept first.
+   pure function new_factors() result(self)
       type(factors_t) :: self
-
-      allocate (self%matrix(n, n), source=0.0_wp)
-      allocate (self%pivots(n), source=0)
+      self%serial = -1
    end function new_factors
 
    !> The state has changed: its factors have this number, and are still in kkt_t.
@@ -44,6 +42,18 @@ contains
       type(kkt_t), intent(inout) :: kkt
 
       if (self%is_kept .or. self%serial /= kkt%factorisations) return
+      ! work space may serve several systems: those of a pack have plans of their own
+      if (allocated(self%matrix)) then
+         if (size(self%pivots) /= kkt%n) deallocate (self%matrix, self%pivots)
+      end if
+      if (allocated(kkt%matrix) .and. .not. allocated(self%matrix)) then
+         allocate (self%matrix(kkt%n, kkt%n), source=0.0_wp)
+         allocate (self%pivots(kkt%n), source=0)
+      end if
+      if (allocated(self%planned) .and. allocated(kkt%planned)) then
+         if (size(self%planned) /= size(kkt%planned)) deallocate (self%planned)
+      end if
+      if (allocated(kkt%planned) .and. .not. allocated(self%planned)) allocate (self%planned(size(kkt%planned)), source=0.0_wp)
       call exchange(self, kkt)
       self%is_kept = .true.
    end subroutine keep
@@ -52,7 +62,7 @@ contains
    pure subroutine exchange(self, kkt)
       type(factors_t), intent(inout) :: self
       type(kkt_t), intent(inout) :: kkt
-      real(wp), allocatable :: matrix(:, :)
+      real(wp), allocatable :: matrix(:, :), planned(:)
       integer, allocatable :: pivots(:)
       integer :: number
 
@@ -62,12 +72,19 @@ contains
       call move_alloc(self%pivots, pivots)
       call move_alloc(kkt%pivots, self%pivots)
       call move_alloc(pivots, kkt%pivots)
+      call move_alloc(self%planned, planned)
+      call move_alloc(kkt%planned, self%planned)
+      call move_alloc(planned, kkt%planned)
+      number = self%way
+      self%way = kkt%way
+      kkt%way = number
       number = self%negative
       self%negative = kkt%negative
       kkt%negative = number
       number = self%stage
       self%stage = kkt%stage
       kkt%stage = number
+      kkt%is_at_design = .false.
    end subroutine exchange
 
 end module ek_factors

@@ -9,7 +9,7 @@ module ek_motion_text
    use ek_kkt, only: kkt_t
    implicit none(type, external)
    private
-   public :: motion_text, body_parts, place
+   public :: motion_text, body_parts, main_body, place
 
    real(wp), parameter :: takes_part = 1.0e-3_wp          !! of the largest part of a motion
 
@@ -30,6 +30,16 @@ contains
       part = norm2(reshape(motion, [6, size(part)]), dim=1)
    end function body_parts
 
+   !> The body that moves most. Left and right of a symmetric axle are equal but for rounding: then the first of them.
+   pure integer function main_body(motion)
+      real(wp), intent(in) :: motion(:)            !! scaled unknowns
+      real(wp), parameter :: equal = 1.0e-4_wp
+      real(wp) :: part(size(motion)/6)
+
+      part = body_parts(motion)
+      main_body = max(1, findloc(part >= (1.0_wp - equal)*maxval(part), .true., dim=1))      ! 1: not a number
+   end function main_body
+
    !> Text on the body that moves most, its motion, and the bodies that move with it.
    function motion_text(suspension, state, kkt, motion) result(text)
       type(suspension_t), intent(in) :: suspension
@@ -42,7 +52,7 @@ contains
       integer :: k, main, named
 
       part = body_parts(motion)
-      main = maxloc(part, dim=1)
+      main = main_body(motion)
       text = 'body '//quoted(suspension%bodies(main)%name)//place(suspension%bodies(main)%where)//' '// &
          one_body_text(suspension, state%poses(main + 1)%r, kkt, motion(6*main - 5:6*main), main)
       named = 0

@@ -5,25 +5,28 @@
 !> if one does not converge, the next is reached from design.
 module ek_path
    use ek_kinds, only: wp
-   use ek_case, only: case_t, follows_table
+   use ek_case, only: case_t
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, inputs_t, design_state, coordinates, pack_state, unpack_state
-   use ek_schedule, only: schedule_t, new_schedule, inputs_at
+   use ek_state, only: state_t, inputs_t, design_state, return_to_design, pack_state, unpack_state
+   use ek_schedule, only: schedule_t, make_schedule, inputs_at
+   use ek_path_states, only: path_t, new_path, count_ways, ways, span
    use ek_kkt, only: kkt_t, condition
    use ek_reach, only: failure_t, reach, settle
    use ek_recursion, only: start_recursion, recursive_increment, corrected_increment, check_increment
-   use ek_branch, only: branch_t, new_branch, leave, note_crossing, max_crossings
+   use ek_branch, only: branch_t, renew_branch, leave, note_crossing
    use ek_confirm, only: confirm
    use ek_arc, only: arc_t, new_arc, begin
-   use ek_arc_survey, only: survey_t, survey, go_to, length_at, print_limits, max_limits, arrived
+   use ek_arc_survey, only: survey_t, survey, go_to, length_at, print_limits, arrived
    use ek_predictor, only: predictor_t, remember, forget, depth
    implicit none(type, external)
    private
-   public :: path_t, sweep, new_path, walk, progress_procedure
+   public :: path_t, sweep, new_path, walk, walk_t, empty_walk, progress_procedure, suspect, min_step, crossing_step
 
    real(wp), parameter :: min_step = 4.0e-10_wp     !! of the range: resolution of the end of a path
    real(wp), parameter :: crossing_step = 1.0e-6_wp   !! likewise; nearer at a bifurcation the matrix is too singular
    real(wp), parameter :: min_of_row = 0.0078125_wp    !! behind the first row of a table that was not found
+
+   real(wp), parameter :: suspect = 1.0e-12_wp         !! pivot ratio below which the condition number is computed
 
    abstract interface
       !> Called at intervals with the number of states done and the total.
@@ -32,29 +35,10 @@ module ek_path
       end subroutine progress_procedure
    end interface
 
-   !> All states of a sweep, in order from…to.
-   type :: path_t
-      integer :: states = 0
-      integer :: start = 0                        !! index of the design state, 0 if the range leaves it out
-      real(wp), allocatable :: value(:)           !! place: factor, or change of the driven value [m, rad]
-      real(wp), allocatable :: packed(:, :)       !! (coordinate, state), see ek_state
-      logical, allocatable :: is_reached(:)
-      logical, allocatable :: is_stable(:)        !! no negative stiffness
-      integer, allocatable :: iterations(:)       !! factorisations spent on a state
-      real(wp), allocatable :: pivot_ratio(:)     !! cheap condition estimate; where that is tiny, the true one
-      real(wp), allocatable :: settled(:)         !! packed state under the constant loads only
-      logical :: is_settled = .false.             !! there is an equilibrium under the constant loads
-      logical :: is_table = .false.               !! rows of a table, each an independent state
-      integer :: crossings = 0                    !! number of bifurcations on the path
-      real(wp) :: crossing_place(max_crossings) = 0.0_wp   !! their places
-      integer :: limits = 0                       !! number of limit points (follow = 'arc'), and their places
-      real(wp) :: limit_place(2*max_limits) = 0.0_wp
-      integer :: limit_state(2*max_limits) = 0   !! index of the nearest state; 0: before the range begins
-      type(failure_t) :: failure(2)               !! towards `to`, towards `from`; or while settling; or of a table's first lost row
-   end type path_t
-
-   !> The state that a walk has come to, and what the next increment needs.
+   !> The state that a walk has come to, and what the next increment needs. Kept from design to design of a model, it is work space
+   !> that need not be allocated again.
    type :: walk_t
+      private
       type(state_t) :: state
       real(wp) :: here = 0.0_wp        !! value of the path coordinate, and inputs; of the linear methods
       type(inputs_t) :: inputs
@@ -69,92 +53,67 @@ module ek_path
 
 contains
 
+   !> Gives back the work space of a walk.
+   pure subroutine empty_walk(self)
+      type(walk_t), intent(out) :: self
+      self%done = 0
+   end subroutine empty_walk
+
    !> Sweeps a case; failures are returned in path%failure and never stop the program. States of a linear method that are not
    !> on the path from design are rejected.
-   subroutine sweep(suspension, case, path, kkt, progress, reach)
+   subroutine sweep(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      type(path_t), intent(out) :: path
+      type(path_t), intent(inout) :: path                      !! as of new_path
       type(kkt_t), intent(inout) :: kkt                        !! of new_kkt
       procedure(progress_procedure), optional :: progress
       real(wp), intent(in), optional :: reach                  !! swept value; states beyond it on either side are left out
-      integer, allocatable :: ends(:, :)
-      integer :: w
+      type(walk_t), intent(inout), optional :: space           !! of an earlier design of this model on this rig, or empty
+      type(schedule_t) :: schedule
+      integer :: ends(2, 2), w
 
       call new_path(suspension, case, path)
-      call walk(suspension, case, path, kkt, progress, reach)
+      call walk(suspension, case, path, kkt, progress, reach, space)
       if (case%method == 'equilibrium' .or. path%is_table) return      ! the rows of a table do not form one path
+      call make_schedule(suspension, case, schedule)
       ends = ways(path)
-      do w = 1, size(ends, 2)
-         call confirm(suspension, new_schedule(suspension, case), path%value, path%packed, ends(1, w), ends(2, w), &
+      do w = 1, count_ways(path)
+         call confirm(suspension, schedule, path%value, path%packed, ends(1, w), ends(2, w), &
             min_step*span(path), kkt, path%is_reached, path%failure(w))
       end do
    end subroutine sweep
 
-   !> Sets the places of all states and allocates storage for them.
-   !>
-   !> A range around design is swept outward in both directions, its increments divided in proportion.
-   subroutine new_path(suspension, case, path)
-      type(suspension_t), intent(in) :: suspension
-      type(case_t), intent(in) :: case
-      type(path_t), intent(out) :: path
-      integer :: n, before, k
-
-      n = case%increments
-      if (case%from*case%to <= 0.0_wp) then
-         ! the half is rounded on the same side of design for either direction of the case
-         before = nint(n*abs(min(case%from, case%to))/(abs(case%from) + abs(case%to)))
-         if (case%from > case%to) before = n - before
-         if (abs(case%from) > 0.0_wp) before = max(before, 1)
-         if (abs(case%to) > 0.0_wp) then
-            n = max(n, before + merge(1, 0, abs(case%from) > 0.0_wp .and. n == 1))
-            before = min(before, n - 1)
-         end if
-         path%start = before + 1
-      end if
-      path%states = n + 1
-      if (allocated(case%actuations)) path%is_table = path%start == 0 .and. any(case%actuations%law == follows_table)
-      allocate (path%value(n + 1), path%pivot_ratio(n + 1), source=0.0_wp)
-      allocate (path%packed(coordinates(suspension), n + 1), path%settled(coordinates(suspension)), source=0.0_wp)
-      allocate (path%is_reached(n + 1), source=.false.)
-      allocate (path%is_stable(n + 1), source=.true.)
-      allocate (path%iterations(n + 1), source=0)
-      do k = 1, n + 1
-         if (path%start == 0) then
-            path%value(k) = case%from + (case%to - case%from)*real(k - 1, wp)/n
-         else if (k < path%start) then
-            path%value(k) = case%from*real(path%start - k, wp)/(path%start - 1)
-         else if (k > path%start) then
-            path%value(k) = case%to*real(k - path%start, wp)/(n + 1 - path%start)
-         end if
-      end do
-      if (path%start == 0) path%value(n + 1) = case%to      ! not just nearly, as from + (to − from) is
-   end subroutine new_path
-
-   !> The one or two ways of a sweep, outward from design: (first or last state, way).
-   pure function ways(path) result(ends)
-      type(path_t), intent(in) :: path
-      integer, allocatable :: ends(:, :)
-
-      if (path%start > 0) then
-         ends = reshape([path%start, path%states, path%start, 1], [2, 2])
-      else
-         ends = reshape(merge([1, path%states], [path%states, 1], abs(path%value(1)) < abs(path%value(path%states))), [2, 1])
-      end if
-   end function ways
-
    !> Follows the whole path of new_path, or one of equilibria around design as far as `reach`: its states are the same to the bit.
-   subroutine walk(suspension, case, path, kkt, progress, reach)
+   subroutine walk(suspension, case, path, kkt, progress, reach, space)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
       real(wp), intent(in), optional :: reach      !! place; 0: the design state only
-      type(walk_t) :: self
-      integer, allocatable :: ends(:, :)
+      type(walk_t), intent(inout), optional :: space   !! as for sweep
+      type(walk_t), allocatable :: own
+
+      if (present(space)) then
+         call go(space, suspension, case, path, kkt, progress, reach)
+      else
+         allocate (own)
+         call go(own, suspension, case, path, kkt, progress, reach)
+      end if
+   end subroutine walk
+
+   !> The same with work space.
+   subroutine go(self, suspension, case, path, kkt, progress, reach)
+      type(walk_t), intent(inout) :: self
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(path_t), intent(inout) :: path
+      type(kkt_t), intent(inout) :: kkt
+      procedure(progress_procedure), optional :: progress
+      real(wp), intent(in), optional :: reach
       real(wp) :: far
-      integer :: w
+      integer :: ends(2, 2), w
+
       far = huge(far)
       if (present(reach) .and. path%start > 0 .and. case%method == 'equilibrium' .and. .not. case%follows_arc) far = reach
       call start(self, suspension, case, path, kkt)
@@ -164,12 +123,12 @@ contains
       else
          if (path%start > 0) call keep(self, suspension, case, path%start, path, kkt, progress)
          ends = ways(path)
-         do w = 1, size(ends, 2)
+         do w = 1, count_ways(path)
             if (.not. far > 0.0_wp) exit
             if (self%is_along_arc) then
                call walk_arc(self, suspension, case, ends(1, w), ends(2, w), path, kkt, path%failure(w), progress)
             else
-               call walk_way(ends(1, w), ends(2, w), path%failure(w))
+               call walk_way(ends(1, w), ends(2, w), merge(depth, 0, w < count_ways(path)), path%failure(w))
             end if
          end do
       end if
@@ -199,8 +158,9 @@ contains
       end subroutine walk_rows
 
       !> Goes from state `first` to state `last`, and to the first from design, in increments of the same size, unless it is that.
-      subroutine walk_way(first, last, failure)
+      subroutine walk_way(first, last, least, failure)
          integer, intent(in) :: first, last
+         integer, intent(in) :: least                 ! states that the way on the other side begins with (seed)
          type(failure_t), intent(inout) :: failure
          integer :: k, steps, direction
 
@@ -217,39 +177,49 @@ contains
             call keep(self, suspension, case, first, path, kkt, progress)
          end if
          do k = first + direction, last, direction
-            if (abs(path%value(k)) > far .and. abs(k - first) >= depth) exit     ! `depth`: seed uses these states
+            if (abs(path%value(k)) > far .and. abs(k - first) >= least) exit
             call advance(self, suspension, case, path%value(k), k, path, kkt, failure)
             if (failure%state > 0) return
             call keep(self, suspension, case, k, path, kkt, progress)
          end do
       end subroutine walk_way
 
-   end subroutine walk
+   end subroutine go
 
-   !> Allocates the work space and goes to equilibrium under the constant loads; path%is_settled: it was found.
+   !> Prepares the work space and goes to equilibrium under the constant loads; path%is_settled: it was found.
    subroutine start(self, suspension, case, path, kkt)
-      type(walk_t), intent(out) :: self
+      type(walk_t), intent(inout) :: self
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
+      logical :: is_alike
 
-      self%schedule = new_schedule(suspension, case)
-      self%branch = new_branch(suspension)
+      call make_schedule(suspension, case, self%schedule)
+      self%here = 0.0_wp
+      self%inputs = inputs_t()
+      self%negative = -1
+      self%done = 0
       self%is_along_arc = case%follows_arc .and. case%method == 'equilibrium' .and. .not. path%is_table
       if (self%is_along_arc) self%arc = new_arc(suspension, self%schedule, kkt%length, maxval(abs(path%value)), case%tolerance)
-      self%branch%least = min_step*span(path)
-      self%branch%width = crossing_step*span(path)
-      self%state = design_state(suspension)
+      is_alike = allocated(self%state%poses)
+      if (is_alike) is_alike = size(self%state%poses) == size(suspension%bodies) + 1 .and. &
+         size(self%state%reaction) == suspension%constraints()
+      if (.not. is_alike) self%state = design_state(suspension)
+      call return_to_design(suspension, self%state)
       path%limits = 0
-      path%failure = failure_t()
+      path%failure(1) = failure_t()
+      path%failure(2) = failure_t()
       path%is_reached = .false.
       if (case%method == 'recursive') then
          call start_recursion(suspension, self%state, kkt, self%held)
       else
-         call settle(suspension, case%tolerance, self%state, kkt, path%failure(1))
+         call settle(suspension, case%tolerance, self%state, kkt, path%failure(1), self%branch)
          self%negative = kkt%negative
       end if
+      call renew_branch(suspension, self%branch)
+      self%branch%least = min_step*span(path)
+      self%branch%width = crossing_step*span(path)
       path%is_settled = path%failure(1)%state == 0
       if (path%is_settled) call pack_state(self%state, path%settled)
    end subroutine start
@@ -263,7 +233,6 @@ contains
       type(path_t), intent(inout) :: path
       type(kkt_t), intent(inout) :: kkt
       procedure(progress_procedure), optional :: progress
-      real(wp), parameter :: suspect = 1.0e-12_wp
       real(wp) :: rcond
 
       call pack_state(self%state, path%packed(:, k))
@@ -389,12 +358,5 @@ contains
       self%inputs = next
       self%here = value
    end subroutine advance
-
-   !> The range of a path; for a table, 1 row [place].
-   pure real(wp) function span(path)
-      type(path_t), intent(in) :: path
-      span = 1.0_wp
-      if (.not. path%is_table) span = maxval(abs(path%value)) + maxval(path%value) - minval(path%value)
-   end function span
 
 end module ek_path

@@ -9,7 +9,7 @@ module ek_predictor
    use ek_vector, only: add_multiple
    implicit none(type, external)
    private
-   public :: predictor_t, new_predictor, remember, predict, judge, forget
+   public :: predictor_t, new_predictor, remember, predict, judge, forget, usable, find_weights
 
    integer, parameter, public :: depth = 6   !! states stored; more would amplify rounding (Σ|w| = 2^depth − 1)
 

@@ -4,16 +4,17 @@ module ek_reach
    use ek_kinds, only: wp
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t, pack_state, unpack_state
+   use ek_motion, only: squared_distance
    use ek_schedule, only: schedule_t, inputs_at
-   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_kkt, only: kkt_t, holds, assemble, residual_only
    use ek_newton, only: outcome_t, find_equilibrium
    use ek_predictor, only: predictor_t, remember, predict, judge
    use ek_factors, only: keep
-   use ek_branch, only: branch_t, new_branch, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
+   use ek_branch, only: branch_t, renew_branch, compare, accept, note_crossing, go_along, is_overturning, is_uneven, &
       is_near_zero, long, tiny_step, same_branch, crossing, doubtful
    implicit none(type, external)
    private
-   public :: failure_t, reach, settle
+   public :: failure_t, reach, settle, good_guess, quick
 
    real(wp), parameter :: good_guess = 1.0e-3_wp      !! of the motion: a prediction this close confirms that the path is smooth
    real(wp), parameter :: widest = 100.0_wp           !! of branch%width: a step across a bifurcation that is too near for tangents
@@ -53,20 +54,28 @@ contains
    !>
    !> In one step if possible; otherwise the imbalance of the design position is applied gradually (homotopy): its share
    !> is the swept value on the path.
-   subroutine settle(suspension, tolerance, state, kkt, failure)
+   subroutine settle(suspension, tolerance, state, kkt, failure, space)
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: tolerance          !! m
       type(state_t), intent(inout) :: state      !! design → equilibrium
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
-      type(branch_t) :: branch
+      type(branch_t), intent(inout), optional, target :: space      !! work space, used again from design to design
+      type(branch_t), allocatable, target :: own
+      type(branch_t), pointer :: branch
       type(schedule_t) :: schedule
       real(wp), parameter :: min_share = 1.0e-6_wp
       integer :: iterations
 
-      call assemble(suspension, state, inputs_t(), residual_only, kkt)
-      kkt%imbalance = kkt%rhs(:kkt%nq)
-      branch = new_branch(suspension)
+      if (present(space)) then
+         branch => space
+      else
+         allocate (own)
+         branch => own
+      end if
+      if (.not. holds(kkt, suspension, state, inputs_t())) call assemble(suspension, state, inputs_t(), residual_only, kkt)
+      kkt%imbalance(:) = kkt%rhs(:kkt%nq)
+      call renew_branch(suspension, branch)
       branch%least = min_share
       call store(branch%predictor, 0.0_wp, state, .true.)
       schedule%is_settling = .true.
@@ -77,16 +86,17 @@ contains
    !>
    !> A step is halved if no equilibrium is found, or one that is not on the path (ek_branch); it is doubled again after an
    !> accepted step. A step shorter than branch%least means the end of the path: `state` is then the last equilibrium.
-   subroutine reach(suspension, schedule, goal, tolerance, branch, state, kkt, iterations, failure)
+   subroutine reach(suspension, schedule, goal, tolerance, branch, state, kkt, iterations, failure, found)
       type(suspension_t), intent(in) :: suspension
       type(schedule_t), intent(in) :: schedule
       real(wp), intent(in) :: goal               !! place
       real(wp), intent(in) :: tolerance          !! m
       type(branch_t), intent(inout) :: branch    !! branch of the newest stored state
-      type(state_t), intent(inout) :: state
-      type(kkt_t), intent(inout) :: kkt
+      type(state_t), intent(inout) :: state      !! result; with `found`, the equilibrium at the goal
+      type(kkt_t), intent(inout) :: kkt          !! with `found`, factors near the goal
       integer, intent(out) :: iterations         !! factorisations spent
       type(failure_t), intent(inout) :: failure
+      type(outcome_t), intent(in), optional :: found     !! how it was found from branch%predictor%guess; it is to be judged
       type(step_t) :: step
       real(wp) :: here, width
       real(wp) :: lost        ! place of the nearest attempt that failed
@@ -105,7 +115,13 @@ contains
       do attempt = 1, max_attempts
          step%place = here + width
          if (abs(width) >= abs(goal - here)) step%place = goal
-         call find_end(suspension, schedule, points, branch%has_tangent, tolerance, branch, state, kkt, step)
+         if (present(found) .and. attempt == 1) then
+            call inputs_at(schedule, step%place, step%inputs_b)
+            step%outcome = found
+            step%iterations = found%factorisations
+         else
+            call find_end(suspension, schedule, points, branch%has_tangent, tolerance, branch, state, kkt, step)
+         end if
          call judge_end(suspension, tolerance, branch, state, kkt, step)
          iterations = step%iterations
          if (step%verdict == crossing) then
@@ -247,20 +263,9 @@ contains
       real(wp), intent(in) :: tolerance, length      !! m
       logical, intent(out) :: is_long                !! it may yet have passed over a narrow gap of the assembly
       real(wp) :: moved, missed
-      integer :: k, at
 
-      moved = 0.0_wp
-      missed = 0.0_wp
-      at = 0
-      do k = 2, size(state%poses)
-         associate (pose => state%poses(k), old => predictor%packed(at + 1:at + 7, predictor%newest), &
-            guess => predictor%guess(at + 1:at + 7))
-            ! a quaternion turns by half the angle
-            moved = max(moved, sum((pose%r - old(1:3))**2), (2.0_wp*length)**2*sum((pose%q - old(4:7))**2))
-            missed = max(missed, sum((pose%r - guess(1:3))**2), (2.0_wp*length)**2*sum((pose%q - guess(4:7))**2))
-         end associate
-         at = at + 7
-      end do
+      moved = squared_distance(size(state%poses) - 1, state%poses, predictor%packed(:, predictor%newest), length)
+      missed = squared_distance(size(state%poses) - 1, state%poses, predictor%guess, length)
       is_long = moved > (long*length)**2
       if (moved <= (10.0_wp*tolerance)**2) then
          is_foreseen = negative == negative_before .or. negative_before < 0
@@ -298,6 +303,8 @@ contains
       type(kkt_t), intent(inout) :: kkt
       type(failure_t), intent(inout) :: failure
       type(state_t) :: before
+      real(wp), parameter :: more = 1.0001_wp      ! left and right of a symmetric axle are equal but for rounding: the first
+      real(wp), parameter :: rounding = 1.0e-12_wp   ! of a violation [m, - or rad]
       real(wp) :: moved
       integer :: k
 
@@ -311,14 +318,14 @@ contains
       do k = 2, size(state%poses)
          moved = norm2(state%poses(k)%r - before%poses(k)%r) &
             + kkt%length*norm2(state%poses(k)%a - before%poses(k)%a)/sqrt(2.0_wp)
-         if (moved > failure%moved) then
+         if (moved > more*failure%moved) then
             failure%moved = moved
             failure%body = k - 1
          end if
       end do
       call assemble(suspension, state, step%inputs_b, residual_only, kkt)
-      if (any(abs(kkt%values) > 0.0_wp)) then
-         failure%row = maxloc(abs(kkt%values), dim=1)
+      if (any(abs(kkt%values) > rounding)) then
+         failure%row = findloc(more*abs(kkt%values) >= maxval(abs(kkt%values)), .true., dim=1)
          failure%gap = kkt%values(failure%row)
       end if
       state = before

@@ -5,6 +5,7 @@
 !> With L [m] and k [N/m] all blocks of the matrix are of order one, so that pivots and condition numbers are independent of
 !> the size of the model. D is rounded to powers of two, which makes the scaling exact.
 module ek_scale
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_measure, only: measure_t, axis_axis, rotation
    use ek_element, only: element_kinds, bushing_element
@@ -59,9 +60,16 @@ contains
 
       subroutine include_rates(rates)
          real(wp), intent(in) :: rates(3)      !! N/m
+         real(wp) :: sum_of_three
+         integer :: c
 
-         sum_log = sum_log + sum(log(pack(rates, .not. rates <= 0.0_wp)))      ! a NaN stays
-         used = used + count(.not. rates <= 0.0_wp)
+         sum_of_three = 0.0_wp
+         do c = 1, 3
+            if (rates(c) <= 0.0_wp) cycle      ! a NaN stays
+            sum_of_three = sum_of_three + log(rates(c))
+            used = used + 1
+         end do
+         sum_log = sum_log + sum_of_three
       end subroutine include_rates
 
       subroutine include_arms(measure)
@@ -80,24 +88,29 @@ contains
       type(suspension_t), intent(in) :: suspension
       real(wp), intent(in) :: length, stiffness     !! from `characteristic`
       real(wp), intent(out) :: scale(:)             !! length: unknowns + rows of the system
-      integer :: nq, k
+      real(wp) :: of_place, of_angle, of_gap, of_direction
+      integer :: nq, k, kind
 
       nq = suspension%unknowns()
-      do k = 1, nq
-         scale(k) = power_of_two(1.0_wp/sqrt(stiffness))
-         if (mod(k - 1, 6) >= 3) scale(k) = power_of_two(1.0_wp/(length*sqrt(stiffness)))
+      of_place = power_of_two(1.0_wp/sqrt(stiffness))
+      of_angle = power_of_two(1.0_wp/(length*sqrt(stiffness)))
+      of_gap = power_of_two(sqrt(stiffness))
+      of_direction = power_of_two(sqrt(stiffness)*length)
+      do k = 0, nq - 6, 6
+         scale(k + 1:k + 3) = of_place
+         scale(k + 4:k + 6) = of_angle
       end do
       do k = 1, suspension%constraints()
-         scale(nq + k) = power_of_two(sqrt(stiffness))
-         if (any(suspension%terms(suspension%rows(k)%first)%measure%kind == [axis_axis, rotation])) &
-            scale(nq + k) = power_of_two(sqrt(stiffness)*length)
+         kind = suspension%terms(suspension%rows(k)%first)%measure%kind
+         scale(nq + k) = merge(of_direction, of_gap, kind == axis_axis .or. kind == rotation)
       end do
    end subroutine scale_factors
 
    !> The power of two at or below a positive number.
    pure real(wp) function power_of_two(x)
       real(wp), intent(in) :: x
-      power_of_two = scale(1.0_wp, exponent(x) - 1)
+      power_of_two = x                              ! of a number that is not finite: itself
+      if (ieee_is_finite(x)) power_of_two = scale(1.0_wp, exponent(x) - 1)
    end function power_of_two
 
 end module ek_scale

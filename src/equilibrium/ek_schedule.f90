@@ -4,12 +4,19 @@
 !> or the row number of a table. Each actuation of a case is a function of it.
 module ek_schedule
    use ek_kinds, only: wp
-   use ek_case, only: max_driven, case_t, actuation_t, follows_tangent, follows_table
+   use ek_case, only: max_driven, case_t, follows_place, follows_tangent, follows_table
    use ek_suspension, only: suspension_t, driver_row, load_number
    use ek_state, only: inputs_t
    implicit none(type, external)
    private
-   public :: schedule_t, new_schedule, inputs_at
+   public :: schedule_t, new_schedule, make_schedule, inputs_at, same_schedule
+
+   !> An actuation without its names.
+   type :: actuator_t
+      integer :: law = 0                      !! of ek_case
+      real(wp) :: share = 1.0_wp
+      real(wp), allocatable :: values(:)      !! of follows_table, SI
+   end type actuator_t
 
    !> The actuations of a case, with their names resolved.
    type :: schedule_t
@@ -17,7 +24,7 @@ module ek_schedule
       logical :: is_settling = .false.  !! no case: the swept value is the share of the imbalance at design that acts
       integer :: rest = 0               !! table row at which all inputs count as zero: the next row is reached from there
       integer :: load(max_driven) = 0, row(max_driven) = 0     !! their numbers in the suspension
-      type(actuation_t), allocatable :: load_actuation(:), row_actuation(:)
+      type(actuator_t), allocatable :: load_actuator(:), row_actuator(:)
    end type schedule_t
 
 contains
@@ -27,41 +34,95 @@ contains
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
       type(schedule_t) :: schedule
-      type(actuation_t) :: actuation
-      integer :: k
+      call make_schedule(suspension, case, schedule)
+   end function new_schedule
 
-      allocate (schedule%load_actuation(max_driven), schedule%row_actuation(max_driven))
-      if (allocated(case%actuations)) then
-         do k = 1, size(case%actuations)
-            call include(case%actuations(k))
-         end do
-      else
-         actuation%load = case%load
-         actuation%drive = case%drive
-         call include(actuation)
+   !> The same for one design after the other: memory is used again.
+   subroutine make_schedule(suspension, case, schedule)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(schedule_t), intent(inout) :: schedule
+      integer :: k, most
+
+      most = 1
+      if (allocated(case%actuations)) most = min(max_driven, size(case%actuations))
+      if (allocated(schedule%load_actuator)) then
+         if (size(schedule%load_actuator) /= most) deallocate (schedule%load_actuator, schedule%row_actuator)
       end if
+      if (.not. allocated(schedule%load_actuator)) allocate (schedule%load_actuator(most), schedule%row_actuator(most))
+      schedule%loads = 0
+      schedule%rows = 0
+      schedule%is_settling = .false.
+      schedule%rest = 0
+      if (.not. allocated(case%actuations)) then
+         call include(case%load, case%drive, follows_place, 1.0_wp)
+         return
+      end if
+      do k = 1, size(case%actuations)
+         associate (this => case%actuations(k))
+            call include(this%load, this%drive, this%law, this%share, this%values)
+         end associate
+      end do
 
    contains
 
-      subroutine include(this)
-         type(actuation_t), intent(in) :: this
+      subroutine include(load, drive, law, share, values)
+         character(*), intent(in) :: load, drive
+         integer, intent(in) :: law
+         real(wp), intent(in) :: share
+         real(wp), allocatable, intent(in), optional :: values(:)
          integer :: number
 
-         number = load_number(suspension, this%load)
-         if (number > 0 .and. schedule%loads < max_driven) then
+         number = load_number(suspension, load)
+         if (number > 0 .and. schedule%loads < most) then
             schedule%loads = schedule%loads + 1
             schedule%load(schedule%loads) = number
-            schedule%load_actuation(schedule%loads) = this
+            call put(schedule%load_actuator(schedule%loads), law, share, values)
          end if
-         number = driver_row(suspension, this%drive)
-         if (number > 0 .and. schedule%rows < max_driven) then
+         number = driver_row(suspension, drive)
+         if (number > 0 .and. schedule%rows < most) then
             schedule%rows = schedule%rows + 1
             schedule%row(schedule%rows) = number
-            schedule%row_actuation(schedule%rows) = this
+            call put(schedule%row_actuator(schedule%rows), law, share, values)
          end if
       end subroutine include
 
-   end function new_schedule
+   end subroutine make_schedule
+
+   pure subroutine put(this, law, share, values)
+      type(actuator_t), intent(inout) :: this
+      integer, intent(in) :: law
+      real(wp), intent(in) :: share
+      real(wp), allocatable, intent(in), optional :: values(:)
+
+      this%law = law
+      this%share = share
+      if (.not. present(values)) return
+      if (allocated(values)) this%values = values
+   end subroutine put
+
+   !> Whether two schedules give the same inputs at all places.
+   pure logical function same_schedule(a, b)
+      type(schedule_t), intent(in) :: a, b
+      integer :: k
+
+      same_schedule = a%loads == b%loads .and. a%rows == b%rows
+      if (.not. same_schedule) return
+      do k = 1, a%loads
+         same_schedule = same_schedule .and. a%load(k) == b%load(k) .and. same_law(a%load_actuator(k), b%load_actuator(k))
+      end do
+      do k = 1, a%rows
+         same_schedule = same_schedule .and. a%row(k) == b%row(k) .and. same_law(a%row_actuator(k), b%row_actuator(k))
+      end do
+
+   contains
+
+      pure logical function same_law(one, other)
+         type(actuator_t), intent(in) :: one, other
+         same_law = one%law == other%law .and. abs(one%share - other%share) <= 0.0_wp .and. one%law /= follows_table
+      end function same_law
+
+   end function same_schedule
 
    !> The inputs at a value of the path coordinate.
    pure subroutine inputs_at(schedule, place, inputs)
@@ -75,19 +136,19 @@ contains
       inputs%loads = schedule%loads
       do k = 1, schedule%loads
          inputs%load(k) = schedule%load(k)
-         inputs%factor(k) = value_at(schedule%load_actuation(k), place, schedule%rest)
+         inputs%factor(k) = value_at(schedule%load_actuator(k), place, schedule%rest)
       end do
       inputs%rows = schedule%rows
       do k = 1, schedule%rows
          inputs%row(k) = schedule%row(k)
-         inputs%change(k) = value_at(schedule%row_actuation(k), place, schedule%rest)
+         inputs%change(k) = value_at(schedule%row_actuator(k), place, schedule%rest)
       end do
    end subroutine inputs_at
 
    !> share × place, share × tan(place), or the value of the table: linear between its rows, and from 0 at
    !> place `rest` to the next row (initially from swept value 0 to row 1).
    pure real(wp) function value_at(actuation, place, rest) result(value)
-      type(actuation_t), intent(in) :: actuation
+      type(actuator_t), intent(in) :: actuation
       real(wp), intent(in) :: place
       integer, intent(in) :: rest
       real(wp) :: before

@@ -3,12 +3,14 @@ module ek_state
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_relative_rotation, only: pose_t
-   use ek_rotation, only: cross, rotate_quaternion, rotation_matrix, quaternion_product
+   use ek_rotation, only: rotate_quaternion, rotation_matrix
+   use ek_motion, only: largest_motion, move_all, find_motion
    use ek_suspension, only: suspension_t, design_poses
    use ek_case, only: max_driven
    implicit none(type, external)
    private
-   public :: state_t, inputs_t, design_state, coordinates, pack_state, unpack_state, move, move_as_screw
+   public :: state_t, inputs_t, design_state, return_to_design, is_design, coordinates, pack_state, unpack_state, move, &
+      move_as_screw
    public :: inputs_rate, motion_between, largest_motion
 
    !> Poses of bodies 0 … n (index 1 is the chassis, which is fixed) and the reactions λ.
@@ -43,43 +45,15 @@ contains
    end function inputs_rate
 
    !> The motion of every body between two states: Δr of its reference point, and its rotation vector, global axes.
-   !> Equation (R.6) of docs/theory/rotations.md.
    pure subroutine motion_between(a, b, motion)
       type(state_t), intent(in) :: a, b
       real(wp), contiguous, intent(out) :: motion(:)   !! [Δr Δπ] of each body [m, rad]
-      real(wp) :: q(4), back(4), sine
-      integer :: k, at
-
-      at = 0
-      do k = 2, size(a%poses)
-         motion(at + 1:at + 3) = b%poses(k)%r - a%poses(k)%r
-         back(1) = a%poses(k)%q(1)
-         back(2:4) = -a%poses(k)%q(2:4)
-         q = quaternion_product(b%poses(k)%q, back)
-         if (q(1) < 0.0_wp) q = -q
-         sine = norm2(q(2:4))
-         motion(at + 4:at + 6) = 2.0_wp*q(2:4)
-         if (sine > 1.0e-4_wp) motion(at + 4:at + 6) = 2.0_wp*atan2(sine, q(1))/sine*q(2:4)
-         at = at + 6
-      end do
-   end subroutine motion_between
-
-   !> The largest |Δr|, or |Δπ| × characteristic length, of any body [m]; huge if one is not a number.
-   !> Equation (K.11) of docs/theory/kkt.md.
-   pure real(wp) function largest_motion(motion, length) result(largest)
-      real(wp), contiguous, intent(in) :: motion(:)    !! [Δr Δπ] of each body [m, rad]
-      real(wp), intent(in) :: length                   !! m
       integer :: k
 
-      largest = 0.0_wp
-      do k = 1, size(motion), 6
-         largest = max(largest, motion(k)**2 + motion(k + 1)**2 + motion(k + 2)**2, &
-            length**2*(motion(k + 3)**2 + motion(k + 4)**2 + motion(k + 5)**2))
-         ! max() may drop a NaN: return it
-         if (.not. motion(k) + motion(k + 3) < huge(largest)) largest = huge(largest)
+      do k = 2, size(a%poses)
+         call find_motion(a%poses(k)%r, a%poses(k)%q, b%poses(k)%r, b%poses(k)%q, motion(6*k - 11:6*k - 6))
       end do
-      if (largest < huge(largest)) largest = sqrt(largest)
-   end function largest_motion
+   end subroutine motion_between
 
    !> The design position, without reactions.
    function design_state(suspension) result(state)
@@ -89,6 +63,35 @@ contains
       allocate (state%poses, source=design_poses(suspension))
       allocate (state%reaction(suspension%constraints()), source=0.0_wp)
    end function design_state
+
+   !> The same in a state of this model.
+   pure subroutine return_to_design(suspension, state)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(inout) :: state
+      integer :: k
+
+      state%poses(1) = pose_t()
+      do k = 1, size(suspension%bodies)
+         state%poses(k + 1) = pose_t(r=suspension%bodies(k)%origin)
+      end do
+      state%reaction(:) = 0.0_wp
+   end subroutine return_to_design
+
+   !> Whether a state is that of design, to the bit.
+   pure logical function is_design(suspension, state)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(pose_t) :: at_rest
+      integer :: k
+
+      is_design = .not. any(abs(state%reaction) > 0.0_wp)
+      do k = 1, size(suspension%bodies)
+         associate (pose => state%poses(k + 1))
+            is_design = is_design .and. all(abs(pose%r - suspension%bodies(k)%origin) <= 0.0_wp) .and. &
+               all(abs(pose%a - at_rest%a) <= 0.0_wp)
+         end associate
+      end do
+   end function is_design
 
    !> Length of a packed state: 7 numbers per body, and the reactions.
    pure integer function coordinates(suspension)
@@ -149,38 +152,11 @@ contains
       end do
    end subroutine move
 
-   !> Every body makes a screw motion: the exponential of the twist (Δr at its reference point, Δπ).
-   !>
-   !>     r ← r + V(Δπ) Δr,   V = I + (1 − cos θ)/θ² Δπ̃ + (θ − sin θ)/θ³ Δπ̃²,   A ← exp(Δπ̃) A
-   !>
-   !> Agrees with `move` to first order. In contrast to `move`, the result does not depend on the reference
-   !> point of the body: a twist and its exponential belong to the body, not to a point.
-   !> Equations (R.8), (R.12) of docs/theory/rotations.md.
+   !> Every body makes a screw motion (see ek_motion).
    pure subroutine move_as_screw(state, step)
       type(state_t), intent(inout) :: state
       real(wp), contiguous, intent(in) :: step(:)   !! [Δr Δπ] of each body [m, rad]
-      real(wp) :: bow(3), square, theta, b, c
-      integer :: k, at
-
-      at = 0
-      do k = 2, size(state%poses)
-         associate (pose => state%poses(k), v => step(at + 1:at + 3), w => step(at + 4:at + 6))
-            square = w(1)**2 + w(2)**2 + w(3)**2
-            if (square < 1.0e-2_wp) then   ! Taylor series, next terms below 1e-16
-               b = 0.5_wp - square/24.0_wp*(1.0_wp - square/30.0_wp*(1.0_wp - square/56.0_wp*(1.0_wp - square/90.0_wp)))
-               c = 1.0_wp/6 - square/120.0_wp*(1.0_wp - square/42.0_wp*(1.0_wp - square/72.0_wp*(1.0_wp - square/110.0_wp)))
-            else
-               theta = sqrt(square)
-               b = (1.0_wp - cos(theta))/square
-               c = (theta - sin(theta))/(theta*square)
-            end if
-            bow = cross(w, v)
-            pose%r = pose%r + v + b*bow + c*cross(w, bow)
-            pose%q = rotate_quaternion(w, pose%q)
-            pose%a = rotation_matrix(pose%q)
-         end associate
-         at = at + 6
-      end do
+      call move_all(size(state%poses) - 1, step, state%poses)
    end subroutine move_as_screw
 
 end module ek_state

@@ -4,13 +4,15 @@ module ek_tangent
    use ek_suspension, only: suspension_t, has_symmetric_loads
    use ek_state, only: state_t, inputs_t, design_state, move_as_screw, largest_motion
    use ek_kkt, only: kkt_t, assemble, assemble_rate, solve, residual_only
+   use ek_motion, only: body_motion
    use ek_dyads, only: dyads_t, correct, resist
    implicit none(type, external)
    private
-   public :: tangent_t, new_tangent, find_tangent, body_motion, trapezoidal_rest
+   public :: tangent_t, new_tangent, renew_tangent, find_tangent, is_bend
 
-   real(wp), parameter, public :: smooth = 4.0e-3_wp      !! of the motion: allowed error of the trapezoidal rule
-   real(wp), parameter :: nothing = 1.0e-9_wp     !! m: ten times the error of Newton's method
+   real(wp), parameter :: bent = 5.0e-2_wp         !! of the motion: allowed in the shortest steps
+   real(wp), parameter :: takes_part = 5.0e-2_wp   !! of the largest motion: bodies whose direction is checked
+   real(wp), parameter :: min_cosine = 0.5_wp    !! between the directions of a body at both ends of a bend
 
    !> Work space, and what the loads do to the matrix.
    type :: tangent_t
@@ -34,33 +36,45 @@ contains
       self%is_symmetric = has_symmetric_loads(suspension)
    end function new_tangent
 
-   !> |Δr|, or |Δπ| × characteristic length, of a body [m].
-   pure real(wp) function body_motion(twist, length)
-      real(wp), intent(in) :: twist(6), length
-      body_motion = sqrt(max(sum(twist(1:3)**2), length**2*sum(twist(4:6)**2)))
-   end function body_motion
+   !> The same for other numbers of the model.
+   pure subroutine renew_tangent(suspension, self)
+      type(suspension_t), intent(in) :: suspension
+      type(tangent_t), intent(inout) :: self      !! of new_tangent, for the same model
+      self%is_symmetric = has_symmetric_loads(suspension)
+   end subroutine renew_tangent
 
-   !> The error of the trapezoidal rule as a share of the motion; huge if it is not a number.
-   !> Equation (K.14) of docs/theory/kkt.md.
-   pure real(wp) function trapezoidal_rest(motion, tangent_a, tangent_b, width, length) result(rest)
+   !> Whether the motion lies between the tangents at both ends and no body changes direction.
+   pure logical function is_bend(motion, tangent_a, tangent_b, width, length)
       real(wp), contiguous, intent(in) :: motion(:), tangent_a(:), tangent_b(:)
       real(wp), intent(in) :: width, length
-      real(wp) :: twist(6), part
+      real(wp) :: share, rest, along, square, twist(6), change(6), scale(6), largest, a, b
       integer :: k
 
+      is_bend = .false.
+      scale = [1.0_wp, 1.0_wp, 1.0_wp, length, length, length]
+      largest = largest_motion(motion, length)
+      along = 0.0_wp
+      square = 0.0_wp
+      do k = 1, size(motion), 6
+         twist = (motion(k:k + 5) - width*tangent_b(k:k + 5))*scale
+         change = width*(tangent_a(k:k + 5) - tangent_b(k:k + 5))*scale
+         along = along + dot_product(twist, change)
+         square = square + dot_product(change, change)
+      end do
+      if (.not. square < huge(square)) return
+      share = 0.5_wp
+      if (square > 0.0_wp) share = min(max(along/square, 0.0_wp), 1.0_wp)
       rest = 0.0_wp
       do k = 1, size(motion), 6
-         twist = motion(k:k + 5) - 0.5_wp*width*(tangent_a(k:k + 5) + tangent_b(k:k + 5))
-         part = body_motion(twist, length)
-         if (.not. part < huge(rest)) part = huge(rest)
-         rest = max(rest, part)
+         twist = motion(k:k + 5) - width*(share*tangent_a(k:k + 5) + (1.0_wp - share)*tangent_b(k:k + 5))
+         rest = max(rest, body_motion(twist, length))
+         if (body_motion(motion(k:k + 5), length) < takes_part*largest) cycle
+         a = norm2(tangent_a(k:k + 5)*scale)
+         b = norm2(tangent_b(k:k + 5)*scale)
+         if (dot_product(tangent_a(k:k + 5)*scale, tangent_b(k:k + 5)*scale) < min_cosine*a*b) return
       end do
-      if (rest <= nothing*smooth) then
-         rest = 0.0_wp
-      else if (rest < huge(rest)) then
-         rest = rest/max(largest_motion(motion, length), nothing)
-      end if
-   end function trapezoidal_rest
+      is_bend = rest <= bent*largest
+   end function is_bend
 
    !> dz/ds = N⁻¹ dF/ds at a state, with the current factors; the part for the bodies.
    !>

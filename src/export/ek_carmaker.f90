@@ -7,22 +7,22 @@ module ek_carmaker
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_text, only: str
+   use ek_letters, only: line_count
    use ek_buffer, only: buffer_t
    use ek_version, only: version
    use ek_gnuplot_text, only: one_line
    use ek_wheel_motion, only: at_tx, lengths, quantity_names
    use ek_monotonic, only: check_monotonic
+   use ek_load_response, only: load_parts
    use ek_kandc_map, only: kandc_map_t
    use ek_map_request, only: over_steer, over_none
    implicit none(type, external)
    private
-   public :: carmaker_text, skc_table_lines
+   public :: carmaker_text, skc_table_lines, load_names
 
    character(1), parameter :: sides(2) = ['L', 'R']
    integer, parameter :: columns = 10                     !! tx to lStabi
-   integer, parameter :: loads(5) = [1, 2, 4, 5, 6]       !! Fx, Fy, Mx, My, Mz among the six
-   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z'], &
-      facing_names(5) = [character(5) :: 'x', 'y', 'x', 'y', 'z']
+   character(5), parameter :: load_names(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']      !! of load_parts
 
 contains
 
@@ -85,10 +85,10 @@ contains
    pure integer function skc_table_lines(text, side) result(lines)
       character(*), intent(in) :: text
       integer, intent(in) :: side
-      integer :: k, last
+      integer :: last
 
       last = index(text, '.'//sides(side)//'.Data:')
-      lines = count([(text(k:k) == new_line('a'), k=1, last)]) + 1
+      lines = line_count(text(:last))
    end function skc_table_lines
 
    !> The values of the second argument: at least two, also if nothing depends on it.
@@ -168,11 +168,11 @@ contains
          call file%line(key//'Frc.Fac2SI = 1.0 1.0 1.0 1.0 1.0 1.0')
          call file%line(key//'Trq.Fac2SI = 1.0 1.0 1.0 1.0 1.0 1.0')
          do k = 1, 5
-            call add_numbers(file, key//load_names(k)//' =', map%compliance(:, loads(k), side))
+            call add_numbers(file, key//load_names(k)//' =', map%compliance(:, load_parts(k), side))
          end do
          do k = 1, 5
-            call add_numbers(file, key//load_names(k)(:3)//'Opp.'//trim(facing_names(k))//' =', &
-               map%compliance(:, 6 + loads(k), side))
+            call add_numbers(file, key//load_names(k)(:3)//'Opp.'//load_names(k)(5:)//' =', &
+               map%compliance(:, 6 + load_parts(k), side))
          end do
       end do
    end subroutine add_compliance

@@ -6,6 +6,7 @@ module ek_carsim
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
    use ek_text, only: str
+   use ek_letters, only: line_count
    use ek_buffer, only: buffer_t
    use ek_decimal, only: decimal
    use ek_version, only: version
@@ -164,11 +165,11 @@ contains
    pure integer function par_table_lines(text, keyword, side) result(lines)
       character(*), intent(in) :: text, keyword
       integer, intent(in) :: side
-      integer :: k, from, last
+      integer :: from, last
 
       from = index(text, 'iside '//merge('1', '2', side == 1))
       last = from + index(text(from:), new_line('a')//keyword//' SPLINE')
-      lines = count([(text(k:k) == new_line('a'), k=1, last)]) + 1
+      lines = line_count(text(:last))
    end function par_table_lines
 
    pure function number(value) result(text)

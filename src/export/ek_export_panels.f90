@@ -2,6 +2,7 @@
 module ek_export_panels
    use ek_kinds, only: wp, degree, millimetre
    use ek_text, only: str
+   use ek_letters, only: line_count
    use ek_decimal, only: decimal
    use ek_gnuplot_text, only: gnuplot_text
    use ek_kandc_map, only: kandc_map_t
@@ -9,7 +10,8 @@ module ek_export_panels
    use ek_slopes, only: zero_of
    use ek_export_sources, only: sources_t, source_values
    use ek_export_figure, only: panel_list_t, add_panel
-   use ek_carmaker, only: skc_table_lines
+   use ek_carmaker, only: skc_table_lines, load_names
+   use ek_load_response, only: load_parts
    use ek_carsim, only: par_table_lines
    use ek_wheel_motion, only: at_rx, at_tx, at_toe, at_camber, at_lengths
    implicit none(type, external)
@@ -28,8 +30,6 @@ contains
       type(sources_t), intent(in) :: sources
       character(*), intent(in) :: file, text            !! its name and what was written
       type(panel_list_t), intent(out) :: list
-      character(*), parameter :: loads(5) = [character(5) :: 'Frc.x', 'Frc.y', 'Trq.x', 'Trq.y', 'Trq.z']
-      integer, parameter :: place(5) = [1, 2, 4, 5, 6]
       character(1) :: letter
       real(wp) :: signs(2)
       real(wp), allocatable :: x(:), slopes(:)
@@ -49,11 +49,13 @@ contains
          call over_steering('rx', 6, 'camber_deg', signs(1))
       end if
       do k = 1, 5
-         slopes = numbers_behind(text, 'Com.0.'//letter//'.'//loads(k)//' =', 6)
-         call add_panel(list, 'Com '//loads(k)//' → '//trim(merge('t', 'r', place(k) < 4))//loads(k)(5:5), &
-            trim(merge('N  ', 'N m', place(k) < 4)), trim(merge('mm ', 'deg', place(k) < 4)), &
-            decimal(slopes(place(k))*merge(1.0e3_wp, 1.0_wp/degree, place(k) < 4))//'*x'//line_style, &
-            load_values(sources, k), load_changes(sources, k, place(k)))
+         slopes = numbers_behind(text, 'Com.0.'//letter//'.'//load_names(k)//' =', 6)
+         associate (place => load_parts(k))
+            call add_panel(list, 'Com '//load_names(k)//' → '//trim(merge('t', 'r', place < 4))//load_names(k)(5:5), &
+               trim(merge('N  ', 'N m', place < 4)), trim(merge('mm ', 'deg', place < 4)), &
+               decimal(slopes(place)*merge(1.0e3_wp, 1.0_wp/degree, place < 4))//'*x'//line_style, &
+               load_values(sources, k), load_changes(sources, k, place))
+         end associate
       end do
 
    contains
@@ -245,7 +247,7 @@ contains
          if (k == 1 .and. sources%side == 1) y = -y
          y = y - y(minloc(abs(x), dim=1))
          from = index(text, 'KnCTables.'//trim(words(k))//'.'//corner//' = [')
-         line = count_lines(text(:from)) + 1
+         line = line_count(text(:from))
          gradients = 0.0_wp
          at = index(text, new_line('a')//trim(words(k))//' = [') + len_trim(words(k)) + 5
          read (text(at:), *, iostat=status) gradients(:number)
@@ -256,16 +258,10 @@ contains
       end do
       y = source_values(sources, sources%travel, 'vertical_force_n')
       from = index(text, 'KnCTables.NrmlWhlRates.'//corner//' = [')
-      line = count_lines(text(:from)) + 1
+      line = line_count(text(:from))
       call add_panel(list, 'NrmlWhlRates.'//corner, travel_label, 'N', gnuplot_text(file)//' skip '//str(line)//' every ::0:0:'// &
          str(points - 1)//':0 using 1:2'//point_style, x, y)
    end subroutine mathworks_panels
-
-   pure integer function count_lines(text)
-      character(*), intent(in) :: text
-      integer :: k
-      count_lines = count([(text(k:k) == new_line('a'), k=1, len(text))])
-   end function count_lines
 
    !> The kinematics of the left (or only) wheel.
    subroutine csv_panels(map, sources, file, is_sae, list)

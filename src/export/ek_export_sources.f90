@@ -11,6 +11,7 @@ module ek_export_sources
    use ek_map_request, only: map_request_t, over_steer, over_opposite
    use ek_load_response, only: load_table_result_t, solve_loads
    use ek_wheel_motion, only: iso_frame
+   use ek_rig_rows, only: rig_case
    implicit none(type, external)
    private
    public :: sources_t, solve_sources, source_values
@@ -42,17 +43,10 @@ contains
       sources%side = merge(1, 2, wheels(1) > 0)
       sources%prefix = prefix_of(suspension, wheels(sources%side))
       sources%frame = deck_frame(suspension)*iso_frame
+      case = rig_case('parallel_travel', map%vertical)
       case%name = 'source'
-      case%where = 'export'
-      case%load = ''
-      case%drive = ''
-      case%file = ''
-      case%target = ''
-      case%method = 'equilibrium'
       case%increments = increments
       case%has_all = .true.                  ! also the wheel loads
-      case%vertical = map%vertical
-      case%test = 'parallel_travel'
       if (map%kind == over_opposite) case%test = 'single_travel'
       case%wheel = wheels(sources%side)
       case%from = map%travel(1)

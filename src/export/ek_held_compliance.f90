@@ -5,7 +5,7 @@
 !> all ('force': their vertical loads stay constant).
 module ek_held_compliance
    use ek_kinds, only: wp
-   use ek_compliance, only: hold, load_at_patch, read_at_patch
+   use ek_port_response, only: hold, load_at_patch, read_at_patch
    implicit none(type, external)
    private
    public :: held_compliance

@@ -7,7 +7,7 @@
 module ek_length_choice
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, nearest_name
+   use ek_text, only: quoted, suggestion
    use ek_element, only: element_t, axial_spring, damper, stop_spring
    use ek_measure, only: is_of_angle
    use ek_suspension, only: suspension_t
@@ -106,7 +106,7 @@ contains
       type(length_choice_t), intent(inout) :: choice
       type(message_list_t), intent(inout) :: mistakes
       character(64), allocatable :: names(:)
-      character(:), allocatable :: wanted, hint
+      character(:), allocatable :: wanted
       integer :: k, comma
 
       comma = index(name, ',')
@@ -128,10 +128,8 @@ contains
          call take(choice, wanted)
       end do
       if (choice%has_measure) return
-      hint = nearest_name(wanted, names)
-      if (hint /= '') hint = '; did you mean '//quoted(hint)//'?'
       call mistakes%add('--length '//trim(length_names(j))//'='//name//': the '//trim(side_name(side))//' wheel has no spring, '// &
-         'damper, stop or measure '//quoted(wanted)//' that is a length'//hint)
+         'damper, stop or measure '//quoted(wanted)//' that is a length'//suggestion(wanted, names))
    end subroutine take_named
 
    subroutine take(choice, label)

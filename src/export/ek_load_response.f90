@@ -11,7 +11,11 @@ module ek_load_response
    use ek_rig_rows, only: add_column, solve_table, motions
    implicit none(type, external)
    private
-   public :: load_table_result_t, solve_loads
+   public :: load_table_result_t, solve_loads, load_parts, load_heads
+
+   !> The loads on a wheel that springs do not carry: Fx, Fy, Mx, My, Mz among the six components, and the headings of their columns.
+   integer, parameter :: load_parts(5) = [1, 2, 4, 5, 6]
+   character(*), parameter :: load_heads(5) = [character(5) :: 'fx_n', 'fy_n', 'mx_nm', 'my_nm', 'mz_nm']
 
    !> The response to loads: one row per state.
    type :: load_table_result_t
@@ -30,8 +34,7 @@ contains
       logical, intent(in) :: is_at_patch               !! forces at the contact patch, otherwise at the wheel centre
       type(load_table_result_t), intent(out) :: loads
       type(error_t), allocatable, intent(out) :: error
-      integer, parameter :: parts(5) = [1, 2, 4, 5, 6], at_centre = 6      ! Fx, Fy, Mx, My, Mz of a table_column_t
-      character(8), parameter :: heads(5) = [character(8) :: 'fx_n', 'fy_n', 'mx_nm', 'my_nm', 'mz_nm']
+      integer, parameter :: at_centre = 6              ! added to the component of a table_column_t
       type(load_table_t) :: table
       type(case_result_t) :: result
       real(wp), allocatable :: values(:), motion(:, :)
@@ -53,11 +56,11 @@ contains
                values(at + k) = merge(force, moment, part <= 2)*(2.0_wp*real(k - 1, wp)/(count - 1) - 1.0_wp)
             end do
             loads%load(5*(side - 1) + part, :) = values
-            component = parts(part)
+            component = load_parts(part)
             if (part <= 2 .and. .not. is_at_patch) component = component + at_centre
             ! the rig counts components in the frame of the deck
-            if (.not. suspension%is_iso) values = values*iso_loads(parts(part))
-            call add_column(table, prefix_of(suspension, wheels(side))//trim(heads(part)), wheels(side), component, values)
+            if (.not. suspension%is_iso) values = values*iso_loads(load_parts(part))
+            call add_column(table, prefix_of(suspension, wheels(side))//trim(load_heads(part)), wheels(side), component, values)
             at = at + count
          end do
       end do

@@ -19,7 +19,7 @@ module ek_mathworks
    use ek_slopes, only: travel_curve, steer_curve, slope_at_zero, zero_of, load_response, load_response_t, roll_rates, wheel_rate
    implicit none(type, external)
    private
-   public :: kandc_parameters_t, kandc_table_t, find_parameters, mathworks_script, mathworks_json
+   public :: kandc_parameters_t, kandc_table_t, find_parameters, mathworks_script, mathworks_json, corner_names
 
    integer, parameter :: corners = 4
    character(2), parameter :: corner_names(corners) = ['FL', 'FR', 'RL', 'RR']

@@ -12,7 +12,7 @@ module ek_plain_tables
    use ek_wheel_motion, only: quantities, at_tx, at_rx, at_toe, at_camber, at_caster, at_patch, at_load
    use ek_kandc_map, only: kandc_map_t
    use ek_map_request, only: over_steer, over_opposite
-   use ek_load_response, only: load_table_result_t
+   use ek_load_response, only: load_table_result_t, load_parts, load_heads
    implicit none(type, external)
    private
    public :: kinematics_table, loads_table, compliance_of_map, tables_json
@@ -20,8 +20,6 @@ module ek_plain_tables
    character(*), parameter :: heads(quantities) = [character(18) :: 'x_mm', 'y_mm', 'z_mm', 'rx_deg', 'ry_deg', 'rz_deg', &
       'spring_length_mm', 'damper_length_mm', 'stop_length_mm', 'bar_length_mm', 'toe_deg', 'camber_deg', 'caster_deg', &
       'patch_x_mm', 'patch_y_mm', 'patch_z_mm', 'wheel_load_n']
-   character(*), parameter :: load_heads(5) = [character(5) :: 'fx_n', 'fy_n', 'mx_nm', 'my_nm', 'mz_nm']
-   integer, parameter :: parts(5) = [1, 2, 4, 5, 6]
    character(*), parameter :: moves(6) = [character(2) :: 'x', 'y', 'z', 'rx', 'ry', 'rz']
 
 contains
@@ -121,7 +119,7 @@ contains
       call table%header%add('forces at the contact patch; '//held_text(map))
       do row = 1, size(loads%load, 2)
          do k = 1, 5
-            table%values([k, k + 5], row) = loads%load([k, k + 5], row)*frame(parts(k))
+            table%values([k, k + 5], row) = loads%load([k, k + 5], row)*frame(load_parts(k))
          end do
          do side = 1, 2
             k = 10 + (side - 1)*quantities

@@ -13,9 +13,26 @@ module ek_rig_rows
    use ek_wheel_motion, only: wheel_motion, lengths, length_choice_t, quantities
    implicit none(type, external)
    private
-   public :: add_column, solve_table, motions
+   public :: add_column, rig_case, solve_table, motions
 
 contains
+
+   !> A case of the rig that stands in no deck.
+   pure function rig_case(test, vertical) result(case)
+      character(*), intent(in) :: test
+      character(*), intent(in) :: vertical                  !! 'centre', 'road'; '': as the test says
+      type(case_t) :: case
+
+      case%name = 'export'
+      case%where = 'export'
+      case%load = ''
+      case%drive = ''
+      case%test = test
+      case%file = ''
+      case%target = ''
+      case%vertical = vertical
+      case%method = 'equilibrium'
+   end function rig_case
 
    !> Adds a column to a table: see table_column_t.
    pure subroutine add_column(table, name, wheel, component, values)
@@ -45,15 +62,8 @@ contains
       character(:), allocatable :: reason
       integer :: row, k
 
-      case%name = 'export'
-      case%where = 'export'
-      case%load = ''
-      case%drive = ''
-      case%test = 'table'
+      case = rig_case('table', vertical)
       case%file = 'export'
-      case%target = ''
-      case%vertical = vertical
-      case%method = 'equilibrium'
       case%table = table
       call examine_case(suspension, case, diagnosis)
       if (.not. diagnosis%is_solvable()) then

@@ -4,7 +4,7 @@
 !> ISO 8855, SI: see ek_wheel_motion. The wheels are held in the slopes as in the compliance of the map.
 module ek_slopes
    use ek_kinds, only: wp
-   use ek_compliance, only: load_at_patch
+   use ek_port_response, only: load_at_patch
    use ek_attitude, only: axes_t, toe_rate, camber_rate
    use ek_kandc_map, only: kandc_map_t
    use ek_map_request, only: over_opposite

@@ -17,9 +17,9 @@ module ek_deck_text
       integer :: column = 0                !! characters of the present line
       logical :: is_first = .true.         !! no key in the group so far
    contains
-      procedure :: comment => text_comment, blank => text_blank, begin => text_begin, word => text_word, words => text_words, &
-         add_word => text_add_word, number => text_number, numbers => text_numbers, end => text_end, &
-         text => text_text
+      procedure :: comment => text_comment, heading => text_heading, blank => text_blank, begin => text_begin, &
+         word => text_word, words => text_words, add_word => text_add_word, number => text_number, numbers => text_numbers, &
+         end => text_end, text => text_text
    end type deck_text_t
 
 contains
@@ -33,6 +33,16 @@ contains
       call add_safe(self, words)
       call self%buffer%line('')
    end subroutine text_comment
+
+   !> A comment above a section.
+   subroutine text_heading(self, words)
+      class(deck_text_t), intent(inout) :: self
+      character(*), intent(in) :: words
+
+      call text_blank(self)
+      call text_comment(self, '---- '//words//' ----')
+      call text_blank(self)
+   end subroutine text_heading
 
    subroutine text_blank(self)
       class(deck_text_t), intent(inout) :: self

@@ -11,9 +11,11 @@ module ek_foreign_deck
    use ek_property, only: property_t, parse_property, bushing_file, spring_file, rebound_file
    use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints, single_point, left_point, right_point, point_pair
    use ek_teimorbit, only: is_teimorbit
-   use ek_kin, only: kin_t, parse_kin, is_kin
+   use ek_kin, only: kin_t
+   use ek_kin_reader, only: parse_kin, is_kin
    use ek_kin_check, only: is_used_mount, check_kin
-   use ek_kin_deck, only: mount_law_t, kin_deck
+   use ek_kin_mounts, only: mount_law_t
+   use ek_kin_deck, only: kin_deck
    use ek_lcf, only: lcf_t, parse_lcf, lcf_table
    use ek_deck_text, only: deck_text_t
    use ek_law_text, only: put_curve, put_curves, put_bushing_law

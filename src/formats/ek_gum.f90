@@ -13,6 +13,16 @@ module ek_gum
 
    character(*), parameter :: axes = 'xyz'
 
+   !> What was read of a file.
+   type :: gum_t
+      type(law_points_t) :: halves(2, 3)      !! (positive or negative side, axis); y stays 0 until the forces are read
+      integer :: force_line(2, 3) = 0
+      real(wp) :: stiffness(3) = 0.0_wp       !! about each axis [N m/rad]
+      logical :: has_stiffness(3) = .false.
+      integer :: axis = 0                     !! of the last list
+      integer :: flag = -1                    !! 0: the negative side is the image of the positive one; 1: it has its own numbers
+   end type gum_t
+
 contains
 
    !> Whether a file is a bushing: some line has a label with `displacement`.
@@ -33,18 +43,11 @@ contains
       type(lines_t), intent(in) :: lines
       type(law_points_t), intent(inout) :: laws(6)
       type(flaws_t), intent(inout) :: flaws
+      type(gum_t) :: gum
       type(field_t) :: fields(64)
       character(:), allocatable :: label
-      type(law_points_t) :: halves(2, 3)      ! (positive or negative side, axis); y stays 0 until the forces are read
-      logical :: has_stiffness(3), is_good
-      integer :: force_line(2, 3), k, j, used, axis, side, flag
-      real(wp) :: value, stiffness(3)
+      integer :: k, used, axis
 
-      has_stiffness = .false.
-      stiffness = 0.0_wp
-      force_line = 0
-      flag = -1
-      axis = 0
       do k = 1, lines%count
          if (index(adjustl(lines%line(k)), '#') == 1) cycle
          call split_fields(lines%line(k), k, fields, used, flaws)
@@ -55,125 +58,194 @@ contains
          end if
          label = lower(trim(adjustl(fields(1)%text)))
          if (index(label, 'displacement') == 1) then
-            call find_axis(label, k, axis, side, flaws)
-            if (axis == 0) cycle
-            if (halves(side, axis)%is_given) then
-               call flaws%add(k, 'expected each list once, found '//trim(label)//' again (first in line '// &
-                  str(halves(side, axis)%line)//')')
-               cycle
-            end if
-            halves(side, axis)%is_given = .true.
-            halves(side, axis)%line = k
-            do j = 2, used
-               call take_number(fields(j)%text, k, 'the displacement', value, flaws, is_good)
-               if (.not. is_good) halves(side, axis)%is_bad = .true.
-               call add_point(halves(side, axis), value*millimetre, 0.0_wp, k)
-            end do
+            call take_displacements(gum, label, k, fields(2:used), flaws)
          else if (index(label, 'force') == 1) then
-            call find_axis(label, k, axis, side, flaws)
-            if (axis == 0) cycle
-            force_line(side, axis) = k
-            if (used - 1 /= halves(side, axis)%used) then
-               call flaws%add(k, 'expected '//str(halves(side, axis)%used)//' forces, one for each displacement, found '// &
-                  str(used - 1))
-               halves(side, axis)%is_bad = .true.
-               cycle
-            end if
-            do j = 2, used
-               call take_number(fields(j)%text, k, 'the force', value, flaws, is_good)
-               if (.not. is_good) halves(side, axis)%is_bad = .true.
-               halves(side, axis)%y(j - 1) = value
-            end do
+            call take_forces(gum, label, k, fields(2:used), flaws)
          else if (index(label, 'rot') == 1) then
-            if (axis == 0 .or. used < 2) then
-               call flaws%add(k, 'expected a number for '//trim(label)//' behind the lists of an axis')
-               cycle
-            end if
-            call take_number(fields(2)%text, k, 'the rotational stiffness', stiffness(axis), flaws, is_good)
-            has_stiffness(axis) = .true.
-            if (is_good .and. stiffness(axis) < 0.0_wp) then
-               call flaws%add(k, 'expected a rotational stiffness of 0 or more, found '//str(stiffness(axis)))
-               stiffness(axis) = 0.0_wp
-            end if
+            call take_stiffness(gum, label, k, fields(2:used), flaws)
          else if (index(label, 'symmetric') == 1 .and. used > 1) then
-            call take_number(fields(2)%text, k, 'the flag of symmetry', value, flaws, is_good)
-            if (is_good .and. abs(value) <= 0.0_wp) flag = 0
-            if (is_good .and. abs(value - 1.0_wp) <= 0.0_wp) flag = 1
-            if (is_good .and. flag < 0) call flaws%add(k, 'expected 0 (symmetric) or 1 (asymmetric), found '//str(value))
+            call take_symmetry(gum, k, fields(2), flaws)
          end if
       end do
-      if (flag < 0) then
+      if (gum%flag < 0) then
          call flaws%add(0, "expected a line 'symmetric=0, asymmetric=1' with 0 or 1, found none")
          return
       end if
       do axis = 1, 3
-         call join_halves(axis)
-         laws(axis + 3)%is_given = .true.
-         laws(axis + 3)%line = laws(axis)%line
-         if (.not. has_stiffness(axis)) call flaws%add(laws(axis)%line, 'expected a rotational stiffness of '//axes(axis:axis)// &
-            ', found none')
-         call add_point(laws(axis + 3), -1.0_wp, -stiffness(axis), laws(axis)%line)
-         call add_point(laws(axis + 3), 1.0_wp, stiffness(axis), laws(axis)%line)
+         call join_halves(gum, axis, laws(axis), flaws)
+         call put_stiffness(gum, axis, laws(axis)%line, laws(axis + 3), flaws)
       end do
-
-   contains
-
-      !> One law of both sides, with the origin between them.
-      subroutine join_halves(axis)
-         integer, intent(in) :: axis
-         integer :: j, k
-
-         laws(axis)%is_given = .true.
-         laws(axis)%line = halves(1, axis)%line
-         do k = 1, 1 + flag
-            if (.not. halves(k, axis)%is_given) then
-               call flaws%add(0, 'expected displacements '//merge('+', '-', k == 1)//axes(axis:axis)//', found none')
-            else if (force_line(k, axis) == 0) then
-               call flaws%add(halves(k, axis)%line, 'expected forces behind these displacements, found none')
-            else if (.not. halves(k, axis)%is_bad) then
-               call finish_law_of_half(halves(k, axis), k)
-            end if
-            if (halves(k, axis)%is_bad .or. .not. halves(k, axis)%is_given .or. force_line(k, axis) == 0) then
-               laws(axis)%is_bad = .true.
-               return
-            end if
-         end do
-         k = 1 + flag
-         do j = halves(k, axis)%used, 1, -1
-            call add_point(laws(axis), -abs(halves(k, axis)%x(j)), -abs(halves(k, axis)%y(j)), halves(k, axis)%line)
-         end do
-         call add_point(laws(axis), 0.0_wp, 0.0_wp, halves(1, axis)%line)
-         do j = 1, halves(1, axis)%used
-            call add_point(laws(axis), halves(1, axis)%x(j), halves(1, axis)%y(j), halves(1, axis)%line)
-         end do
-         call finish_law(laws(axis), 'the list of '//axes(axis:axis), flaws)
-      end subroutine join_halves
-
-      !> The points of one side lie on it and lead away from 0; a point at 0 is dropped.
-      subroutine finish_law_of_half(half, side)
-         type(law_points_t), intent(inout) :: half
-         integer, intent(in) :: side
-         integer :: k, kept
-         real(wp) :: last
-
-         kept = 0
-         last = 0.0_wp
-         do k = 1, half%used
-            if (abs(half%x(k)) <= 0.0_wp .and. abs(half%y(k)) <= 0.0_wp .and. kept == 0) cycle
-            if (.not. abs(half%x(k)) > last .or. (side == 1 .and. half%x(k) < 0.0_wp)) then
-               call flaws%add(half%line, 'expected displacements that lead away from 0, found '//str(half%x(k)/millimetre))
-               half%is_bad = .true.
-               return
-            end if
-            kept = kept + 1
-            last = abs(half%x(k))
-            half%x(kept) = half%x(k)
-            half%y(kept) = half%y(k)
-         end do
-         half%used = kept
-      end subroutine finish_law_of_half
-
    end subroutine parse_gum
+
+   !> A list of displacements: one side of an axis.
+   subroutine take_displacements(gum, label, line, fields, flaws)
+      type(gum_t), intent(inout) :: gum
+      character(*), intent(in) :: label
+      integer, intent(in) :: line
+      type(field_t), intent(in) :: fields(:)
+      type(flaws_t), intent(inout) :: flaws
+      real(wp) :: value
+      logical :: is_good
+      integer :: side, j
+
+      call find_axis(label, line, gum%axis, side, flaws)
+      if (gum%axis == 0) return
+      associate (half => gum%halves(side, gum%axis))
+         if (half%is_given) then
+            call flaws%add(line, 'expected each list once, found '//trim(label)//' again (first in line '//str(half%line)//')')
+            return
+         end if
+         half%is_given = .true.
+         half%line = line
+         do j = 1, size(fields)
+            call take_number(fields(j)%text, line, 'the displacement', value, flaws, is_good)
+            if (.not. is_good) half%is_bad = .true.
+            call add_point(half, value*millimetre, 0.0_wp, line)
+         end do
+      end associate
+   end subroutine take_displacements
+
+   !> The forces at the displacements of a list.
+   subroutine take_forces(gum, label, line, fields, flaws)
+      type(gum_t), intent(inout) :: gum
+      character(*), intent(in) :: label
+      integer, intent(in) :: line
+      type(field_t), intent(in) :: fields(:)
+      type(flaws_t), intent(inout) :: flaws
+      real(wp) :: value
+      logical :: is_good
+      integer :: side, j
+
+      call find_axis(label, line, gum%axis, side, flaws)
+      if (gum%axis == 0) return
+      associate (half => gum%halves(side, gum%axis))
+         gum%force_line(side, gum%axis) = line
+         if (size(fields) /= half%used) then
+            call flaws%add(line, 'expected '//str(half%used)//' forces, one for each displacement, found '//str(size(fields)))
+            half%is_bad = .true.
+            return
+         end if
+         do j = 1, size(fields)
+            call take_number(fields(j)%text, line, 'the force', value, flaws, is_good)
+            if (.not. is_good) half%is_bad = .true.
+            half%y(j) = value
+         end do
+      end associate
+   end subroutine take_forces
+
+   !> The rotational stiffness of the axis whose lists came last.
+   subroutine take_stiffness(gum, label, line, fields, flaws)
+      type(gum_t), intent(inout) :: gum
+      character(*), intent(in) :: label
+      integer, intent(in) :: line
+      type(field_t), intent(in) :: fields(:)
+      type(flaws_t), intent(inout) :: flaws
+      logical :: is_good
+
+      if (gum%axis == 0 .or. size(fields) == 0) then
+         call flaws%add(line, 'expected a number for '//trim(label)//' behind the lists of an axis')
+         return
+      end if
+      associate (stiffness => gum%stiffness(gum%axis))
+         call take_number(fields(1)%text, line, 'the rotational stiffness', stiffness, flaws, is_good)
+         gum%has_stiffness(gum%axis) = .true.
+         if (is_good .and. stiffness < 0.0_wp) then
+            call flaws%add(line, 'expected a rotational stiffness of 0 or more, found '//str(stiffness))
+            stiffness = 0.0_wp
+         end if
+      end associate
+   end subroutine take_stiffness
+
+   !> Whether the negative side has numbers of its own.
+   subroutine take_symmetry(gum, line, field, flaws)
+      type(gum_t), intent(inout) :: gum
+      integer, intent(in) :: line
+      type(field_t), intent(in) :: field
+      type(flaws_t), intent(inout) :: flaws
+      real(wp) :: value
+      logical :: is_good
+
+      call take_number(field%text, line, 'the flag of symmetry', value, flaws, is_good)
+      if (.not. is_good) return
+      if (abs(value) <= 0.0_wp) gum%flag = 0
+      if (abs(value - 1.0_wp) <= 0.0_wp) gum%flag = 1
+      if (gum%flag < 0) call flaws%add(line, 'expected 0 (symmetric) or 1 (asymmetric), found '//str(value))
+   end subroutine take_symmetry
+
+   !> The law of the rotation about an axis.
+   subroutine put_stiffness(gum, axis, line, law, flaws)
+      type(gum_t), intent(in) :: gum
+      integer, intent(in) :: axis, line
+      type(law_points_t), intent(inout) :: law
+      type(flaws_t), intent(inout) :: flaws
+
+      law%is_given = .true.
+      law%line = line
+      if (.not. gum%has_stiffness(axis)) call flaws%add(line, 'expected a rotational stiffness of '//axes(axis:axis)// &
+         ', found none')
+      call add_point(law, -1.0_wp, -gum%stiffness(axis), line)
+      call add_point(law, 1.0_wp, gum%stiffness(axis), line)
+   end subroutine put_stiffness
+
+   !> One law of both sides, with the origin between them.
+   subroutine join_halves(gum, axis, law, flaws)
+      type(gum_t), intent(inout) :: gum
+      integer, intent(in) :: axis
+      type(law_points_t), intent(inout) :: law
+      type(flaws_t), intent(inout) :: flaws
+      integer :: j, k
+
+      law%is_given = .true.
+      law%line = gum%halves(1, axis)%line
+      do k = 1, 1 + gum%flag
+         if (.not. gum%halves(k, axis)%is_given) then
+            call flaws%add(0, 'expected displacements '//merge('+', '-', k == 1)//axes(axis:axis)//', found none')
+         else if (gum%force_line(k, axis) == 0) then
+            call flaws%add(gum%halves(k, axis)%line, 'expected forces behind these displacements, found none')
+         else if (.not. gum%halves(k, axis)%is_bad) then
+            call finish_half(gum%halves(k, axis), k, flaws)
+         end if
+         if (gum%halves(k, axis)%is_bad .or. .not. gum%halves(k, axis)%is_given .or. gum%force_line(k, axis) == 0) then
+            law%is_bad = .true.
+            return
+         end if
+      end do
+      associate (positive => gum%halves(1, axis), negative => gum%halves(1 + gum%flag, axis))
+         do j = negative%used, 1, -1
+            call add_point(law, -abs(negative%x(j)), -abs(negative%y(j)), negative%line)
+         end do
+         call add_point(law, 0.0_wp, 0.0_wp, positive%line)
+         do j = 1, positive%used
+            call add_point(law, positive%x(j), positive%y(j), positive%line)
+         end do
+      end associate
+      call finish_law(law, 'the list of '//axes(axis:axis), flaws)
+   end subroutine join_halves
+
+   !> The points of one side lie on it and lead away from 0; a point at 0 is dropped.
+   subroutine finish_half(half, side, flaws)
+      type(law_points_t), intent(inout) :: half
+      integer, intent(in) :: side
+      type(flaws_t), intent(inout) :: flaws
+      integer :: k, kept
+      real(wp) :: last
+
+      kept = 0
+      last = 0.0_wp
+      do k = 1, half%used
+         if (abs(half%x(k)) <= 0.0_wp .and. abs(half%y(k)) <= 0.0_wp .and. kept == 0) cycle
+         if (.not. abs(half%x(k)) > last .or. (side == 1 .and. half%x(k) < 0.0_wp)) then
+            call flaws%add(half%line, 'expected displacements that lead away from 0, found '//str(half%x(k)/millimetre))
+            half%is_bad = .true.
+            return
+         end if
+         kept = kept + 1
+         last = abs(half%x(k))
+         half%x(kept) = half%x(k)
+         half%y(kept) = half%y(k)
+      end do
+      half%used = kept
+   end subroutine finish_half
 
    !> The axis and the side of a label: 'displacement +X [mm]'.
    subroutine find_axis(label, line, axis, side, flaws)

@@ -21,8 +21,9 @@ module ek_attitude
    use ek_steer_angle, only: steer_rate
    implicit none(type, external)
    private
-   public :: attitude_t, attitude_of, wheel_attitude, steer_axis_t, steer_axis_of, axis_values, static_toe
-   public :: axes_t, axes_of, toe_rate, camber_rate, caster_rate, vertical_force
+   public :: attitude_t, attitude_of, find_attitude, wheel_attitude, steer_axis_t, steer_axis_of, axis_values, static_toe
+   public :: axes_t, axes_of, toe_rate, camber_rate, camber_gradient, caster_gradient, &
+      vertical_force
 
    !> The directions of a wheel at a state, global axes.
    type :: axes_t
@@ -74,6 +75,16 @@ contains
       type(pose_t), intent(in) :: now
       type(attitude_t) :: attitude
 
+      call find_attitude(wheel, origin, now, attitude)
+   end function attitude_of
+
+   !> The same in place.
+   pure subroutine find_attitude(wheel, origin, now, attitude)
+      type(wheel_t), intent(in) :: wheel
+      real(wp), intent(in) :: origin(3)
+      type(pose_t), intent(in) :: now
+      type(attitude_t), intent(inout) :: attitude     !! as it is by default, or of this wheel
+
       attitude%at_centre = now%r + rotated(now%a, wheel%centre)
       attitude%at_contact = now%r + rotated(now%a, wheel%contact)
       attitude%centre = attitude%at_centre - (origin + wheel%centre)
@@ -90,7 +101,7 @@ contains
       attitude%axis_point = now%r + rotated(now%a, wheel%steer_axis(:, 1))
       attitude%axis = steer_axis_of(wheel%side, attitude%axis_point, attitude%axes%steer_axis, attitude%at_centre, &
          attitude%at_contact)
-   end function attitude_of
+   end subroutine find_attitude
 
    !> Toe of a wheel in the design position [rad].
    pure real(wp) function static_toe(wheel)
@@ -114,7 +125,7 @@ contains
       if (k(3) < 0.0_wp) k = -k
       axis%caster = atan2(k(1), k(3))
       axis%kingpin_inclination = atan2(-side*k(2), k(3))
-      axis%is_known = k(3) > level*norm2(k)
+      axis%is_known = k(3) > level*sqrt(k(1)**2 + k(2)**2 + k(3)**2)
       if (.not. axis%is_known) return
       foot = point + k*((contact(3) - point(3))/k(3))
       axis%scrub_radius = side*(contact(2) - foot(2))
@@ -165,22 +176,35 @@ contains
    end function toe_rate
 
    !> Change of camber [rad, positive: top outward].
-   !> Equation (C.11) of docs/theory/compliance.md.
    pure real(wp) function camber_rate(axes, turn) result(rate)
       type(axes_t), intent(in) :: axes
       real(wp), intent(in) :: turn(3)
-      rate = (turn(2)*axes%spin(1) - turn(1)*axes%spin(2))/sqrt(axes%spin(1)**2 + axes%spin(2)**2)
+      rate = dot_product(camber_gradient(axes%spin), turn)
    end function camber_rate
 
-   !> Change of the caster of the geometric steer axis [rad, positive: top rearward].
+   !> The factors of the rotations about x, y, z in the change of camber.
    !> Equation (C.11) of docs/theory/compliance.md.
-   pure real(wp) function caster_rate(axes, turn) result(rate)
-      type(axes_t), intent(in) :: axes
-      real(wp), intent(in) :: turn(3)
-      associate (k => axes%steer_axis)
-         rate = turn(2) - k(2)*(turn(1)*k(1) + turn(3)*k(3))/(k(1)**2 + k(3)**2)
-      end associate
-   end function caster_rate
+   pure function camber_gradient(spin) result(gradient)
+      real(wp), intent(in) :: spin(3)         !! unit, outboard
+      real(wp) :: gradient(3), level
+
+      level = sqrt(spin(1)**2 + spin(2)**2)
+      gradient(1) = -spin(2)/level
+      gradient(2) = spin(1)/level
+      gradient(3) = 0.0_wp
+   end function camber_gradient
+
+   !> Those in the change of the caster of the geometric steer axis [rad, positive: top rearward].
+   !> Equation (C.11) of docs/theory/compliance.md.
+   pure function caster_gradient(axis) result(gradient)
+      real(wp), intent(in) :: axis(3)         !! of any length
+      real(wp) :: gradient(3), lean
+
+      lean = axis(2)/(axis(1)**2 + axis(3)**2)
+      gradient(1) = -lean*axis(1)
+      gradient(2) = 1.0_wp
+      gradient(3) = -lean*axis(3)
+   end function caster_gradient
 
    !> Vertical force on wheel `wheel` [N], upward: the constant and the scaled loads on its carrier, and the force of a rig
    !> that holds its height. Weights of bodies are not included. If one body carries both wheels, a load counts for the
@@ -196,8 +220,9 @@ contains
       force = 0.0_wp
       do k = 1, size(suspension%loads)
          associate (load => suspension%loads(k))
+            if (load%is_weight) cycle
             share = share_of(load%body, load%arm)
-            if (.not. share > 0.0_wp .or. load%is_weight) cycle
+            if (.not. share > 0.0_wp) cycle
             factor = 1.0_wp
             if (load%is_case) factor = load_factor(inputs, k)
             call wrench(load, state%poses(load%body + 1), f, moment, arm)

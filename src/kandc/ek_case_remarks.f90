@@ -17,7 +17,7 @@ module ek_case_remarks
    use ek_curve, only: curve_t
    use ek_law, only: law_t, deflection
    use ek_measure, only: measure_value, rotation
-   use ek_element, only: element_label
+   use ek_element_label, only: element_label
    use ek_elastic, only: bushing_evaluation_t, evaluate_bushing
    implicit none(type, external)
    private
@@ -51,8 +51,9 @@ contains
          if (norm2(attitude%centre) <= least) cycle
          call remarks%add(note, on_settling, case, 'under the constant loads wheel '// &
             quoted(suspension%wheels(k)%name)//' settles by '// &
-            str(attitude%centre(3)/millimetre, 4)//' mm (toe '//str((attitude%toe)/degree, 4)//' deg, camber '// &
-            str(attitude%camber/degree, 4)//' deg there)', 0.0_wp)
+            str(without_rounding(attitude%centre(3))/millimetre, 4)//' mm (toe '// &
+            str(without_rounding(attitude%toe)/degree, 4)//' deg, camber '// &
+            str(without_rounding(attitude%camber)/degree, 4)//' deg there)', 0.0_wp)
       end do
    end subroutine settling_remarks
 
@@ -105,9 +106,9 @@ contains
          linear = wheel_attitude(suspension, state, 1)
          call find_equilibrium(suspension, inputs, min(case%tolerance, default_tolerance), state, kkt, outcome)
          exact = wheel_attitude(suspension, state, 1)
-         travel = linear%centre(3) - exact%centre(3)
-         toe = linear%toe - exact%toe
-         camber = linear%camber - exact%camber
+         travel = without_rounding(linear%centre(3) - exact%centre(3))
+         toe = without_rounding(linear%toe - exact%toe)
+         camber = without_rounding(linear%camber - exact%camber)
          place = str(path%value(k)/case%unit)
          if (.not. outcome%is_converged) then
             call remarks%add(failure, on_drift, case, 'no equilibrium was found near the state at factor '//place// &
@@ -119,6 +120,13 @@ contains
          end if
       end do
    end subroutine drift_remarks
+
+   !> A length or angle; 0 instead of one that is rounding, such as the travel of a wheel whose height is held.
+   pure real(wp) function without_rounding(value)
+      real(wp), intent(in) :: value                !! m or rad
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      without_rounding = merge(0.0_wp, value, abs(value) < rounding)
+   end function without_rounding
 
    !> States of a linear method that are marked converged = 0 because they violate the joint constraints.
    subroutine closure_remarks(case, table, remarks)

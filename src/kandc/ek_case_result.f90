@@ -17,10 +17,10 @@ module ek_case_result
    use ek_case_remarks, only: settling_remarks, drift_remarks, travel_remarks, rack_remarks, closure_remarks, curve_reach_remarks
    use ek_remark, only: remark_list_t, failure, on_case, on_end
    use ek_table, only: table_t, name_length
-   use ek_test_result, only: frame_line
+   use ek_test_result, only: frame_line, test_result_t, find_wheels
    implicit none(type, external)
    private
-   public :: case_result_t, solve_options_t, solve_case, solve_mounted, add_remarks, failure_of, add_header
+   public :: case_result_t, solve_options_t, solve_case, solve_mounted, add_remarks, failure_of, test_of, add_header
    public :: solved, partly_solved, not_solvable, not_mountable, out_of_memory
 
    ! outcomes
@@ -34,6 +34,7 @@ module ek_case_result
    type :: solve_options_t
       character(:), allocatable :: fault           !! defect of the model in this case, which is then not solved; '' for none
       logical :: has_remarks = .true.              !! otherwise failures can be seen in the path only
+      logical :: has_violation = .true.            !! otherwise constraint_error of equilibria is not a number
       logical :: is_compared = .true.              !! a linear method is compared with equilibrium at the ends of the path
       real(wp) :: min_settling = 1.0e-8_wp       !! displacement of a wheel under the constant loads that is noted [m]
       character(name_length), allocatable :: columns(:)   !! quantities that are computed; not allocated: all
@@ -86,33 +87,55 @@ contains
    end subroutine solve_case
 
    !> Solves the path of a case that was put on the rig (mount_case) and tabulates it.
-   subroutine solve_mounted(options, result, progress, observer)
+   subroutine solve_mounted(options, result, progress, observer, is_walked)
       type(solve_options_t), intent(in) :: options     !! without a fault
       type(case_result_t), intent(inout) :: result     !! what it holds besides the case on the rig is replaced
       procedure(progress_procedure), optional :: progress
       type(observer_t), intent(inout), optional, target :: observer   !! kept from design to design of a deck
-      type(observer_t), target :: own
+      logical, intent(in), optional :: is_walked       !! .true.: its path is there, complete
+      type(observer_t), allocatable, target :: own
       type(observer_t), pointer :: tells
       type(remark_list_t) :: none
       integer(i8) :: bytes
+      logical :: has_path
 
+      has_path = .false.
+      if (present(is_walked)) has_path = is_walked
       result%outcome = solved
       result%remarks = none
-      tells => own
-      if (present(observer)) tells => observer
-      call make_observer(result%suspension, result%case, tells, options%columns)
+      if (present(observer)) then
+         tells => observer
+      else
+         allocate (own)
+         tells => own
+      end if
+      call make_observer(result%suspension, result%case, tells, options%columns, options%has_violation)
       bytes = sweep_bytes(result%suspension, result%case, tells)
       if (.not. has_memory(bytes)) then
          call give_up(result, out_of_memory, result%case, memory_remarks(bytes, 'case '//quoted(result%case%name)//' with '// &
             plural(result%case%increments, 'increment', 'increments')))
          return
       end if
-      call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach)
+      if (.not. has_path) call sweep(result%suspension, result%case, result%path, result%kkt, progress, options%reach, result%space)
       call observe(result%suspension, result%case, result%path, result%kkt, tells, result%table)
       if (any(result%path%failure%state > 0)) result%outcome = partly_solved
       if (options%has_remarks) call add_remarks(options, result)
       if (allocated(options%checksum)) call add_header(result%table, result%suspension, result%case, options%checksum)
    end subroutine solve_mounted
+
+   !> The case of a result as a test of the report.
+   function test_of(result) result(test)
+      type(case_result_t), intent(in) :: result
+      type(test_result_t) :: test
+
+      test%name = result%case%name
+      test%kind = result%case%test
+      test%is_anti = result%case%is_anti
+      test%is_iso = result%suspension%is_iso
+      test%table = result%table
+      allocate (test%prefixes(0), test%sides(0))
+      if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
+   end function test_of
 
    !> Says why a case was not run.
    subroutine give_up(result, outcome, case, words)
@@ -173,7 +196,8 @@ contains
       character(*), intent(in) :: checksum          !! of the deck
 
       call table%header%add('model '//suspension%name//', case '//case%name//', method '//case%method// &
-         trim(merge(', follow arc', '            ', case%follows_arc))//', tolerance '//str(case%tolerance/millimetre)//' mm')
+         trim(merge(', follow arc', '            ', case%follows_arc))// &
+         trim(merge(', solver plan', '             ', case%uses_plan))//', tolerance '//str(case%tolerance/millimetre)//' mm')
       if (len(case%test) > 0) then
          call table%header%add('factor: '//case%place_name//' ['//case%unit_name//'], test '//case%test)
       else if (len(case%load) > 0) then

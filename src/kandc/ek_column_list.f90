@@ -19,10 +19,13 @@ module ek_column_list
       logical, allocatable :: is_of_matrix(:)          !! the value of this column comes from the compliance matrix
       logical :: is_matrix_wanted = .true.             !! a column that is wanted needs the compliance matrix
       integer, allocatable :: place(:)                 !! of the value of each column in the vector of its block
-      real(wp), allocatable :: unit(:)                 !! of each column, in SI
+      real(wp), allocatable :: unit(:)                 !! of each column, in SI; of a quantity 0 until it is asked
       integer :: offered = 0                           !! length of the vector of the block that is being added
       integer, allocatable :: last(:)                  !! last column of each block
-      logical, allocatable :: is_wanted(:)             !! of each block
+      integer, allocatable :: section(:), item(:)      !! of each block: what it holds, and of which wheel, element, …
+      integer, allocatable :: asked(:)                 !! the wanted columns
+      integer, allocatable :: last_asked(:)            !! last of them of each block
+      integer, allocatable :: blocks(:)                !! blocks with wanted columns
    end type column_list_t
 
 contains
@@ -32,7 +35,8 @@ contains
       class(column_list_t), intent(inout) :: list
       integer, intent(in) :: n
 
-      allocate (list%names(n), list%is_of_matrix(n), list%place(n), list%unit(n), list%last(0), list%is_wanted(0))
+      allocate (list%names(n), list%is_of_matrix(n), list%place(n), list%unit(n), list%last(0), list%section(0), &
+         list%item(0))
    end subroutine begin_list
 
    !> Adds the quantities of a section that a model defines to the current block.
@@ -42,17 +46,22 @@ contains
       character(*), intent(in) :: prefix               !! 'left_', 'right_' or ''
       integer, intent(in) :: has                       !! sum of the conditions that the model meets
       integer, intent(in), optional :: condition       !! of held_name; absent: names without '*'
-      integer :: k, held
+      integer :: k, held, first
 
       held = 1
       if (present(condition)) held = condition
+      first = len(prefix) + 1
       do k = 1, size(section)
          if (iand(section(k)%needs, not(ior(has, matrix))) /= 0) then
             list%offered = list%offered + 1
             cycle
          end if
-         call add_column(list, prefix//held_name(section(k)%name, held), iand(section(k)%needs, matrix) /= 0)
-         list%unit(list%used) = unit_size(section(k)%name)
+         call add_column(list, prefix, iand(section(k)%needs, matrix) /= 0)
+         list%unit(list%used) = 0.0_wp
+         associate (name => list%names(list%used))          ! not put together first: that asks for memory
+            name(first:) = section(k)%name
+            if (index(section(k)%name, '*') > 0) name(first:) = held_name(section(k)%name, held)
+         end associate
       end do
    end subroutine add_quantities
 
@@ -81,47 +90,58 @@ contains
    end subroutine add_column
 
    !> Ends a block.
-   pure subroutine end_block(list)
+   pure subroutine end_block(list, section, item)
       class(column_list_t), intent(inout) :: list
+      integer, intent(in) :: section, item
 
       list%last = [list%last, list%used]
-      list%is_wanted = [list%is_wanted, .true.]
+      list%section = [list%section, section]
+      list%item = [list%item, item]
       list%offered = 0
    end subroutine end_block
 
-   !> Sets the values of a block from its vector; those from an unknown matrix are not numbers.
+   !> Sets the wanted values of a block from its vector; those from an unknown matrix are not numbers.
    pure subroutine fill_block(list, block, vector, is_known, values)
       class(column_list_t), intent(in) :: list
       integer, intent(in) :: block
-      real(wp), intent(in) :: vector(:)                !! values of all quantities of the sections of the block, SI
+      real(wp), intent(in) :: vector(*)                !! values of all quantities of the sections of the block, SI
       logical, intent(in) :: is_known                  !! the compliance matrix
-      real(wp), intent(inout) :: values(:)             !! of all columns, in their units
-      integer :: k, first
+      real(wp), intent(inout) :: values(*)             !! of all columns, in their units
+      integer :: k, j, first
 
       first = 1
-      if (block > 1) first = list%last(block - 1) + 1
-      do k = first, list%last(block)
-         if (list%is_of_matrix(k) .and. .not. is_known) then
-            values(k) = ieee_value(1.0_wp, ieee_quiet_nan)
-         else
+      if (block > 1) first = list%last_asked(block - 1) + 1
+      if (is_known) then
+         do j = first, list%last_asked(block)
+            k = list%asked(j)
             values(k) = vector(list%place(k))/list%unit(k)
-         end if
-      end do
+         end do
+      else
+         do j = first, list%last_asked(block)
+            k = list%asked(j)
+            values(k) = ieee_value(1.0_wp, ieee_quiet_nan)
+            if (.not. list%is_of_matrix(k)) values(k) = vector(list%place(k))/list%unit(k)
+         end do
+      end if
    end subroutine fill_block
 
-   !> Restricts the columns that are filled: blocks without a wanted column are passed over, and the matrix is solved
-   !> only for a column that needs it.
+   !> Chooses the columns that are filled. Blocks without a wanted column are passed over, and the matrix is solved only for a
+   !> column that needs it.
    pure subroutine choose(list, is_wanted)
       class(column_list_t), intent(inout) :: list
       logical, intent(in) :: is_wanted(:)              !! of each column
-      integer :: k, first
+      logical :: has_columns(size(list%last))
+      integer :: k
 
       list%is_matrix_wanted = any(is_wanted .and. list%is_of_matrix(:list%used))
-      first = 1
-      do k = 1, size(list%last)
-         list%is_wanted(k) = any(is_wanted(first:list%last(k)))
-         first = list%last(k) + 1
+      list%asked = pack([(k, k=1, list%used)], is_wanted)
+      do k = 1, list%used
+         if (is_wanted(k) .and. .not. list%unit(k) > 0.0_wp) list%unit(k) = unit_size(trim(list%names(k)))
       end do
+      list%last_asked = [(count(is_wanted(:list%last(k))), k=1, size(list%last))]
+      has_columns = list%last_asked > 0
+      has_columns(2:) = list%last_asked(2:) > list%last_asked(:size(list%last) - 1)
+      list%blocks = pack([(k, k=1, size(list%last))], has_columns)
    end subroutine choose
 
    !> The conditions of ek_quantity that a model meets.

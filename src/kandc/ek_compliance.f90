@@ -11,36 +11,27 @@
 !> the wheel as a constant force, with its geometric stiffness λ·Hess(φ), but the row no longer constrains. Its gradient
 !> is cleared and its diagonal set to −1 of the scaled matrix: Δλ = 0, one negative eigenvalue as before.
 !>
-!> A constant moment and a load that rotates with its body have no potential: T lacks their skew part N, which affects
-!> not the equilibrium but its derivative. With g = dV/dπ the moment of all terms that have a potential,
-!> the derivative of the residual along a rotation is that of the exponential coordinates less ½ g̃ (from the
-!> product of two rotations, exp(δ̃)exp(π̃) = exp((δ + π + ½ δ×π + …)~)), and g is the moment M of the rest:
-!>
-!>     dead moment M:            N_ππ = −½ M̃
-!>     follower, force f, moment m about the reference point, arm included:
-!>                               N_rπ = N_πr = ½ f̃,  N_ππ = ½ m̃     (½ m̃ = m̃ of its own rotation less ½ g̃)
-!>
-!> The matrix is then solved in full (LAPACK dgesv), and C is not symmetric.
+!> Under a constant moment or a load that rotates with its body the matrix is not symmetric, and is factorised in full
+!> (ek_skew_system); the responses read from the left are then those of the transpose.
 !>
 !> The contact point given by the deck is fixed to the carrier at the arm a from the wheel centre: a force F there equals the same
 !> force at the centre with the moment a×F, and the point moves by δ + θ×a. Moments and rotations do not depend on the point.
-!> Equation (C.4) of docs/theory/compliance.md.
-!> Equation (R.7) of docs/theory/rotations.md.
 module ek_compliance
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
    use ek_measure, only: evaluation_t, evaluate
-   use ek_block, only: rotated
-   use ek_rotation, only: cross, skew, identity3
+   use ek_block, only: rotated, add_gradient
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
-   use ek_kkt, only: kkt_t, assemble, factorise, wrench, load_factor, whole_tangent
-   use ek_lapack, only: dsytrs2, dgesv
+   use ek_kkt, only: kkt_t, assemble, release, factorise, solve_many, whole_matrix, whole_tangent, lapack_factors
+   use ek_quadratic_form, only: quadratic_form
+   use ek_skew_system, only: skew_system_t, has_skew_part, factorise_skew, solve_skew
    implicit none(type, external)
    private
-   public :: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch, hold, lock
+   public :: compliance_t, new_compliance, ask, wheel_compliance, wheel_compliance_nearby, respond, keep_responses, move_of, &
+      unit_responses, solve_further
 
    real(wp), parameter :: singular = 1.0e-14_wp   !! pivot ratio at which the scaled matrix is singular to rounding
 
@@ -50,21 +41,32 @@ module ek_compliance
       integer, allocatable :: order(:)          !! wheel of the suspension at each index of C: left before right
       integer, allocatable :: spring(:)         !! axial spring of the suspension at each index
       logical :: is_known = .false.             !! false: the matrix was singular, `response` is not a number
-      logical :: has_drive = .false.            !! the last column is that of a unit of the steering driver
-      real(wp), allocatable :: response(:, :)   !! (port, load), see above
-      real(wp), allocatable :: ports(:, :), columns(:, :)   !! (unknown, port), (unknown, load)
-      real(wp), allocatable :: full(:, :)       !! unsymmetric matrix, only if a load requires it
-      integer, allocatable :: pivots(:)
+      logical :: has_drive = .false.            !! the last load is that of a unit of the steering driver
+      real(wp), allocatable :: response(:, :)   !! (port, load), see above; not a number where it was not asked
+      ! the loads that are solved, and the ports that are read
+      integer, private :: solved = 0
+      integer, allocatable, private :: load(:)          !! of each solved column
+      integer, allocatable, private :: column(:)        !! of each load, 0: it is not solved
+      logical, private :: reads_springs = .true.
+      ! a port touches the unknowns of one body, or two
+      integer, allocatable, private :: at_wheel(:)      !! unknowns before those of the carrier
+      real(wp), allocatable, private :: arm(:, :)       !! from its reference point to the wheel centre [m]
+      integer, allocatable, private :: at_spring(:, :)  !! unknowns before those of both bodies; negative: the chassis
+      real(wp), allocatable, private :: gradient(:, :)  !! of the length of each spring
+      real(wp), allocatable, private :: columns(:, :)   !! (unknown, column): loads, then displacements
+      type(skew_system_t), private :: skew_system       !! used only if a load requires it
+      logical :: is_skew = .false.                      !! the matrix of the last state is not symmetric
    end type compliance_t
 
 contains
 
-   !> Work space for a model; `drives`: a steering driver is moved.
+   !> Work space for a model, for all loads; `drives`: a steering driver is moved.
    function new_compliance(suspension, drives) result(self)
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: drives
       type(compliance_t) :: self
-      integer :: n, k, ports
+      logical, allocatable :: is_asked(:)
+      integer :: n, k, ports, loads
 
       self%wheels = size(suspension%wheels)
       self%springs = count(element_kinds(suspension%elements%kind)%is_axial_spring)
@@ -73,12 +75,43 @@ contains
       self%has_drive = drives
       n = suspension%unknowns() + suspension%constraints()
       ports = 6*self%wheels + self%springs
+      loads = ports + merge(1, 0, drives)
       associate (side => suspension%wheels%side)
          self%order = [pack([(k, k=1, self%wheels)], side == -1), pack([(k, k=1, self%wheels)], side == 1)]
       end associate
-      allocate (self%ports(n, ports), self%columns(n, ports + merge(1, 0, drives)), source=0.0_wp)
-      allocate (self%response(ports, ports + merge(1, 0, drives)), source=0.0_wp)
+      allocate (self%columns(n, loads), self%response(ports, loads), self%arm(3, self%wheels), &
+         self%gradient(12, self%springs), source=0.0_wp)
+      allocate (self%at_wheel(self%wheels), self%at_spring(2, self%springs), self%load(loads), self%column(loads), source=0)
+      do k = 1, self%wheels
+         self%at_wheel(k) = 6*(suspension%wheels(self%order(k))%body - 1)
+      end do
+      do k = 1, self%springs
+         associate (m => suspension%elements(self%spring(k))%measure)
+            self%at_spring(:, k) = [6*(m%body_i - 1), 6*(m%body_j - 1)]
+         end associate
+      end do
+      allocate (is_asked(loads), source=.true.)
+      call ask(self, is_asked, .true.)
    end function new_compliance
+
+   !> Restricts the responses to some loads, and to the ports of the wheels.
+   subroutine ask(self, is_asked, reads_springs)
+      type(compliance_t), intent(inout) :: self
+      logical, intent(in) :: is_asked(:)          !! of each load
+      logical, intent(in) :: reads_springs        !! also the lengths of the springs are asked
+      integer :: k
+
+      self%reads_springs = reads_springs
+      self%solved = 0
+      self%column = 0
+      do k = 1, size(is_asked)
+         if (.not. is_asked(k)) cycle
+         self%solved = self%solved + 1
+         self%load(self%solved) = k
+         self%column(k) = self%solved
+      end do
+      self%response = ieee_value(1.0_wp, ieee_quiet_nan)
+   end subroutine ask
 
    !> Fills `self%response` at an equilibrium under given inputs. Costs one factorisation and the solutions.
    !> Equations (C.1), (C.3) of docs/theory/compliance.md.
@@ -89,252 +122,279 @@ contains
       integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
       type(kkt_t), intent(inout) :: kkt           !! work space
       type(compliance_t), intent(inout) :: self   !! of new_compliance
-      integer :: j, p, info
 
       if (are_checked) call require(size(self%columns, 1) == kkt%n, 'wheel_compliance: work space of another model')
+      call assemble(suspension, state, inputs, whole_tangent, kkt)
+      call respond(suspension, state, inputs, steer_row, kkt, self)
+   end subroutine wheel_compliance
+
+   !> The motions of all bodies under the loads at the wheel centres, all asked, at the last state: for wheel_compliance_nearby.
+   pure subroutine keep_responses(self, kept)
+      type(compliance_t), intent(in) :: self
+      real(wp), intent(out) :: kept(:, :)         !! (load, unknown)
+      kept(:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (self%is_known) kept(:, :) = transpose(self%columns(:, :size(kept, 1)))
+   end subroutine keep_responses
+
+   !> The compliance of the wheels alone close to the state and the design of which the responses X are kept, without a factorisation:
+   !> C ≈ PᵀX + XᵀP − XᵀKX, with K and P of this state. The error is of second order in the distance, and even. For symmetric matrices.
+   !> Equation (E.8) of docs/theory/derivatives.md.
+   subroutine wheel_compliance_nearby(suspension, state, inputs, kept, kkt, self)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      real(wp), intent(in) :: kept(:, :)          !! of keep_responses
+      type(kkt_t), intent(inout) :: kkt           !! work space
+      type(compliance_t), intent(inout) :: self   !! of new_compliance, with all loads
+      integer :: j, n
+
+      n = size(kept, 1)
+      if (are_checked) call require(self%solved >= n .and. size(kept, 2) == kkt%n, 'wheel_compliance_nearby: of another model')
       call assemble(suspension, state, inputs, whole_tangent, kkt)
       do j = suspension%own_rows() + 1, suspension%constraints()
          call release(j, kkt)
       end do
       call set_ports(suspension, state, self)
-      p = size(self%ports, 2)
-      self%columns(:, :p) = self%ports
-      if (self%has_drive) then
-         self%columns(:, p + 1) = 0.0_wp
-         self%columns(kkt%nq + steer_row, p + 1) = 1.0_wp
-      end if
-
-      do j = 1, size(self%columns, 2)
-         self%columns(:, j) = self%columns(:, j)*kkt%scale
+      self%columns(:, :n) = transpose(kept)
+      do j = 1, n
+         call read_ports(j, self)
       end do
-      if (has_skew_part(suspension, inputs)) then
-         call solve_full(suspension, state, inputs, kkt, self)
+      self%response(:n, :n) = self%response(:n, :n) + transpose(self%response(:n, :n)) - &
+         quadratic_form(kkt%pattern%entries, kkt%pattern%row, kkt%pattern%column, kkt%pattern%from, kkt%store, n, kkt%n, kept)
+      self%is_known = .true.
+   end subroutine wheel_compliance_nearby
+
+   !> The same where the whole tangent of this state is assembled already.
+   !> Equations (C.1), (C.3) of docs/theory/compliance.md.
+   subroutine respond(suspension, state, inputs, steer_row, kkt, self)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      integer, intent(in) :: steer_row            !! row of the steering driver, 0: none
+      type(kkt_t), intent(inout) :: kkt           !! assembled; its matrix is then factorised
+      type(compliance_t), intent(inout) :: self   !! of new_compliance
+      integer :: j
+
+      do j = suspension%own_rows() + 1, suspension%constraints()
+         call release(j, kkt)
+      end do
+      call set_ports(suspension, state, self)
+      call set_loads(kkt%nq + steer_row, self)
+      self%is_skew = has_skew_part(suspension, inputs)
+      if (self%is_skew) then
+         call factorise_skew(suspension, state, inputs, singular, kkt, self%skew_system)
+         self%is_known = .not. self%skew_system%is_singular
+         if (self%is_known) then
+            call spread(self)
+            call solve_skew(self%skew_system, kkt, .false., size(self%columns, 2), self%columns)
+            call gather(self)
+         end if
       else
-         call factorise(kkt)
-         self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
-         info = 0
-         if (self%is_known) call dsytrs2('L', kkt%n, size(self%columns, 2), kkt%matrix, kkt%n, kkt%pivots, self%columns, &
-            kkt%n, kkt%work, info)
-         if (info /= 0) self%is_known = .false.
+         call solve_symmetric(kkt, self)
       end if
-      if (.not. self%is_known) then
-         self%response = ieee_value(1.0_wp, ieee_quiet_nan)
-         return
-      end if
-      do j = 1, size(self%columns, 2)
-         self%columns(:, j) = self%columns(:, j)*kkt%scale
-         do p = 1, size(self%ports, 2)
-            self%response(p, j) = dot_product(self%ports(:, p), self%columns(:, j))
-         end do
+      if (.not. self%is_known) self%response = ieee_value(1.0_wp, ieee_quiet_nan)
+      do j = 1, merge(self%solved, 0, self%is_known)
+         call read_ports(j, self)
       end do
-   end subroutine wheel_compliance
+   end subroutine respond
 
-   !> Removes a row of Φ from an assembled matrix.
-   !> Equation (C.5) of docs/theory/compliance.md.
-   pure subroutine release(row, kkt)
-      integer, intent(in) :: row
+   !> Factorises the assembled matrix and solves for the columns, without scales on input and output.
+   !> Equation (C.3) of docs/theory/compliance.md.
+   subroutine solve_symmetric(kkt, self)
       type(kkt_t), intent(inout) :: kkt
-      integer :: k
+      type(compliance_t), intent(inout) :: self
 
-      k = kkt%nq + row
-      kkt%matrix(k, :k - 1) = 0.0_wp
-      kkt%matrix(k, k) = -1.0_wp/kkt%scale(k)**2
-   end subroutine release
+      call factorise(kkt)
+      self%is_known = .not. kkt%is_singular .and. kkt%pivot_ratio > singular
+      if (.not. self%is_known) return
+      if (kkt%stage == lapack_factors) call spread(self)
+      call solve_many(kkt, merge(size(self%columns, 2), self%solved, kkt%stage == lapack_factors), self%columns)
+      if (kkt%stage == lapack_factors) call gather(self)
+   end subroutine solve_symmetric
 
-   !> The ports as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   !> Every load to the column of its own number, zeros between: the last digits of LAPACK's column depend on its number and on the
+   !> number of columns, by the kernels of the processor. A quantity is the same whatever else is asked.
+   pure subroutine spread(self)
+      type(compliance_t), intent(inout) :: self
+      integer :: j, k
+
+      do j = self%solved, 1, -1
+         k = self%load(j)                        ! never below j
+         if (k > j) self%columns(:, k) = self%columns(:, j)
+      end do
+      do k = 1, size(self%columns, 2)
+         if (self%column(k) == 0) self%columns(:, k) = 0.0_wp
+      end do
+   end subroutine spread
+
+   !> The solved loads to the first columns again.
+   pure subroutine gather(self)
+      type(compliance_t), intent(inout) :: self
+      integer :: j
+
+      do j = 1, self%solved
+         if (self%load(j) > j) self%columns(:, j) = self%columns(:, self%load(j))
+      end do
+   end subroutine gather
+
+   !> Where the ports are at a state: arms of the wheel centres, gradients of the lengths of springs.
    !> Equation (C.2) of docs/theory/compliance.md.
    pure subroutine set_ports(suspension, state, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(compliance_t), intent(inout) :: self
       type(evaluation_t) :: evaluation
-      real(wp) :: arm(3)
-      integer :: w, k, at, port
+      integer :: k
 
-      self%ports = 0.0_wp
-      do w = 1, self%wheels
-         associate (wheel => suspension%wheels(self%order(w)))
-            arm = rotated(state%poses(wheel%body + 1)%a, wheel%centre)
-            at = 6*(wheel%body - 1)
+      do k = 1, self%wheels
+         associate (wheel => suspension%wheels(self%order(k)))
+            self%arm(:, k) = rotated(state%poses(wheel%body + 1)%a, wheel%centre)
          end associate
-         do k = 1, 3
-            port = 6*(w - 1) + k
-            self%ports(at + k, port) = 1.0_wp
-            self%ports(at + 4:at + 6, port) = cross(arm, identity3(:, k))
-            self%ports(at + 3 + k, port + 3) = 1.0_wp
-         end do
       end do
+      if (.not. self%reads_springs) return
       do k = 1, self%springs
          associate (m => suspension%elements(self%spring(k))%measure)
-            port = 6*self%wheels + k
             call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
-            at = 6*(m%body_i - 1)
-            if (at >= 0) self%ports(at + 1:at + 6, port) = evaluation%gradient(1:6)
-            at = 6*(m%body_j - 1)
-            if (at >= 0) self%ports(at + 1:at + 6, port) = self%ports(at + 1:at + 6, port) + evaluation%gradient(7:12)
+            self%gradient(:, k) = evaluation%gradient
          end associate
       end do
    end subroutine set_ports
 
-   !> Scale of load k under given inputs.
-   pure real(wp) function factor_of(suspension, inputs, k) result(factor)
-      type(suspension_t), intent(in) :: suspension
-      type(inputs_t), intent(in) :: inputs
-      integer, intent(in) :: k
-
-      factor = 1.0_wp
-      if (suspension%loads(k)%is_case) factor = load_factor(inputs, k)
-   end function factor_of
-
-   !> Whether an active load has no potential.
-   pure logical function has_skew_part(suspension, inputs)
-      type(suspension_t), intent(in) :: suspension
-      type(inputs_t), intent(in) :: inputs
-      integer :: k
-
-      has_skew_part = .false.
-      do k = 1, size(suspension%loads)
-         if (.not. abs(factor_of(suspension, inputs, k)) > 0.0_wp) cycle
-         has_skew_part = has_skew_part .or. suspension%loads(k)%follows .or. any(abs(suspension%loads(k)%moment) > 0.0_wp)
-      end do
-   end function has_skew_part
-
-   !> Solves with T + N, scaled like T; the columns are scaled on input and output.
-   !> Equation (C.4) of docs/theory/compliance.md.
-   subroutine solve_full(suspension, state, inputs, kkt, self)
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(inputs_t), intent(in) :: inputs
-      type(kkt_t), intent(in) :: kkt
+   !> The loads as columns of generalised forces: a unit load at a point is [e; s×e] on its body, a moment [0; e].
+   !> Equation (C.2) of docs/theory/compliance.md.
+   pure subroutine set_loads(driven, self)
+      integer, intent(in) :: driven               !! equation of the steering driver
       type(compliance_t), intent(inout) :: self
-      real(wp) :: force(3), moment(3), arm(3), factor, pivots(kkt%n)
-      integer :: j, k, at, info
+      integer :: j, w, k, at
 
-      if (.not. allocated(self%full)) then
-         allocate (self%full(kkt%n, kkt%n), source=0.0_wp)
-         allocate (self%pivots(kkt%n), source=0)
+      self%columns = 0.0_wp
+      do j = 1, self%solved
+         w = (self%load(j) + 5)/6
+         k = self%load(j) - 6*self%wheels
+         if (w <= self%wheels) then
+            k = self%load(j) - 6*(w - 1)
+            at = self%at_wheel(w)
+            self%columns(at + k, j) = 1.0_wp
+            associate (s => self%arm(:, w), moment => self%columns(at + 4:at + 6, j))
+               select case (k)
+               case (1)
+                  moment(2) = s(3)
+                  moment(3) = -s(2)
+               case (2)
+                  moment(1) = -s(3)
+                  moment(3) = s(1)
+               case (3)
+                  moment(1) = s(2)
+                  moment(2) = -s(1)
+               end select
+            end associate
+         else if (k <= self%springs) then
+            call add_gradient(1.0_wp, self%gradient(:, k), self%at_spring(1, k), self%at_spring(2, k), self%columns(:, j))
+         else
+            self%columns(driven, j) = 1.0_wp
+         end if
+      end do
+   end subroutine set_loads
+
+   !> The displacements of the ports under a solved load, from those of the bodies.
+   !> Equation (C.3) of docs/theory/compliance.md.
+   pure subroutine read_ports(column, self)
+      integer, intent(in) :: column
+      type(compliance_t), intent(inout) :: self
+      integer :: k, at, p
+
+      associate (moves => self%columns(:, column), displacements => self%response(:, self%load(column)))
+         do k = 1, self%wheels
+            at = self%at_wheel(k)
+            p = 6*(k - 1)
+            associate (x => moves(at + 1:at + 3), turn => moves(at + 4:at + 6), s => self%arm(:, k))
+               displacements(p + 1) = x(1) + (turn(2)*s(3) - turn(3)*s(2))
+               displacements(p + 2) = x(2) + (turn(3)*s(1) - turn(1)*s(3))
+               displacements(p + 3) = x(3) + (turn(1)*s(2) - turn(2)*s(1))
+               displacements(p + 4:p + 6) = turn
+            end associate
+         end do
+         if (.not. self%reads_springs) return
+         do k = 1, self%springs
+            displacements(6*self%wheels + k) = along(self%gradient(:, k), self%at_spring(1, k), self%at_spring(2, k), moves)
+         end do
+      end associate
+   end subroutine read_ports
+
+   !> Change of a measure of two bodies under a load that was asked and solved.
+   pure real(wp) function move_of(self, load, gradient, body_i, body_j) result(change)
+      type(compliance_t), intent(in) :: self
+      integer, intent(in) :: load
+      real(wp), intent(in) :: gradient(12)        !! of the measure
+      integer, intent(in) :: body_i, body_j       !! its bodies, 0: the chassis
+
+      if (are_checked) call require(self%column(load) > 0, 'move_of: the load was not asked')
+      change = along(gradient, 6*(body_i - 1), 6*(body_j - 1), self%columns(:, self%column(load)))
+   end function move_of
+
+   !> A gradient times the displacements of its two bodies; a negative number: the chassis.
+   pure real(wp) function along(gradient, at_i, at_j, moves) result(change)
+      real(wp), intent(in) :: gradient(12)
+      integer, intent(in) :: at_i, at_j           !! unknowns before those of the body
+      real(wp), intent(in) :: moves(*)
+
+      change = 0.0_wp
+      if (at_i >= 0) change = dot_product(gradient(1:6), moves(at_i + 1:at_i + 6))
+      if (at_j >= 0) change = change + dot_product(gradient(7:12), moves(at_j + 1:at_j + 6))
+   end function along
+
+   !> The motions of all bodies and the changes of all reactions [u; μ] under the unit loads at the wheel centres, all of them
+   !> asked, and those from the left (of the transpose; the same where the matrix is symmetric). After `respond`, whose responses
+   !> to these loads are refined.
+   !> Equation (C.14) of docs/theory/compliance.md.
+   subroutine unit_responses(kkt, self, right, left)
+      type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`
+      type(compliance_t), intent(inout) :: self
+      real(wp), allocatable, intent(inout) :: right(:, :), left(:, :)     !! (unknown, load)
+      real(wp), allocatable :: solved(:, :), loads(:, :), matrix(:, :), rest(:, :)
+      integer :: n, j
+
+      n = 6*self%wheels
+      if (are_checked) call require(all(self%column(:n) > 0), 'unit_responses: a load was not asked')
+      allocate (solved, source=self%columns)
+      call set_loads(kkt%nq, self)
+      allocate (loads, source=self%columns(:, self%column(:n)))
+      self%columns(:, :) = solved
+      right = solved(:, self%column(:n))
+      ! a step of refinement: entries between both sides of an axle are small beside those of one side
+      if (self%is_skew) then
+         matrix = self%skew_system%matrix
+      else
+         matrix = whole_matrix(kkt)
       end if
-      do j = 1, kkt%n
-         self%full(j:, j) = kkt%matrix(j:, j)
-         self%full(j, j + 1:) = kkt%matrix(j + 1:, j)
+      rest = loads - matmul(matrix, right)
+      call solve_further(kkt, self, n, rest)
+      right = right + rest
+      do j = 1, n
+         self%columns(:, self%column(j)) = right(:, j)
+         call read_ports(self%column(j), self)
       end do
-      do k = 1, size(suspension%loads)
-         factor = factor_of(suspension, inputs, k)
-         associate (load => suspension%loads(k))
-            at = 6*(load%body - 1)
-            if (load%follows) then
-               call wrench(load, state%poses(load%body + 1), force, moment, arm)
-               call add(at, at + 3, 0.5_wp*factor*force)
-               call add(at + 3, at, 0.5_wp*factor*force)
-               call add(at + 3, at + 3, 0.5_wp*factor*moment)
-            else
-               call add(at + 3, at + 3, -0.5_wp*factor*load%moment)
-            end if
-         end associate
-      end do
-      do j = 1, kkt%n
-         self%full(:, j) = self%full(:, j)*(kkt%scale*kkt%scale(j))
-      end do
-      call dgesv(kkt%n, size(self%columns, 2), self%full, kkt%n, self%pivots, self%columns, kkt%n, info)
-      pivots = [(abs(self%full(j, j)), j=1, kkt%n)]
-      self%is_known = info == 0 .and. minval(pivots) > singular*maxval(pivots)
+      left = right
+      if (.not. self%is_skew) return
+      left = loads
+      call solve_skew(self%skew_system, kkt, .true., n, left)
+      rest = loads - matmul(transpose(matrix), left)
+      call solve_skew(self%skew_system, kkt, .true., n, rest)
+      left = left + rest
+   end subroutine unit_responses
 
-   contains
+   !> Solves for further columns of generalised forces [N, N m; m] with the matrix of the last state; on return [u; μ].
+   subroutine solve_further(kkt, self, many, columns)
+      type(kkt_t), intent(inout) :: kkt                     !! with the factors of `respond`
+      type(compliance_t), intent(in) :: self
+      integer, intent(in) :: many
+      real(wp), intent(inout) :: columns(kkt%n, many)
 
-      !> full(row+1:row+3, column+1:column+3) += p̃
-      subroutine add(row, column, p)
-         integer, intent(in) :: row, column
-         real(wp), intent(in) :: p(3)
-         self%full(row + 1:row + 3, column + 1:column + 3) = self%full(row + 1:row + 3, column + 1:column + 3) + skew(p)
-      end subroutine add
-
-   end subroutine solve_full
-
-   !> M = C B: loads at the contact points, displacements at the wheel centres.
-   !> Equation (C.7) of docs/theory/compliance.md.
-   pure function load_at_patch(c, arm) result(m)
-      real(wp), intent(in) :: c(:, :)
-      real(wp), intent(in) :: arm(:, :)      !! contact point less wheel centre, of each wheel in the order of C [m]
-      real(wp) :: m(size(c, 1), size(c, 2))
-      real(wp) :: moment(3)
-      integer :: w, k, at
-
-      m = c
-      do w = 1, size(arm, 2)
-         at = 6*(w - 1)
-         do k = 1, 3
-            moment = cross(arm(:, w), identity3(:, k))
-            m(:, at + k) = c(:, at + k) + moment(1)*c(:, at + 4) + moment(2)*c(:, at + 5) + moment(3)*c(:, at + 6)
-         end do
-      end do
-   end function load_at_patch
-
-   !> Bᵀ M: displacements of the contact points.
-   !> Equation (C.7) of docs/theory/compliance.md.
-   pure function read_at_patch(m, arm) result(cp)
-      real(wp), intent(in) :: m(:, :)
-      real(wp), intent(in) :: arm(:, :)
-      real(wp) :: cp(size(m, 1), size(m, 2))
-      integer :: w, j, at
-
-      cp = m
-      do w = 1, size(arm, 2)
-         at = 6*(w - 1)
-         do j = 1, size(m, 2)
-            cp(at + 1:at + 3, j) = m(at + 1:at + 3, j) + cross(m(at + 4:at + 6, j), arm(:, w))
-         end do
-      end do
-   end function read_at_patch
-
-   !> The displacements M while the heights of all wheel centres are held: M − C(:,z) C_zz⁻¹ M(z,:), z one row per wheel.
-   !> Equation (C.6) of docs/theory/compliance.md.
-   pure function hold(c, m) result(held)
-      real(wp), intent(in) :: c(:, :)        !! at the wheel centres
-      real(wp), intent(in) :: m(:, :)        !! response at the wheel centres to any loads
-      real(wp) :: held(size(m, 1), size(m, 2))
-      integer :: k
-
-      held = m
-      call lock(c, [(6*k - 3, k=1, size(c, 1)/6)], held)
-   end function hold
-
-   !> Takes from displacements M those of the loads at some ports that undo the displacements of these ports.
-   !>
-   !> The ports are held one after the other, the one that is most compliant then first; a port without compliance once others are
-   !> held (wheels that can only move together, two springs on one arm; below 1e-9 of its own compliance is rounding) is held
-   !> already.
-   !> Equation (C.6) of docs/theory/compliance.md.
-   !> Equation (S.8) of docs/theory/suspension.md.
-   pure subroutine lock(c, ports, m)
-      real(wp), intent(in) :: c(:, :)           !! response to the loads of all ports
-      integer, intent(in) :: ports(:)
-      real(wp), intent(inout) :: m(:, :)        !! response to any loads
-      real(wp) :: left(size(c, 1), size(ports)), own(size(ports)), column(size(c, 1)), compliance, most
-      logical :: is_held(size(ports))
-      integer :: k, j, next
-
-      left = c(:, ports)
-      own = [(abs(left(ports(k), k)), k=1, size(ports))]
-      is_held = own <= tiny(own)
-      do k = 1, size(ports)
-         next = 0
-         most = 0.0_wp
-         do j = 1, size(ports)
-            compliance = abs(left(ports(j), j))
-            if (is_held(j) .or. compliance <= 1.0e-9_wp*own(j) .or. compliance <= most) cycle
-            next = j
-            most = compliance
-         end do
-         if (next == 0) return
-         is_held(next) = .true.
-         column = left(:, next)/left(ports(next), next)
-         do j = 1, size(m, 2)
-            m(:, j) = m(:, j) - column*m(ports(next), j)
-         end do
-         do j = 1, size(ports)
-            if (.not. is_held(j)) left(:, j) = left(:, j) - column*left(ports(next), j)
-         end do
-      end do
-   end subroutine lock
+      if (self%is_skew) then
+         call solve_skew(self%skew_system, kkt, .false., many, columns)
+      else
+         call solve_many(kkt, many, columns)
+      end if
+   end subroutine solve_further
 
 end module ek_compliance

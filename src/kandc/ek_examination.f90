@@ -8,14 +8,14 @@ module ek_examination
    use ek_text, only: quoted
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
-   use ek_rig, only: mount, mounted_case_t, mount_case
+   use ek_rig, only: mount, mounted_case_t, mount_case, mount_again
    use ek_state, only: design_state
    use ek_kkt, only: kkt_t
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_soundness, only: is_surely_sound
    use ek_sweep_table, only: sweep_columns
    use ek_target, only: find_column
-   use ek_table, only: name_length
+   use ek_table, only: name_length, name_index
    implicit none(type, external)
    private
    public :: examination_t, examine_cases, examine_case, known_case_t, add_distinct, check_inputs
@@ -97,16 +97,25 @@ contains
       type(case_t), intent(in) :: case
       type(diagnosis_t), intent(out) :: diagnosis
       type(known_case_t), intent(inout), optional :: known
-      type(mounted_case_t), intent(inout), optional, target :: mounted     !! of mount_case, unless the case cannot be mounted
-      logical, intent(out), optional :: is_in_doubt      !! if present, a doubtful design is not diagnosed, which takes text
-      type(mounted_case_t), target :: own
+      type(mounted_case_t), intent(inout), optional, target :: mounted     !! unless the case cannot be mounted
+      !> if present, a doubtful design is not diagnosed, which takes text; `mounted` is of this case of an earlier design, or empty
+      logical, intent(out), optional :: is_in_doubt
+      type(mounted_case_t), allocatable, target :: own
       type(mounted_case_t), pointer :: this
 
       if (present(is_in_doubt)) is_in_doubt = .false.
       if (.not. is_mountable(case)) return
-      this => own
-      if (present(mounted)) this => mounted
-      call mount_case(base, case, this)
+      if (present(mounted)) then
+         this => mounted
+      else
+         allocate (own)
+         this => own
+      end if
+      if (present(is_in_doubt)) then
+         call mount_again(base, case, this)
+      else
+         call mount_case(base, case, this)
+      end if
       call examine_mounted(this%suspension, this%kkt, diagnosis, known, is_in_doubt)
    end subroutine examine_case
 
@@ -120,7 +129,10 @@ contains
 
       if (present(known)) then
          if (known%is_known .and. known%unknowns == kkt%nq .and. known%constraints == kkt%nc) then
-            if (is_surely_sound(suspension, design_state(suspension), known%negative, kkt)) return
+            if (is_surely_sound(suspension, design_state(suspension), known%negative, kkt)) then
+               kkt%is_at_design = kkt%fallbacks == 0      ! for the first state of its path
+               return
+            end if
          end if
       end if
       if (present(is_in_doubt)) then
@@ -238,7 +250,7 @@ contains
       this%has_all = .true.
       call sweep_columns(suspension, this, columns)
       do k = 2, size(columns)
-         if (.not. any(columns(:k - 1) == columns(k))) cycle
+         if (name_index(columns(:k - 1), columns(k)) == 0) cycle
          owners = ''
          place = cases(1)%where(:index(cases(1)%where, ':', back=.true.) - 1)
          do m = 1, suspension%scalars

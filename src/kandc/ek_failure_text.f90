@@ -3,10 +3,13 @@ module ek_failure_text
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, quoted, plural
    use ek_measure, only: measure_value
-   use ek_element, only: element_kinds, element_label
+   use ek_element, only: element_kinds
+   use ek_element_label, only: element_label
    use ek_element_force, only: spring_tension
-   use ek_suspension, only: suspension_t, body_name
+   use ek_suspension, only: suspension_t, body_name, driver_unit
+   use ek_rig_test, only: swept_unit
    use ek_case, only: case_t, scales_loads
+   use ek_grid, only: is_grid
    use ek_state, only: state_t, inputs_t, design_state, unpack_state
    use ek_schedule, only: new_schedule, inputs_at
    use ek_kkt, only: kkt_t
@@ -39,6 +42,7 @@ contains
          text = 'no equilibrium under the constant loads'
       else if (path%is_table) then
          text = row_text(path, failure)
+         if (is_grid(case)) text = grid_text(suspension, case, path)
       else if (failure%ending /= arrived) then
          text = arc_text(case, path, failure)
          if (failure%ending /= stuck) return
@@ -182,6 +186,29 @@ contains
       if (row > 1) text = text//'row '//str(row - 1)
       text = text//' to row '//str(row)//' is at '//str(100.0_wp*(failure%reached - row + 1), 4)//' %'
    end function row_text
+
+   !> The states of a grid that did not converge, by travel and driver.
+   function grid_text(suspension, case, path) result(text)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case             !! on the rig
+      type(path_t), intent(in) :: path
+      character(:), allocatable :: text
+      integer, parameter :: max_named = 6
+      character(3) :: unit
+      integer :: lost(count(.not. path%is_reached)), k
+
+      unit = driver_unit(suspension, case%drive)
+      lost = nint(pack(path%value, .not. path%is_reached))
+      text = 'no equilibrium at '//str(size(lost))//' of '//plural(path%states, 'state', 'states')//' of the grid:'
+      associate (travel => case%actuations(1)%values, steer => case%actuations(size(case%actuations))%values)
+         do k = 1, min(size(lost), max_named)
+            text = text//trim(merge(', ', '  ', k > 1))//' travel '//str(travel(lost(k))/swept_unit('mm'), 6)//' mm with '// &
+               case%drive//' '//str(steer(lost(k))/swept_unit(unit), 6)//' '//trim(unit)
+         end do
+      end associate
+      if (size(lost) > max_named) text = text//', …'
+      text = text//'; the others are there. Use a shorter range, or more increments'
+   end function grid_text
 
    !> One warning each on: states with a negative stiffness, limit points and bifurcations on the path, nearly singular matrices.
    subroutine stability_remarks(case, path, remarks)

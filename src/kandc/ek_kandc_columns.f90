@@ -1,303 +1,279 @@
-!> The columns of the K&C quantities: those that a model defines, and their values at a state.
+!> The values of the K&C quantities at a state.
 !>
-!> The sections of ek_quantity give names, units and conditions; each kernel here returns the values of its section in SI, in the
-!> same order. A quantity without a value at a state is not a number.
+!> The sections of ek_quantity give names, units and conditions; the values of each section are computed in SI, in the same order,
+!> if one of its columns is asked: here, in ek_wheel_columns and in ek_geometry_columns. A quantity
+!> without a value at a state is not a number.
 !>
 !> The ending of a column names the quantity whose slope it is: `…_steer`, `…_toe`, `…_camber`, `…_caster` are the
 !> derivatives of the columns steer_deg, toe_deg, camber_deg and caster_deg; `…_rotation_x`, `…_y`, `…_z` are the
 !> rotation of the carrier about an axis of the deck's frame; `…_deflection` is the movement of the contact point (of the
 !> wheel centre in traction), `…_centre_deflection` that of the wheel centre.
 module ek_kandc_columns
-   use ek_kinds, only: wp, pi
-   use ek_quantity, only: wheel_rates, wheel_forces, wheel_stiffness, of_axle, of_steering, wheel_geometry, axle_geometry, &
-      of_rack
+   use ek_kinds, only: wp, pi, millimetre
    use ek_measure, only: measure_value
-   use ek_element, only: element_kinds, measure_spring, is_of_angle
-   use ek_suspension, only: suspension_t, driver_row
+   use ek_suspension, only: suspension_t
    use ek_state, only: state_t, inputs_t
-   use ek_kkt, only: kkt_t
-   use ek_attitude, only: attitude_t, wheel_attitude, steer_axis_t, axis_values, static_toe, vertical_force
-   use ek_wheel_side, only: is_axle, prefix_of, design_track, deck_frame
-   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance
-   use ek_characteristics, only: wheel_characteristics_t, axle_characteristics_t, stand_t, response_t, wheel_characteristics, &
-      axle_characteristics, motion_ratio, quotient, in_phase, anti_phase, load_held, height_held
-   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, conditions_of
-   use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, &
-      turning_circle
-   use ek_geometry_columns, only: wheel_geometry_values, axle_geometry_values, element_values, instant_axis, locked_twist
+   use ek_kkt, only: kkt_t, assemble, whole_tangent
+   use ek_attitude, only: attitude_t, wheel_attitude, axis_values, vertical_force
+   use ek_compliance, only: respond
+   use ek_port_response, only: find_lock
+   use ek_loaded_wheels, only: stand_t, load_wheels, quotient
+   use ek_characteristics, only: wheel_characteristics, motion_ratio, wheel_groups
+   use ek_axle_characteristics, only: axle_characteristics
+   use ek_kandc_list, only: kandc_t, begin_design, at_now, at_load, at_instant_axis, at_axle_rates, at_axle_now, at_roll_centres, &
+      at_turn, at_steering, at_wheel_axis, at_instant_distances, at_slopes, at_axle_geometry, at_travel_left, at_motion_ratio, &
+      at_rack, at_spring
+   use ek_wheel_columns, only: wheel_values
+   use ek_column_list, only: fill_block
+   use ek_steer_angle, only: steer_of, steer_rate, axle_roll, inclination_of, ackermann_percent, ackermann_error, turning_circle
+   use ek_geometry_columns, only: axis_geometry, instant_geometry, slope_values, axle_geometry_values, travel_left, length_ratio, &
+      instant_axis, locked_twists
    implicit none(type, external)
    private
-   public :: kandc_t, start_kandc, same_columns, observe_kandc
+   public :: observe_kandc, fill_kandc
 
    real(wp), parameter :: min_rack_rate = 1.0e-6_wp              !! rad/m: a rack that does not steer
-
-   !> The columns of a model and the work space to fill them.
-   type, extends(column_list_t) :: kandc_t
-      integer :: steer_row = 0                 !! row of Φ of the steering driver, 0: none
-      integer, allocatable :: has(:)           !! conditions of ek_quantity: of each wheel, and without a wheel
-      real(wp), allocatable :: values(:)       !! of the columns, in their units
-      type(compliance_t) :: compliance
-   end type kandc_t
+   integer, parameter :: most = 40                               !! values of a section
 
 contains
 
-   !> The names of all columns that a model defines: self%names(:self%used). Blocks: each wheel, the axle with its steering,
-   !> the geometry of each wheel, that of the axle, elements, springs.
-   subroutine start_kandc(suspension, self)
-      type(suspension_t), intent(in) :: suspension
-      type(kandc_t), intent(out) :: self
-      integer :: both, k, w, held
-
-      if (suspension%steering%has_steering) self%steer_row = driver_row(suspension, suspension%steering%driver)
-      self%compliance = new_compliance(suspension, self%steer_row > 0)
-      allocate (self%has(0:size(suspension%wheels)))
-      call conditions_of(suspension, self%compliance%order, self%steer_row > 0, self%has)
-      both = self%has(0)
-      call begin_list(self, 256)
-      do k = 1, self%compliance%wheels
-         w = self%compliance%order(k)
-         call add_quantities(self, wheel_rates, prefix_of(suspension, w), self%has(k))
-         do held = load_held, height_held
-            call add_quantities(self, wheel_forces, prefix_of(suspension, w), self%has(k), held)
-         end do
-         call add_quantities(self, wheel_stiffness, prefix_of(suspension, w), self%has(k))
-         call end_block(self)
-      end do
-      call add_quantities(self, of_axle, '', both)
-      call add_quantities(self, of_steering, '', both)
-      call end_block(self)
-      do k = 1, self%compliance%wheels
-         call add_quantities(self, wheel_geometry, prefix_of(suspension, self%compliance%order(k)), self%has(k))
-         call end_block(self)
-      end do
-      call add_quantities(self, axle_geometry, '', both)
-      call end_block(self)
-      do k = 1, merge(size(suspension%elements), 0, self%compliance%wheels > 0)      ! without a wheel there is no travel
-         associate (element => suspension%elements(k))
-            if (element_kinds(element%kind)%has_gap) call add_column(self, element%name//'_travel_left_mm', .true.)
-            if (element%kind == measure_spring) then
-               if (.not. is_of_angle(element%measure%kind)) call add_column(self, element%name//'_motion_ratio', .true.)
-            end if
-         end associate
-      end do
-      call add_quantities(self, of_rack, '', both)
-      call end_block(self)
-      do k = 1, merge(self%compliance%springs, 0, self%compliance%wheels > 0)
-         call add_column(self, suspension%elements(self%compliance%spring(k))%name//'_motion_ratio', .true.)
-      end do
-      call end_block(self)
-      allocate (self%values(self%used), source=0.0_wp)
-   end subroutine start_kandc
-
-   !> Whether another design of the same parts has the columns of `self`.
-   logical function same_columns(suspension, self)
-      type(suspension_t), intent(in) :: suspension
-      type(kandc_t), intent(in) :: self
-      integer :: has(0:size(suspension%wheels))
-
-      same_columns = .false.
-      if (size(has) /= size(self%has)) return
-      call conditions_of(suspension, self%compliance%order, self%steer_row > 0, has)
-      same_columns = all(has == self%has)
-   end function same_columns
-
-   !> Fills self%values at an equilibrium: all of them, or those of `choose`.
+   !> Fills self%values at an equilibrium: all of them, or those of `choose_kandc`.
    subroutine observe_kandc(suspension, state, inputs, kkt, self)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
       type(inputs_t), intent(in) :: inputs
       type(kkt_t), intent(inout) :: kkt          !! work space
       type(kandc_t), intent(inout) :: self
-      type(attitude_t) :: now(size(suspension%wheels))
-      real(wp) :: vertical(size(suspension%wheels)), springs(self%compliance%springs), rack
-      type(stand_t) :: stand
-      integer :: w, k, n
+      type(attitude_t) :: wheels(size(suspension%wheels))
+      integer :: k
 
-      if (self%is_matrix_wanted) call wheel_compliance(suspension, state, inputs, self%steer_row, kkt, self%compliance)
-      n = size(suspension%wheels)
-      do k = 1, n
-         w = self%compliance%order(k)
-         now(k) = wheel_attitude(suspension, state, w)
-         vertical(k) = vertical_force(suspension, state, inputs, w)
+      do k = 1, size(wheels)
+         wheels(k) = wheel_attitude(suspension, state, k)
       end do
-      if (is_axle(suspension)) stand = stand_of(suspension, now, self%compliance%order)
-      do k = 1, n
-         if (self%is_wanted(k)) call fill(k, wheel_values(suspension, k, now(k), vertical(k), stand, self))
-         if (self%is_wanted(n + 1 + k)) call fill(n + 1 + k, wheel_geometry_values(suspension, self%compliance, now(k), k))
-      end do
-      if (self%is_wanted(n + 1)) call fill(n + 1, [axle_values(suspension, now, vertical, stand, self), &
-         steering_values(suspension, state, now, self)])
-      if (self%is_wanted(2*n + 2)) call fill(2*n + 2, axle_geometry_values(suspension, self%compliance, now))
-      rack = 0.0_wp
-      if (self%steer_row > 0) rack = -state%reaction(self%steer_row)
-      if (self%is_wanted(2*n + 3)) call fill(2*n + 3, [element_values(suspension, self%compliance, state), rack])
-      if (.not. self%is_wanted(2*n + 4)) return
-      springs = 0.0_wp
-      if (self%compliance%is_known .and. n > 0) then
-         do k = 1, size(springs)
-            springs(k) = motion_ratio(self%compliance%response(:6*n, :6*n), self%compliance%response(6*n + k, :6*n))
-         end do
-      end if
-      call fill(2*n + 4, springs)
-
-   contains
-
-      subroutine fill(block, vector)
-         integer, intent(in) :: block
-         real(wp), intent(in) :: vector(:)
-         call fill_block(self%column_list_t, block, vector, self%compliance%is_known, self%values)
-      end subroutine fill
-
+      call begin_design(suspension, self)
+      if (self%is_matrix_wanted) call assemble(suspension, state, inputs, whole_tangent, kkt)
+      call fill_kandc(suspension, state, inputs, wheels, kkt, self)
    end subroutine observe_kandc
 
-   !> Positions of wheels of the compliance matrix: both of an axle, or a single one.
-   type(stand_t) function stand_of(suspension, now, order) result(stand)
+   !> The same where the attitudes of the wheels are known, and the whole tangent is assembled if self%is_matrix_wanted.
+   subroutine fill_kandc(suspension, state, inputs, wheels, kkt, self)
       type(suspension_t), intent(in) :: suspension
-      type(attitude_t), intent(in) :: now(:)
-      integer, intent(in) :: order(:)          !! numbers of these wheels
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      type(attitude_t), intent(in) :: wheels(:)  !! of the suspension, if self%has_wheels
+      type(kkt_t), intent(inout) :: kkt          !! its matrix is then factorised
+      type(kandc_t), intent(inout) :: self
+      real(wp) :: values(most)
+      integer :: b, k
+
+      if (self%is_matrix_wanted) call respond(suspension, state, inputs, self%steer_row, kkt, self%compliance)
+      if (self%is_pair .and. self%has_wheels) call set_stand(wheels, self)
+      if (self%is_asked(at_load) .or. self%is_asked(at_axle_now)) then
+         do k = 1, self%compliance%wheels
+            self%vertical(k) = vertical_force(suspension, state, inputs, self%compliance%order(k))
+         end do
+      end if
+      if (self%is_matrix_wanted .and. self%compliance%is_known) call characterise(suspension, wheels, self)
+      values = 0.0_wp
+      do k = 1, size(self%blocks)
+         b = self%blocks(k)
+         if (self%section(b) <= wheel_groups) then
+            call wheel_values(self%section(b), self%wheel(self%item(b)), self%frame, values)
+         else
+            call section_values(suspension, state, wheels, self%section(b), self%item(b), self, values)
+         end if
+         call fill_block(self%column_list_t, b, values, self%compliance%is_known, self%values)
+      end do
+   end subroutine fill_kandc
+
+   !> Positions of both wheels of an axle.
+   pure subroutine set_stand(wheels, self)
+      type(attitude_t), intent(in) :: wheels(:)
+      type(kandc_t), intent(inout) :: self
       integer :: k
 
-      do k = 1, size(now)
-         stand%axes(k) = now(k)%axes
-         stand%centre(:, k) = now(k)%at_centre
-         stand%arm(:, k) = now(k)%at_contact - now(k)%at_centre
-         stand%tyre_rate(k) = suspension%wheels(order(k))%tyre_rate
+      do k = 1, 2
+         call stand_wheel(wheels(self%compliance%order(k)), k, self%stand)
       end do
-      if (size(now) < 2) return
-      stand%track = design_track(suspension)
-      stand%roll = axle_roll(now(1)%at_contact, now(2)%at_contact, stand%track)
-   end function stand_of
+      self%stand%roll = axle_roll(wheels(self%compliance%order(1))%at_contact, wheels(self%compliance%order(2))%at_contact, &
+         self%stand%track)
+   end subroutine set_stand
 
-   !> The values of wheel_rates, wheel_forces with loads and with heights held, and wheel_stiffness.
-   function wheel_values(suspension, place, now, vertical, both, self) result(values)
-      type(suspension_t), intent(in) :: suspension
-      integer, intent(in) :: place               !! index of the wheel in the compliance matrix
+   pure subroutine stand_wheel(now, k, stand)
       type(attitude_t), intent(in) :: now
-      real(wp), intent(in) :: vertical               !! force of the ground [N]
-      type(stand_t), intent(in) :: both          !! both wheels of an axle
-      type(kandc_t), intent(in) :: self
-      real(wp) :: values(size(wheel_rates) + 2*size(wheel_forces) + size(wheel_stiffness))
-      type(wheel_characteristics_t) :: is
-      type(steer_axis_t) :: instant
-      type(stand_t) :: stand
-      real(wp) :: frame(3)
-      integer :: at
+      integer, intent(in) :: k
+      type(stand_t), intent(inout) :: stand
 
-      frame = deck_frame(suspension)
-      stand = both
-      at = place
-      if (.not. is_axle(suspension)) then
-         at = 1
-         stand = stand_of(suspension, [now], [self%compliance%order(place)])
-      end if
-      associate (side => now%axes%side, axle => suspension%axle, c => self%compliance%response)
-         if (self%compliance%is_known) then
-            instant = instant_axis(self%compliance, place, side, now%at_centre, now%at_contact)
-            if (is_axle(suspension)) then
-               is = wheel_characteristics(c(:12, :12), stand, place, axle)
+      stand%axes(k) = now%axes
+      stand%centre(:, k) = now%at_centre
+      stand%arm(:, k) = now%at_contact - now%at_centre
+   end subroutine stand_wheel
+
+   !> What several sections need of a known compliance matrix.
+   subroutine characterise(suspension, wheels, self)
+      type(suspension_t), intent(in) :: suspension
+      type(attitude_t), intent(in) :: wheels(:)
+      type(kandc_t), intent(inout) :: self
+      integer :: k, at
+
+      associate (c => self%compliance%response)
+         if (self%locks_heights) call find_lock(c, self%heights, self%held_heights)
+         if (self%locks_springs) then
+            if (self%compliance%springs > 0) then
+               call find_lock(c, self%springs, self%held_springs)
+               call locked_twists(self%compliance, self%held_springs, self%moves, self%free_twist)
             else
-               is = wheel_characteristics(c(6*place - 5:6*place, 6*place - 5:6*place), stand, 1, axle)
+               call locked_twists(self%compliance, self%held_heights, self%moves, self%free_twist)
             end if
          end if
-         values = [steer_of(now%toe, side), inclination_of(now%camber, side, stand%roll), vertical, axis_values(instant), &
-            is%wheel_rate, is%single_rate, is%ride_rate, is%hop_rate, &
-            is%bump%steer, is%bump%camber, is%bump%caster, is%bump%toe, frame*is%bump%rotation, &
-            is%roll%steer, is%roll%camber, is%roll%caster, 100.0_wp*is%roll%steer, frame*is%roll%rotation, &
-            is%wheel_roll%steer, is%wheel_roll%camber, is%wheel_roll%caster, 100.0_wp*is%wheel_roll%steer, &
-            frame*is%wheel_roll%rotation, &
-            is%side_arm_length, is%side_arm_angle, frame([1, 3])*is%side_arm_centre, &
-            is%front_arm_length, is%front_arm_angle, frame(2:3)*is%front_arm_centre, &
-            force_values(is, load_held, frame), force_values(is, height_held, frame), &
-            is%jacking, is%stiffness, &
-            100.0_wp*is%anti_brake, 100.0_wp*is%anti_drive, 100.0_wp*is%anti_brake, 100.0_wp*is%anti_drive, &
-            is%brake_travel, -is%drive_travel, -is%brake_travel, is%drive_travel]      ! the body moves down if the wheel moves up
+         if (self%is_asked(at_steering) .or. self%is_asked(at_slopes) .and. self%compliance%has_drive) &
+            call locked_twists(self%compliance, self%held_heights, self%moves, self%held_twist)
+         if (self%is_pair) then
+            call load_wheels(c(:12, :12), self%stand%arm, self%has_patch, self%has_held, self%held_heights, self%loaded)
+            do k = 1, 2
+               if (any(self%is_group_asked(:, k))) call wheel_characteristics(self%loaded, self%stand, k, suspension%axle, &
+                  self%is_group_asked(:, k), self%wheel(k))
+            end do
+            if (self%is_asked(at_axle_rates) .or. self%is_asked(at_roll_centres)) &
+               call axle_characteristics(self%loaded, self%stand, self%is_asked(at_roll_centres), self%axle)
+            return
+         end if
+         do k = 1, self%compliance%wheels       ! each by itself
+            if (.not. any(self%is_group_asked(:, k))) cycle
+            at = 6*(k - 1)
+            call stand_wheel(wheels(self%compliance%order(k)), 1, self%stand)
+            self%stand%tyre_rate(1) = suspension%wheels(self%compliance%order(k))%tyre_rate
+            if (self%has_held) call find_lock(c(at + 1:at + 6, at + 1:at + 6), [3], self%held_wheel)
+            call load_wheels(c(at + 1:at + 6, at + 1:at + 6), self%stand%arm(:, 1:1), self%has_patch, self%has_held, &
+               self%held_wheel, self%loaded)
+            call wheel_characteristics(self%loaded, self%stand, 1, suspension%axle, self%is_group_asked(:, k), self%wheel(k))
+         end do
       end associate
-   end function wheel_values
+   end subroutine characterise
 
-   !> The values of wheel_forces under one condition.
-   pure function force_values(is, held, frame) result(values)
-      type(wheel_characteristics_t), intent(in) :: is
-      integer, intent(in) :: held
-      real(wp), intent(in) :: frame(3)
-      real(wp) :: values(size(wheel_forces))
+   !> The values of a section that is not one of a wheel's characteristics, SI.
+   subroutine section_values(suspension, state, wheels, section, item, self, values)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(attitude_t), intent(in) :: wheels(:)
+      integer, intent(in) :: section
+      integer, intent(in) :: item             !! of a wheel its index in the compliance matrix, of an element its number
+      type(kandc_t), intent(in) :: self
+      real(wp), intent(inout) :: values(most) !! the first are set
+      real(wp) :: lift(6), length(2)
+      integer :: w, at
 
-      associate (braking => is%braking(held), traction => is%traction(held))
-         values = [lateral(is%lateral(in_phase, held)), lateral(is%lateral_trail(in_phase, held)), &
-            is%aligning(in_phase, held)%steer, is%aligning(in_phase, held)%camber, &
-            lateral(is%lateral(anti_phase, held)), lateral(is%lateral_trail(anti_phase, held)), &
-            is%aligning(anti_phase, held)%steer, is%aligning(anti_phase, held)%camber, &
-            braking%patch(1), braking%steer, braking%camber, braking%caster, braking%toe, frame*braking%rotation, &
-            braking%centre(1), &
-            -traction%centre(1), traction%steer, traction%camber, traction%caster, traction%toe, frame*traction%rotation]
+      associate (order => self%compliance%order, c => self%compliance%response, stand => self%stand, axle => suspension%axle, &
+         is => self%axle)
+         select case (section)
+         case (at_now)
+            associate (now => wheels(order(item)))
+               values(1) = steer_of(now%toe, now%axes%side)
+               values(2) = inclination_of(now%camber, now%axes%side, stand%roll)
+            end associate
+         case (at_load)
+            values(1) = self%vertical(item)
+         case (at_instant_axis)
+            if (self%compliance%is_known) &
+               values(1:6) = axis_values(instant_axis(self%free_twist(:, item), self%compliance%has_drive, wheels(order(item))))
+         case (at_instant_distances)
+            if (self%compliance%is_known) call instant_geometry(self%free_twist(:, item), wheels(order(item)), values(1:4))
+         case (at_wheel_axis)
+            call axis_geometry(wheels(order(item)), self%frame, values(1:8))
+         case (at_slopes)
+            if (.not. self%compliance%is_known) return
+            at = 6*(item - 1)
+            lift = c(at + 1:at + 6, at + 3)
+            if (self%compliance%wheels == 2) lift = lift + c(at + 1:at + 6, 9 - at)
+            w = order(item)
+            call slope_values(lift, self%held_twist(:, item), suspension%wheels(w)%tyre_rate, self%mass(item), wheels(w), &
+               values(1:3))
+         case (at_axle_rates)
+            values(1) = is%suspension_roll_rate
+            values(2) = is%total_roll_rate
+            values(3) = is%tramp_rate
+         case (at_axle_now)
+            values(1) = 0.5_wp*stand%track*(self%vertical(1) - self%vertical(2))
+            values(2) = stand%roll
+         case (at_roll_centres)
+            values(1) = self%frame(2)*is%roll_centre(1)
+            values(2) = is%roll_centre(2)
+            values(3) = is%roll_centre(2) - ground()
+            values(4) = self%frame(2)*is%tyre_roll_centre(1)
+            values(5) = is%tyre_roll_centre(2) - ground()
+            values(6) = is%force_roll_centre
+         case (at_turn)
+            call turn_values(wheels(order(1)), wheels(order(2)), axle%wheelbase, self, values(1:3))
+         case (at_steering)
+            call steering_values(suspension, state, wheels, self, values(1:2))
+         case (at_axle_geometry)
+            call axle_geometry_values(axle, self%tyre_width, self%has_turn, self%static, wheels(order(1)), wheels(order(2)), &
+               values(1:6))
+         case (at_travel_left)
+            values(1) = travel_left(suspension, self%compliance, state, item)/millimetre
+         case (at_motion_ratio)
+            values(1) = length_ratio(suspension, self%compliance, state, item)
+         case (at_rack)
+            values(1) = -state%reaction(self%steer_row)
+         case (at_spring)
+            at = 6*self%compliance%wheels
+            if (.not. self%compliance%is_known) return
+            length = 0.0_wp
+            do w = 1, min(self%compliance%wheels, 2)
+               length(w) = c(at + item, 6*w - 3)
+            end do
+            values(1) = motion_ratio(c(:at, :at), length)
+         end select
       end associate
 
    contains
 
-      pure function lateral(response)
-         type(response_t), intent(in) :: response
-         real(wp) :: lateral(4)
-         lateral = [response%patch(2), response%centre(2), response%steer, response%camber]
-      end function lateral
+      !> Mean height of the contact points.
+      pure real(wp) function ground()
+         ground = 0.5_wp*sum(self%stand%centre(3, :) + self%stand%arm(3, :))
+      end function ground
 
-   end function force_values
+   end subroutine section_values
 
-   !> The values of of_axle; 0 unless there are two wheels.
-   function axle_values(suspension, now, vertical, stand, self) result(values)
-      type(suspension_t), intent(in) :: suspension
-      type(attitude_t), intent(in) :: now(:)             !! left, right
-      real(wp), intent(in) :: vertical(:)
-      type(stand_t), intent(in) :: stand
+   !> The values of of_turn, with &axle and a rack.
+   pure subroutine turn_values(left_now, right_now, wheelbase, self, values)
+      type(attitude_t), intent(in) :: left_now, right_now
+      real(wp), intent(in) :: wheelbase
       type(kandc_t), intent(in) :: self
-      real(wp) :: values(size(of_axle))
-      type(axle_characteristics_t) :: is
-      real(wp) :: frame(3), ground, left, right, turn(3)
+      real(wp), intent(inout) :: values(3)
+      real(wp) :: left, right
 
-      values = 0.0_wp
-      if (.not. is_axle(suspension)) return
-      associate (c => self%compliance%response, axle => suspension%axle, track => stand%track)
-         if (self%compliance%is_known) is = axle_characteristics(c(:12, :12), stand)
-         frame = deck_frame(suspension)
-         ground = 0.5_wp*sum(stand%centre(3, :) + stand%arm(3, :))
-         turn = 0.0_wp
-         if (axle%has_axle .and. self%steer_row > 0) then
-            left = steer_of(now(1)%toe, -1)
-            right = steer_of(now(2)%toe, 1)
-            turn(1) = turning_circle(left, right, axle%wheelbase)
-            ! the effect of the steering, without the static toe
-            left = left - steer_of(static_toe(suspension%wheels(self%compliance%order(1))), -1)
-            right = right - steer_of(static_toe(suspension%wheels(self%compliance%order(2))), 1)
-            turn(2) = ackermann_percent(left, right, axle%wheelbase, track)
-            turn(3) = ackermann_error(left, right, axle%wheelbase, track)
-         end if
-         values = [is%suspension_roll_rate, is%total_roll_rate, is%tramp_rate, 0.5_wp*track*(vertical(1) - vertical(2)), &
-            stand%roll, frame(2)*is%roll_centre(1), is%roll_centre(2), is%roll_centre(2) - ground, &
-            frame(2)*is%tyre_roll_centre(1), is%tyre_roll_centre(2) - ground, is%force_roll_centre, turn]
-      end associate
-   end function axle_values
+      left = steer_of(left_now%toe, -1)
+      right = steer_of(right_now%toe, 1)
+      values(1) = turning_circle(left, right, wheelbase)
+      ! the effect of the steering, without the static toe
+      left = left - self%static(1)
+      right = right - self%static(2)
+      values(2) = ackermann_percent(left, right, wheelbase, self%stand%track)
+      values(3) = ackermann_error(left, right, wheelbase, self%stand%track)
+   end subroutine turn_values
 
-   !> The values of of_steering; 0 without a rack and its ratio.
-   function steering_values(suspension, state, now, self) result(values)
+   !> The values of of_steering.
+   pure subroutine steering_values(suspension, state, wheels, self, values)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(attitude_t), intent(in) :: now(:)       !! in the order of the compliance matrix
+      type(attitude_t), intent(in) :: wheels(:)
       type(kandc_t), intent(in) :: self
-      real(wp) :: values(size(of_steering)), rate, twist(6), per_rack
+      real(wp), intent(inout) :: values(2)
+      real(wp) :: rate, per_rack
       integer :: k
 
-      values = 0.0_wp
-      if (self%steer_row == 0 .or. .not. abs(suspension%steering%ratio) > 0.0_wp) return
       per_rack = 2.0_wp*pi/abs(suspension%steering%ratio)
       rate = 0.0_wp
       if (self%compliance%is_known) then
          do k = 1, self%compliance%wheels
-            twist = locked_twist(self%compliance, k, .true.)
-            rate = rate + steer_rate(now(k)%axes%spin, twist(4:6))/self%compliance%wheels
+            rate = rate + steer_rate(wheels(self%compliance%order(k))%axes%spin, self%held_twist(4:6, k))/self%compliance%wheels
          end do
       end if
       ! the angle of the steering wheel is positive to the left for either direction of the rack
-      values = [quotient(per_rack, abs(rate), min_rack_rate), &
-         sign(per_rack, rate)*row_change(suspension, state, self%steer_row)]
-   end function steering_values
+      values(1) = quotient(per_rack, abs(rate), min_rack_rate)
+      values(2) = sign(per_rack, rate)*row_change(suspension, state, self%steer_row)
+   end subroutine steering_values
 
    !> Prescribed value of a driver's row at a state, from design [m, rad]: its measure less the deflection of its compliance.
    pure real(wp) function row_change(suspension, state, row) result(change)

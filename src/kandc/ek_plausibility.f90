@@ -5,7 +5,8 @@ module ek_plausibility
    use ek_error, only: message_list_t
    use ek_text, only: str, quoted
    use ek_measure, only: measure_t, axis_axis, rotation, distance
-   use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, element_label
+   use ek_element, only: element_t, element_kinds, coil_shape, damper_shape
+   use ek_element_label, only: element_label
    use ek_suspension, only: suspension_t, body_name, driver_row
    use ek_case, only: case_t
    use ek_state, only: design_state

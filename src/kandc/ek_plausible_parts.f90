@@ -3,7 +3,8 @@ module ek_plausible_parts
    use ek_kinds, only: wp
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t
-   use ek_element, only: element_t, element_label, axial_spring, damper, stop_spring, torsion_spring, bushing_element
+   use ek_element, only: element_t, axial_spring, damper, stop_spring, torsion_spring, bushing_element
+   use ek_element_label, only: element_label
    use ek_element_force, only: spring_tension
    use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number

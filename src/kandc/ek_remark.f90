@@ -5,7 +5,8 @@ module ek_remark
    use ek_text, only: str, quoted
    use ek_case, only: case_t
    use ek_error, only: message_list_t
-   use ek_element, only: element_kinds, element_label, torsion_spring
+   use ek_element, only: element_kinds, torsion_spring
+   use ek_element_label, only: element_label
    use ek_suspension, only: suspension_t
    implicit none(type, external)
    private

@@ -16,38 +16,32 @@
 module ek_rig
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table
-   use ek_wheel_side, only: side_name, left_and_right, design_track
-   use ek_measure, only: measure_t, global_gap, rotation, axis_axis
+   use ek_rig_numbers, only: rig_t, height_t, acting_t, set_rig_numbers, copy_rig_numbers, up
+   use ek_rig_test, only: rig_test_t, rig_test, of_one_wheel, swept_unit, moves_heights, rolls, steers, loads_wheels, takes_table, &
+      covers_grid
+   use ek_wheel_side, only: side_name, left_and_right
    use ek_joint, only: joint_t, row_t, term_t, joint_kinds
-   use ek_suspension, only: suspension_t, load_t, driver_row
-   use ek_kkt, only: kkt_t, new_kkt
-   use ek_case, only: case_t, actuation_t, append_actuation, is_mountable, follows_place, follows_tangent, follows_table
+   use ek_suspension, only: suspension_t, load_t, driver_unit, copy_numbers
+   use ek_kkt, only: kkt_t, renew_kkt
+   use ek_path, only: walk_t, empty_walk
+   use ek_grid, only: is_grid
+   use ek_case, only: case_t, append_actuation, copy_case_numbers, is_mountable, follows_place, follows_tangent, follows_table
    implicit none(type, external)
    private
-   public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case
-
-   !> What a case adds to a suspension. Its joints, rows, terms and loads count on from those of the suspension.
-   type :: rig_t
-      type(joint_t), allocatable :: joints(:)            !! drivers of heights, one row each
-      type(row_t), allocatable :: rows(:)
-      type(term_t), allocatable :: terms(:)
-      type(load_t), allocatable :: loads(:)
-      type(actuation_t), allocatable :: actuations(:)    !! of its own loads and rows, and of those that the case names
-      real(wp) :: from = 0.0_wp, to = 0.0_wp             !! swept values, SI
-      integer :: increments = 0
-      character(:), allocatable :: unit, place_name      !! of the swept value: 'mm', 'wheel travel'
-   end type rig_t
+   public :: rig_t, mounted_case_t, new_rig, rig_of, add_height, put_on, mount, mount_case, mount_again, take_off
 
    !> A case on the rig, ready to be solved.
    type :: mounted_case_t
       type(suspension_t) :: suspension             !! on the rig
       type(case_t) :: case                         !! with its actuations, unit and name of the swept value
       type(kkt_t) :: kkt                           !! work space
+      type(walk_t) :: space                        !! of its paths
+      logical, private :: is_mounted = .false.
+      type(rig_t), private :: rig                  !! on which it stands
    end type mounted_case_t
 
    character(*), parameter :: heights(2) = [character(16) :: 'rig_left_height', 'rig_right_height']   !! no name of a deck begins so
-   real(wp), parameter :: up(3) = [0.0_wp, 0.0_wp, 1.0_wp], nothing(3) = 0.0_wp
+   real(wp), parameter :: nothing(3) = 0.0_wp
 
 contains
 
@@ -58,6 +52,17 @@ contains
       type(suspension_t), intent(out) :: suspension   !! on the rig
       type(case_t), intent(out) :: this               !! with its actuations, range, unit and name of the swept value
       type(rig_t) :: rig
+
+      call mount_on(base, given, rig, suspension, this)
+   end subroutine mount
+
+   !> The same, with the rig.
+   pure subroutine mount_on(base, given, rig, suspension, this)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: given
+      type(rig_t), intent(out) :: rig
+      type(suspension_t), intent(out) :: suspension
+      type(case_t), intent(out) :: this
 
       if (are_checked) call require(is_mountable(given), 'mount: the table of the case was not read')
       rig = rig_of(base, given)
@@ -71,7 +76,7 @@ contains
       this%unit = swept_unit(rig%unit)
       this%unit_name = rig%unit
       this%place_name = rig%place_name
-   end subroutine mount
+   end subroutine mount_on
 
    !> Puts a completed suspension on the rig of a case, with the work space of its solution.
    subroutine mount_case(base, given, mounted)
@@ -79,9 +84,62 @@ contains
       type(case_t), intent(in) :: given                !! is_mountable
       type(mounted_case_t), intent(inout) :: mounted
 
-      call mount(base, given, mounted%suspension, mounted%case)
-      mounted%kkt = new_kkt(mounted%suspension)
+      call mount_on(base, given, mounted%rig, mounted%suspension, mounted%case)
+      call renew_kkt(mounted%suspension, given%uses_plan, mounted%kkt)
+      call empty_walk(mounted%space)
+      mounted%is_mounted = .true.
    end subroutine mount_case
+
+   !> As mount_case, for the next design of a blueprint: only numbers may have changed in the suspension and in the case since
+   !> `mounted` was put on the rig. Its numbers are renewed in place: no name is copied, and after the first design nothing is
+   !> allocated.
+   subroutine mount_again(base, given, mounted)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: given                !! is_mountable
+      type(mounted_case_t), intent(inout) :: mounted   !! of mount_case or mount_again; empty: as mount_case
+      integer :: k
+
+      if (.not. stands_there(base, given, mounted)) then
+         call mount_case(base, given, mounted)
+         return
+      end if
+      associate (rig => mounted%rig, suspension => mounted%suspension, this => mounted%case)
+         call copy_numbers(base, suspension)
+         call set_rig_numbers(base, given, rig)
+         call copy_rig_numbers(rig, suspension)
+         do k = 1, size(rig%actuations)
+            this%actuations(k)%share = rig%actuations(k)%share
+            if (is_grid(given)) this%actuations(k)%values = rig%actuations(k)%values
+         end do
+         call copy_case_numbers(given, this)
+         this%from = rig%from
+         this%to = rig%to
+         this%increments = rig%increments
+         call renew_kkt(suspension, given%uses_plan, mounted%kkt)
+      end associate
+   end subroutine mount_again
+
+   !> Whether a case was put on the rig with a suspension of these parts.
+   pure logical function stands_there(base, given, mounted)
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: given
+      type(mounted_case_t), intent(in) :: mounted
+
+      stands_there = mounted%is_mounted
+      if (.not. stands_there) return
+      associate (rig => mounted%rig, on_rig => mounted%suspension)
+         stands_there = size(base%bodies) == size(on_rig%bodies) .and. size(base%elements) == size(on_rig%elements) .and. &
+            size(base%rows) + size(rig%rows) == size(on_rig%rows) .and. size(base%terms) + size(rig%terms) == size(on_rig%terms) &
+            .and. size(base%loads) + size(rig%loads) == size(on_rig%loads) .and. given%name == mounted%case%name .and. &
+            (given%uses_plan .eqv. mounted%kkt%has_plan)
+      end associate
+   end function stands_there
+
+   !> Forgets that a case is on the rig: it may be put there again with another model.
+   pure subroutine take_off(mounted)
+      type(mounted_case_t), intent(inout) :: mounted
+      mounted%is_mounted = .false.
+   end subroutine take_off
 
    !> A suspension and a rig as one flat model.
    pure subroutine put_on(rig, base, suspension)
@@ -99,7 +157,7 @@ contains
 
    !> A rig without rows and loads.
    pure type(rig_t) function new_rig() result(rig)
-      allocate (rig%joints(0), rig%rows(0), rig%terms(0), rig%loads(0), rig%actuations(0))
+      allocate (rig%joints(0), rig%rows(0), rig%terms(0), rig%loads(0), rig%heights(0), rig%acting(0), rig%actuations(0))
       rig%unit = '-'
       rig%place_name = ''
    end function new_rig
@@ -108,14 +166,21 @@ contains
    pure type(rig_t) function rig_of(suspension, case) result(rig)
       type(suspension_t), intent(in) :: suspension    !! completed, on no rig
       type(case_t), intent(in) :: case                !! a table that was not read has no rows: the rig then moves nothing
+
+      rig = new_rig()
+      call add_parts(suspension, case, rig)
+      call set_rig_numbers(suspension, case, rig)
+   end function rig_of
+
+   !> The drivers, loads and actuations of the rig of a case.
+   pure subroutine add_parts(suspension, case, rig)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(rig_t), intent(inout) :: rig
       type(rig_test_t) :: test
       character(6) :: control
       integer :: wheels(2), side
 
-      rig = new_rig()
-      rig%from = case%from
-      rig%to = case%to
-      rig%increments = case%increments
       if (allocated(case%test)) test = rig_test(case%test)
       if (test%action == 0) then
          call follow_deck(suspension, case, rig)
@@ -139,18 +204,24 @@ contains
          call move_heights(test, suspension, case, wheels, control, rig)
       case (rolls)
          call add_height(rig, suspension, 'rig_roll', case%where, wheels, [1.0_wp, -1.0_wp], control)
-         call append_actuation(rig%actuations, '', 'rig_roll', design_track(suspension), follows_tangent)
+         call append_actuation(rig%actuations, '', 'rig_roll', 1.0_wp, follows_tangent)      ! times the track
          if (control == 'road') rig%place_name = 'roll of the road, left up'
       case (steers)
          call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_place)
          rig%place_name = 'travel of '//case%drive
-         call take_unit_of(suspension, case%drive, rig)
+         rig%unit = trim(driver_unit(suspension, case%drive))
       case (loads_wheels)
          call load_wheels(test, suspension, case, wheels, rig)
       case (takes_table)
          call take_rows(suspension, case, control, rig)
+      case (covers_grid)
+         do side = 1, 2
+            if (wheels(side) > 0) call append_actuation(rig%actuations, '', trim(heights(side)), 1.0_wp, follows_table)
+         end do
+         call append_actuation(rig%actuations, '', case%drive, 1.0_wp, follows_table)
+         rig%is_table = .true.
       end select
-   end function rig_of
+   end subroutine add_parts
 
    !> The drive or the loads that a case without a test names.
    pure subroutine follow_deck(suspension, case, rig)
@@ -169,7 +240,7 @@ contains
       rig%place_name = 'change of '//case%drive
       if (case%drive == 'wheel_travel') call add_height(rig, suspension, case%drive, suspension%wheels(case%wheel)%where, &
          [case%wheel], [1.0_wp], 'centre')
-      call take_unit_of(suspension, case%drive, rig)
+      rig%unit = trim(driver_unit(suspension, case%drive))
    end subroutine follow_deck
 
    !> Heights that follow the swept value; with vertical = 'force', vertical forces instead.
@@ -197,8 +268,8 @@ contains
       do side = 1, 2
          if (wheels(side) == 0) cycle
          if (control == 'force') then
-            call add_load(rig, suspension, case, wheels(side), trim(side_name(side)), up, nothing, .true., shares(side), &
-               follows_place)
+            call add_load(rig, suspension, case, trim(side_name(side)), acting_t(wheels(side), .true., up, nothing), &
+               shares(side), follows_place)
          else
             call append_actuation(rig%actuations, '', trim(heights(side)), shares(side), follows_place)
          end if
@@ -218,8 +289,8 @@ contains
       is_at_patch = .not. test%is_at_centre .or. suspension%axle%drives_at_patch
       if (test%is_at_centre .and. is_at_patch) rig%place_name = 'traction force at each patch'
       do side = 1, 2
-         if (wheels(side) > 0) call add_load(rig, suspension, case, wheels(side), trim(side_name(side)), test%force, &
-            test%moment + merge(case%offset, 0.0_wp, test%has_trail)*up, is_at_patch, &
+         if (wheels(side) > 0) call add_load(rig, suspension, case, trim(side_name(side)), &
+            acting_t(wheels(side), is_at_patch, test%force, test%moment, test%has_trail), &
             merge(-1.0_wp, 1.0_wp, case%is_anti .and. side == 2), follows_place)
       end do
    end subroutine load_wheels
@@ -248,48 +319,34 @@ contains
                unit = 0.0_wp
                unit(mod(column%component - 1, 6) + 1) = merge(-1.0_wp, 1.0_wp, &
                   suspension%is_iso .and. mod(column%component, 3) > 0)      ! x and y of the deck
-               call add_load(rig, suspension, case, column%wheel, column%name, unit(1:3), unit(4:6), column%component <= 6, &
-                  1.0_wp, follows_table, column%values)
+               call add_load(rig, suspension, case, column%name, &
+                  acting_t(column%wheel, column%component <= 6, unit(1:3), unit(4:6)), 1.0_wp, follows_table, column%values)
             end if
          end associate
       end do
-      rig%from = merge(0.0_wp, 1.0_wp, case%table%rows == 1)      ! from the design state, which is also reported
-      rig%to = case%table%rows
-      rig%increments = max(case%table%rows - 1, 1)
+      rig%is_table = .true.
    end subroutine take_rows
 
    !> Adds a driver of Σ sign × height relative to the vehicle body, of wheel centres, patches, or of the road under the tyres.
    !> Its value is the change from design [m]. The tyres on the road deflect under the loads at the patches, so that
    !> Σ sign × height = value + λ Σ sign²/rate.
    pure subroutine add_height(rig, suspension, name, where, wheels, signs, control)
-      type(rig_t), intent(inout) :: rig
+      type(rig_t), intent(inout) :: rig        !! its numbers still without a meaning
       type(suspension_t), intent(in) :: suspension
       character(*), intent(in) :: name, where
       integer, intent(in) :: wheels(:)
       real(wp), intent(in) :: signs(:)         !! one per wheel
       character(*), intent(in) :: control      !! 'centre', 'patch' or 'road'
       type(joint_t) :: joint
-      type(row_t) :: row
+      type(height_t) :: height
       type(term_t) :: term
-      real(wp) :: arm(3)
       integer :: k
 
-      row%first = size(suspension%terms) + size(rig%terms) + 1
-      row%terms = size(wheels)
-      row%joint = size(suspension%joints) + size(rig%joints) + 1
-      row%is_driver = .true.
-      if (control == 'road') row%compliance = sum(signs**2/suspension%wheels(wheels)%tyre_rate)
-      do k = 1, size(wheels)
-         associate (w => suspension%wheels(wheels(k)))
-            arm = w%contact
-            if (control == 'centre') arm = w%centre
-            term%measure = measure_t(kind=global_gap, body_i=0, body_j=w%body, u=up, arm_i=suspension%bodies(w%body)%origin + arm, &
-               arm_j=arm)
-         end associate
-         term%coefficient = signs(k)
-         if (k == 1) joint%arm_j = arm
-         rig%terms = [rig%terms, term]
-      end do
+      height%wheels(:size(wheels)) = wheels
+      height%signs(:size(wheels)) = signs
+      height%is_at_centre = control == 'centre'
+      height%is_road = control == 'road'
+      rig%heights = [rig%heights, height]
       joint%name = name
       joint%where = where
       joint%kind = 'driver'
@@ -298,19 +355,19 @@ contains
       joint%first_row = size(suspension%rows) + size(rig%rows) + 1
       joint%rows = 1
       joint%is_of_measures = .true.
-      rig%rows = [rig%rows, row]
+      rig%rows = [rig%rows, row_t(first=size(suspension%terms) + size(rig%terms) + 1, terms=size(wheels), &
+         joint=size(suspension%joints) + size(rig%joints) + 1, is_driver=.true.)]
+      rig%terms = [rig%terms, [(term, k=1, size(wheels))]]
       rig%joints = [rig%joints, joint]
    end subroutine add_height
 
    !> Adds a load 'rig_<name>' on a wheel, and the actuation that scales it.
-   pure subroutine add_load(rig, suspension, case, wheel, name, force, moment, is_at_patch, share, law, values)
+   pure subroutine add_load(rig, suspension, case, name, acting, share, law, values)
       type(rig_t), intent(inout) :: rig
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
-      integer, intent(in) :: wheel
       character(*), intent(in) :: name
-      real(wp), intent(in) :: force(3), moment(3)
-      logical, intent(in) :: is_at_patch       !! otherwise at the wheel centre
+      type(acting_t), intent(in) :: acting
       real(wp), intent(in) :: share
       integer, intent(in) :: law
       real(wp), intent(in), optional :: values(:)
@@ -318,32 +375,11 @@ contains
 
       load%name = 'rig_'//name
       load%where = case%where
-      load%body = suspension%wheels(wheel)%body
-      load%arm = suspension%wheels(wheel)%centre
-      if (is_at_patch) load%arm = suspension%wheels(wheel)%contact
-      load%force = force
-      load%moment = moment
+      load%body = suspension%wheels(acting%wheel)%body
       load%is_case = .true.
       rig%loads = [rig%loads, load]
+      rig%acting = [rig%acting, acting]
       call append_actuation(rig%actuations, load%name, '', share, law, values)
    end subroutine add_load
-
-   !> The unit of the value of a driver; mm for the rig's own.
-   pure subroutine take_unit_of(suspension, drive, rig)
-      type(suspension_t), intent(in) :: suspension
-      character(*), intent(in) :: drive
-      type(rig_t), intent(inout) :: rig
-      integer :: row
-
-      rig%unit = 'mm'
-      row = driver_row(suspension, drive)
-      if (row == 0) return
-      select case (suspension%terms(suspension%rows(row)%first)%measure%kind)
-      case (rotation)
-         rig%unit = 'deg'
-      case (axis_axis)
-         rig%unit = '-'
-      end select
-   end subroutine take_unit_of
 
 end module ek_rig

@@ -2,14 +2,15 @@
 module ek_standard_tests
    use ek_kinds, only: wp, millimetre
    use ek_text, only: str, lower, spaced
-   use ek_rig_test, only: rig_test_t, rig_tests, rig_test, needs_both, swept_unit, steers
+   use ek_rig_test, only: rig_test_t, rig_tests, rig_test, needs_both, swept_unit, steers, rolls, moves_heights, covers_grid
    use ek_case, only: case_t
+   use ek_grid, only: is_grid
    use ek_suspension, only: suspension_t
    use ek_characteristics, only: trail
    use ek_wheel_side, only: left_and_right
    implicit none(type, external)
    private
-   public :: standard_tests, cover_rack_travel, test_title
+   public :: standard_tests, cover_rack_travel, test_title, held_text
 
 contains
 
@@ -17,11 +18,13 @@ contains
    !>
    !> A test that the deck contains (same test, phase, offset and vertical control) is taken from the deck with its range;
    !> the other cases of the deck follow. A name that the deck uses for another case gets the ending '_test'. Steering
-   !> covers the travel of the rack given in &steering.
-   subroutine standard_tests(suspension, own, tests)
+   !> covers the travel of the rack given in &steering, a grid also the range of the parallel travel. A grid costs as much as
+   !> several other tests and is one of them only if it is asked.
+   subroutine standard_tests(suspension, own, tests, asked)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: own(:)             !! cases of the deck
       type(case_t), allocatable, intent(out) :: tests(:)
+      character(*), intent(in), optional :: asked    !! name of a test that runs on request only; '*': all of them
       logical :: is_taken(size(own))
       integer :: wheels(2), place, trails, phase, k, t
 
@@ -31,7 +34,11 @@ contains
       do place = 1, maxval(rig_tests%place)
          k = findloc(rig_tests%place, place, dim=1)
          if (needs_both(rig_tests(k)) .and. any(wheels == 0)) cycle
-         if (rig_tests(k)%action == steers .and. .not. suspension%steering%has_steering) cycle
+         if (any(rig_tests(k)%action == [steers, covers_grid]) .and. .not. suspension%steering%has_steering) cycle
+         if (rig_tests(k)%is_on_request) then
+            if (.not. present(asked)) cycle
+            if (asked /= '*' .and. rig_tests(k)%name /= asked) cycle
+         end if
          do trails = 0, merge(1, 0, rig_tests(k)%has_trail)
             do phase = 1, merge(rig_tests(k)%phases, 1, all(wheels > 0))
                call include(rig_tests(k), phase == 2, trails*trail)
@@ -68,9 +75,14 @@ contains
          this%where = 'the standard tests'
          this%load = ''
          this%drive = ''
-         this%to = test%reach*swept_unit(test%unit)
-         if (test%action == steers) this%drive = suspension%steering%driver
+         this%to = test%reach*swept_unit(merge('mm ', test%unit, test%action == covers_grid))
+         if (any(test%action == [steers, covers_grid])) this%drive = suspension%steering%driver
          this%from = -this%to
+         do k = 1, merge(size(tests), 0, test%action == covers_grid)
+            if (tests(k)%test /= 'parallel_travel') cycle
+            this%from = tests(k)%from
+            this%to = tests(k)%to
+         end do
          this%increments = test%increments
          this%method = 'equilibrium'
          this%test = trim(test%name)
@@ -91,11 +103,15 @@ contains
 
    end subroutine standard_tests
 
-   !> A standard test of steering goes from one end of the rack to the other; all others keep their range.
+   !> A standard test of steering goes from one end of the rack to the other, and so does a grid; all others keep their range.
    pure subroutine cover_rack_travel(suspension, this)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(inout) :: this
 
+      if (is_grid(this)) then
+         this%steer_to = suspension%steering%travel
+         this%steer_from = -this%steer_to
+      end if
       if (.not. any(rig_tests%action == steers .and. rig_tests%name == this%test)) return
       this%to = suspension%steering%travel
       this%from = -this%to
@@ -121,5 +137,32 @@ contains
       if (this%vertical == 'force') title = title//', by vertical force'
       if (this%vertical == 'road') title = title//', on the road'
    end function test_title
+
+   !> What holds the wheels in a test, as a condition of its results: 'vertical force held'; '' for a case that is no test.
+   pure function held_text(this) result(held)
+      type(case_t), intent(in) :: this
+      character(48) :: held
+      type(rig_test_t) :: test
+      character(6) :: control, word
+
+      held = ''
+      if (len(this%test) == 0) return
+      test = rig_test(this%test)
+      control = test%control
+      if (this%vertical /= '') control = this%vertical
+      word = 'held'
+      if (any(test%action == [moves_heights, covers_grid])) word = 'driven'
+      select case (control)
+      case ('centre')
+         held = 'wheel centre heights '//word
+      case ('patch')
+         held = 'contact patch heights '//word
+      case ('road')
+         held = 'wheels on a rigid road'
+      case ('force')
+         held = 'vertical force held'
+      end select
+      if (test%action == rolls .and. control /= 'force') held = 'height difference driven, axle load held'
+   end function held_text
 
 end module ek_standard_tests

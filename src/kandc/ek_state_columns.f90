@@ -5,7 +5,7 @@
 !> them.
 module ek_state_columns
    use ek_kinds, only: wp, degree, millimetre
-   use ek_quantity, only: wheel_position, axis
+   use ek_quantity, only: wheel_position, steer_axis, axis
    use ek_measure, only: measure_value, axis_axis, rotation
    use ek_block, only: rotated
    use ek_rotation, only: cross
@@ -17,11 +17,15 @@ module ek_state_columns
    use ek_state, only: state_t
    use ek_kkt, only: kkt_t
    use ek_wheel_side, only: prefix_of, deck_frame
-   use ek_attitude, only: attitude_t, wheel_attitude, axis_values
-   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block
+   use ek_attitude, only: attitude_t, axis_values
+   use ek_column_list, only: column_list_t, begin_list, add_quantities, add_column, end_block, fill_block, choose
    implicit none(type, external)
    private
-   public :: state_columns, state_values
+   public :: list_state, state_columns, state_values, has_wheels, has_joints, has_only_wheels
+
+   ! sections: of a wheel, an element of one measure, a measure, a bushing, a joint
+   integer, parameter :: of_position = 1, of_axis = 2, of_element = 3, of_readout = 4, of_bushing = 5, of_joint = 6
+   integer, parameter :: most = 12            !! values of a section
 
    ! rotations, cosines, lengths: ending of the column of an element's value, and its unit
    character(*), parameter :: endings(3) = [character(10) :: '_angle_deg', '_cosine', '_length_mm']
@@ -29,8 +33,19 @@ module ek_state_columns
 
 contains
 
-   !> The columns of a model, in the order in which state_values gives the values; each wheel is a block.
+   !> The columns of a model. All are asked.
    subroutine state_columns(suspension, list)
+      type(suspension_t), intent(in) :: suspension
+      type(column_list_t), intent(out) :: list
+      logical, allocatable :: is_wanted(:)
+
+      call list_state(suspension, list)
+      allocate (is_wanted(list%used), source=.true.)
+      call choose(list, is_wanted)
+   end subroutine state_columns
+
+   !> The names of the columns of a model: list%names(:list%used). Before they are filled, `choose` says which are asked.
+   subroutine list_state(suspension, list)
       type(suspension_t), intent(in) :: suspension
       type(column_list_t), intent(out) :: list
       character(len(endings)) :: ending
@@ -38,9 +53,10 @@ contains
 
       call begin_list(list, 128)
       do k = 1, size(suspension%wheels)
-         call add_quantities(list, wheel_position, prefix_of(suspension, k), &
-            merge(axis, 0, suspension%wheels(k)%has_steer_axis))
-         call end_block(list)
+         call add_quantities(list, wheel_position, prefix_of(suspension, k), 0)
+         call end_block(list, of_position, k)
+         call add_quantities(list, steer_axis, prefix_of(suspension, k), merge(axis, 0, suspension%wheels(k)%has_steer_axis))
+         call end_block(list, of_axis, k)
       end do
       do k = 1, suspension%scalars
          associate (element => suspension%elements(k))
@@ -51,16 +67,19 @@ contains
             end if
             call add_column(list, element%name//trim(merge('_moment_nm', '_force_n  ', is_of_angle(element%measure%kind))))
          end associate
+         call end_block(list, of_element, k)
       end do
       do k = 1, size(suspension%readouts)
          ending = endings(which(suspension%readouts(k)%measure%kind))
          call add_column(list, suspension%readouts(k)%name//trim(ending(index(ending, '_', back=.true.):)))
+         call end_block(list, of_readout, k)
       end do
       do k = suspension%scalars + 1, size(suspension%elements)
          call add_three(suspension%elements(k)%name//'_d', 'mm')
          call add_three(suspension%elements(k)%name//'_r', 'deg')
          call add_three(suspension%elements(k)%name//'_f', 'n')
          call add_three(suspension%elements(k)%name//'_m', 'nm')
+         call end_block(list, of_bushing, k)
       end do
       do k = 1, size(suspension%joints)
          associate (joint => suspension%joints(k))
@@ -71,6 +90,7 @@ contains
                if (has_moment(suspension, joint%first_row, joint%rows)) call add_three(joint%name//'_m', 'nm')
             end if
          end associate
+         call end_block(list, of_joint, k)
       end do
 
    contains
@@ -82,80 +102,140 @@ contains
          call add_column(list, stem//'z_'//unit)
       end subroutine add_three
 
-   end subroutine state_columns
+   end subroutine list_state
 
-   !> The values of the columns at a state.
-   pure subroutine state_values(suspension, state, kkt, list, row)
+   !> Whether a column of a wheel is asked.
+   pure logical function has_wheels(list)
+      type(column_list_t), intent(in) :: list
+      has_wheels = any(list%section(list%blocks) <= of_axis)
+   end function has_wheels
+
+   !> Whether columns of wheels alone are asked, which follow from their attitudes.
+   pure logical function has_only_wheels(list)
+      type(column_list_t), intent(in) :: list
+      has_only_wheels = all(list%section(list%blocks) <= of_axis)
+   end function has_only_wheels
+
+   !> Whether a column of a joint is asked.
+   pure logical function has_joints(list)
+      type(column_list_t), intent(in) :: list
+      has_joints = any(list%section(list%blocks) == of_joint)
+   end function has_joints
+
+   !> The values of the asked columns at a state.
+   pure subroutine state_values(suspension, state, wheels, kkt, list, row)
       type(suspension_t), intent(in) :: suspension
       type(state_t), intent(in) :: state
-      type(kkt_t), intent(in) :: kkt             !! assembled at this state; provides the gradients of the rows
+      type(attitude_t), intent(in) :: wheels(:)  !! at this state, if has_wheels
+      type(kkt_t), intent(in) :: kkt             !! if has_joints, assembled at this state; provides the gradients of the rows
       type(column_list_t), intent(in) :: list    !! of state_columns
-      real(wp), intent(inout) :: row(:)          !! one per column
-      type(attitude_t) :: now
-      type(bushing_evaluation_t) :: evaluation
-      real(wp) :: frame(3), tension, slope, length, force(3), moment(3), arm(3)
-      integer :: k, at, r, t
+      real(wp), intent(inout) :: row(*)          !! one per column; those that are not asked stay
+      real(wp) :: frame(3), values(most)
+      integer :: b, k
 
       frame = deck_frame(suspension)
-      do k = 1, size(suspension%wheels)
-         now = wheel_attitude(suspension, state, k)
-         call fill_block(list, k, [now%centre(3), now%toe, now%camber, now%track_change, now%wheelbase_change, &
-            frame*now%centre, frame*now%contact, axis_values(now%axis)], .true., row)
-      end do
-      at = 0
-      if (size(suspension%wheels) > 0) at = list%last(size(suspension%wheels))
-      do k = 1, suspension%scalars
-         associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
-            length = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
-            call spring_tension(element, length, tension, slope)
-            row(at + 1) = length/units(which(m%kind))
-            if (element_kinds(element%kind)%has_gap) row(at + 1) = -deflection(element%law, length)/millimetre
-            row(at + 2) = -tension
-            at = at + 2
-         end associate
-      end do
-      do k = 1, size(suspension%readouts)
-         associate (m => suspension%readouts(k)%measure)
-            at = at + 1
-            row(at) = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))/units(which(m%kind))
-         end associate
-      end do
-      do k = suspension%scalars + 1, size(suspension%elements)
-         associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
-            call evaluate_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
-            row(at + 1:at + 3) = matmul(evaluation%gap, bushing%axes)/millimetre
-            row(at + 4:at + 6) = matmul(evaluation%rotation%theta, bushing%axes)/degree
-            call bushing_load(bushing, evaluation, force, moment)
-            row(at + 7:at + 9) = force
-            row(at + 10:at + 12) = moment
-            at = at + 12
-         end associate
-      end do
-      do k = 1, size(suspension%joints)
-         associate (joint => suspension%joints(k))
-            if (joint%is_of_measures) then
-               at = at + 1
-               row(at) = -state%reaction(joint%first_row)
-               cycle
-            end if
-            force = 0.0_wp
-            moment = 0.0_wp
-            do r = joint%first_row, joint%first_row + joint%rows - 1
-               do t = suspension%rows(r)%first, suspension%rows(r)%first + suspension%rows(r)%terms - 1
-                  force = force - state%reaction(r)*kkt%gradients(7:9, t)         ! on the second body: −λ × gradient
-                  moment = moment - state%reaction(r)*kkt%gradients(10:12, t)     ! about its reference point
-               end do
-            end do
-            row(at + 1:at + 3) = frame*force
-            at = at + 3
-            if (.not. has_moment(suspension, joint%first_row, joint%rows)) cycle
-            arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
-            moment = moment - cross(arm, force)      ! about the joint's point; a separate statement avoids a temporary of the row
-            row(at + 1:at + 3) = frame*moment
-            at = at + 3
-         end associate
+      do k = 1, size(list%blocks)
+         b = list%blocks(k)
+         select case (list%section(b))
+         case (of_position)
+            call position_values(wheels(list%item(b)), frame, values)
+         case (of_axis)
+            values(1:6) = axis_values(wheels(list%item(b))%axis)
+         case (of_element)
+            call element_values(suspension, state, list%item(b), values)
+         case (of_readout)
+            associate (m => suspension%readouts(list%item(b))%measure)
+               values(1) = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))/units(which(m%kind))
+            end associate
+         case (of_bushing)
+            call bushing_values(suspension, state, list%item(b), values)
+         case (of_joint)
+            call joint_values(suspension, state, kkt%gradients, frame, list%item(b), values)
+         end select
+         call fill_block(list, b, values, .true., row)
       end do
    end subroutine state_values
+
+   !> The values of wheel_position, SI.
+   pure subroutine position_values(now, frame, values)
+      type(attitude_t), intent(in) :: now
+      real(wp), intent(in) :: frame(3)
+      real(wp), intent(inout) :: values(most)
+
+      values(1) = now%centre(3)
+      values(2) = now%toe
+      values(3) = now%camber
+      values(4) = now%track_change
+      values(5) = now%wheelbase_change
+      values(6:8) = frame*now%centre
+      values(9:11) = frame*now%contact
+   end subroutine position_values
+
+   !> Length or gap, and force, of an element of one measure, in the units of their columns.
+   pure subroutine element_values(suspension, state, k, values)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      real(wp), intent(inout) :: values(most)
+      real(wp) :: length, tension, slope
+
+      associate (element => suspension%elements(k), m => suspension%elements(k)%measure)
+         length = measure_value(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1))
+         call spring_tension(element, length, tension, slope)
+         values(1) = length/units(which(m%kind))
+         if (element_kinds(element%kind)%has_gap) values(1) = -deflection(element%law, length)/millimetre
+         values(2) = -tension
+      end associate
+   end subroutine element_values
+
+   !> Deflection, rotation, force and moment of a bushing, marker axes, in the units of their columns.
+   pure subroutine bushing_values(suspension, state, k, values)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      integer, intent(in) :: k
+      real(wp), intent(inout) :: values(most)
+      type(bushing_evaluation_t) :: evaluation
+      integer :: i
+
+      associate (bushing => suspension%elements(k)%bushing, m => suspension%elements(k)%measure)
+         call evaluate_bushing(bushing, m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+         do i = 1, 3
+            values(i) = dot_product(evaluation%gap, bushing%axes(:, i))/millimetre
+            values(i + 3) = dot_product(evaluation%rotation%theta, bushing%axes(:, i))/degree
+         end do
+         call bushing_load(bushing, evaluation, values(7:9), values(10:12))
+      end associate
+   end subroutine bushing_values
+
+   !> Force and moment of a joint on its second body, at its point, frame of the deck; the reaction of one of measures.
+   pure subroutine joint_values(suspension, state, gradients, frame, k, values)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gradients(:, :)    !! of the terms of rows
+      real(wp), intent(in) :: frame(3)
+      integer, intent(in) :: k
+      real(wp), intent(inout) :: values(most)
+      real(wp) :: force(3), moment(3), arm(3)
+      integer :: r, t
+
+      associate (joint => suspension%joints(k))
+         if (joint%is_of_measures) then
+            values(1) = -state%reaction(joint%first_row)
+            return
+         end if
+         force = 0.0_wp
+         moment = 0.0_wp
+         do r = joint%first_row, joint%first_row + joint%rows - 1
+            do t = suspension%rows(r)%first, suspension%rows(r)%first + suspension%rows(r)%terms - 1
+               force = force - state%reaction(r)*gradients(7:9, t)         ! on the second body: −λ × gradient
+               moment = moment - state%reaction(r)*gradients(10:12, t)     ! about its reference point
+            end do
+         end do
+         arm = rotated(state%poses(joint%body_j + 1)%a, joint%arm_j)
+         values(1:3) = frame*force
+         values(4:6) = frame*(moment - cross(arm, force))                  ! about the joint's point
+      end associate
+   end subroutine joint_values
 
    !> Row of the table above of a kind of measure.
    pure integer function which(kind)

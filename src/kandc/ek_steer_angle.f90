@@ -6,7 +6,7 @@ module ek_steer_angle
    use ek_kinds, only: wp, degree
    implicit none(type, external)
    private
-   public :: steer_of, steer_rate, axle_roll, inclination_of
+   public :: steer_of, steer_rate, steer_gradient, axle_roll, inclination_of
    public :: ackermann_angle, ackermann_percent, ackermann_error, turning_circle, ideal_outer_steer, outer_wheel, wall_to_wall
 
    ! Below one degree the static toe, not the linkage, determines the difference of the two wheels: (δA − δo) is then
@@ -30,8 +30,20 @@ contains
    !> Equation (C.10) of docs/theory/compliance.md.
    pure real(wp) function steer_rate(spin, turn) result(rate)
       real(wp), intent(in) :: spin(3), turn(3)
-      rate = turn(3) - spin(3)*(turn(1)*spin(1) + turn(2)*spin(2))/(spin(1)**2 + spin(2)**2)
+      rate = dot_product(steer_gradient(spin), turn)
    end function steer_rate
+
+   !> The factors of θ in it: of many rotations of one carrier they are computed once.
+   !> Equation (C.10) of docs/theory/compliance.md.
+   pure function steer_gradient(spin) result(gradient)
+      real(wp), intent(in) :: spin(3)
+      real(wp) :: gradient(3), lean
+
+      lean = spin(3)/(spin(1)**2 + spin(2)**2)
+      gradient(1) = -lean*spin(1)
+      gradient(2) = -lean*spin(2)
+      gradient(3) = 1.0_wp
+   end function steer_gradient
 
    !> Roll of the axle against the body: atan((z_left − z_right)/track), with the track at design, as driven by the rig's test
    !> `roll`.

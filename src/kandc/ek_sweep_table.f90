@@ -1,27 +1,27 @@
-!> From the states of a sweep to tables, one row per state: the quantities of a case, and the compliance matrix.
+!> From the states of a sweep to a table, one row per state: the quantities of a case.
 !>
 !> The columns come from ek_state_columns and ek_kandc_columns, between `state` and `factor` in front and `converged`,
 !> `iterations` and `constraint_error` at the end.
 module ek_sweep_table
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-   use ek_kinds, only: wp, i8, degree
+   use ek_kinds, only: wp, i8
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, inputs_t, design_state, unpack_state, coordinates
    use ek_schedule, only: schedule_t, new_schedule, inputs_at
-   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_kkt, only: kkt_t, assemble, assemble_rows, residual_only, whole_tangent
+   use ek_attitude, only: attitude_t, find_attitude
    use ek_path, only: path_t
-   use ek_state_columns, only: state_columns, state_values
+   use ek_state_columns, only: list_state, state_values, has_wheels, has_joints, has_only_wheels
    use ek_column_list, only: column_list_t, choose
-   use ek_kandc_columns, only: kandc_t, start_kandc, same_columns, observe_kandc
+   use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc, begin_design, same_columns
+   use ek_kandc_columns, only: fill_kandc
    use ek_table, only: table_t, new_table, name_length
-   use ek_block, only: rotated
-   use ek_wheel_side, only: prefix_of, deck_frame
-   use ek_compliance, only: compliance_t, new_compliance, wheel_compliance, load_at_patch, read_at_patch
    implicit none(type, external)
    private
-   public :: observer_t, make_observer, observe, nearly_singular, sweep_table, sweep_columns, sweep_bytes, compliance_table, &
-      state_compliance
+   public :: observer_t, make_observer, observe, observe_state, quantity_columns, reads_matrix, &
+      reads_poses_of_wheels, nearly_singular, sweep_table, sweep_columns, &
+      sweep_bytes
 
    real(wp), parameter :: nearly_singular = 1.0e-12_wp   !! smallest over largest pivot: four digits are left
    real(wp), parameter :: open_joints = 1.0e-2_wp   !! |Φ| [m, rad] above which a state of a linear method is marked converged = 0
@@ -31,30 +31,29 @@ module ek_sweep_table
       character(name_length), allocatable :: columns(:)     !! heads of the table
       integer, private :: shown = 0, reported = 0, ended = 0    !! last column of the state, of the quantities, of all
       integer, allocatable, private :: kept(:)              !! the columns of the table among all
-      logical, allocatable, private :: is_kept(:)
       type(column_list_t), private :: list                  !! columns of the state
       type(kandc_t), private :: kandc                       !! K&C columns, if the case requests them
       character(name_length), allocatable, private :: wanted(:)
-      logical, private :: has_wanted = .false., has_all = .false., has_stability = .false.
+      logical, private :: has_wanted = .false., has_all = .false., has_stability = .false., has_violation = .true.
    end type observer_t
-
-   character(*), parameter :: places(2) = [character(7) :: 'centre_', 'patch_']
-   character(*), parameter :: moves(6) = [character(2) :: 'x', 'y', 'z', 'rx', 'ry', 'rz'], &
-      loads(6) = ['fx', 'fy', 'fz', 'mx', 'my', 'mz']
 
 contains
 
    !> Prepares the table of a case. Nothing is done where it is prepared for this model, case and these columns already; so in
    !> designs after the first there is no text at all: gfortran keeps the length of the text that a function returns in one
    !> place for all threads.
-   subroutine make_observer(suspension, case, self, wanted)
+   subroutine make_observer(suspension, case, self, wanted, has_violation)
       type(suspension_t), intent(in) :: suspension          !! on the rig
       type(case_t), intent(in) :: case
       type(observer_t), intent(inout) :: self
       character(*), intent(in), optional :: wanted(:)   !! columns; a name that the model does not define has no effect
+      logical, intent(in), optional :: has_violation    !! .false.: constraint_error of equilibria is not a number
       character(name_length), allocatable :: columns(:), asked(:)
+      logical, allocatable :: is_kept(:)
       integer :: k
 
+      self%has_violation = .true.
+      if (present(has_violation)) self%has_violation = has_violation .or. case%method /= 'equilibrium'
       allocate (asked(merge(1, 0, present(wanted))))
       if (present(wanted)) asked = wanted
       if (is_for(self, suspension, case, asked, present(wanted))) return
@@ -64,14 +63,14 @@ contains
       self%ended = size(columns)
       self%reported = self%ended - ends_of(case)
       self%shown = self%reported - self%kandc%used
-      if (allocated(self%is_kept)) deallocate (self%is_kept)
-      allocate (self%is_kept(self%ended), source=.true.)
+      allocate (is_kept(self%ended), source=.true.)
       self%wanted = asked
       self%has_wanted = present(wanted)
-      if (self%has_wanted) self%is_kept(3:self%reported) = [(any(self%wanted == columns(k)), k=3, self%reported)]
-      self%kept = pack([(k, k=1, self%ended)], self%is_kept)
+      if (self%has_wanted) is_kept(3:self%reported) = [(any(self%wanted == columns(k)), k=3, self%reported)]
+      self%kept = pack([(k, k=1, self%ended)], is_kept)
       self%columns = columns(self%kept)
-      if (self%kandc%used > 0) call choose(self%kandc, self%is_kept(self%shown + 1:self%reported))
+      call choose(self%list, is_kept(3:self%shown))
+      if (case%has_all) call choose_kandc(self%kandc, is_kept(self%shown + 1:self%reported))
    end subroutine make_observer
 
    !> Whether an observer was prepared for these columns of such a model.
@@ -108,19 +107,21 @@ contains
       type(state_t) :: state
       type(schedule_t) :: schedule
       type(inputs_t) :: inputs
+      type(attitude_t), allocatable :: wheels(:)
       real(wp), allocatable :: values(:)         ! all columns of a row
-      integer :: first, last, k, row
+      integer :: first, last, k, c, row
 
       call reached_rows(path, first, last)
       table = new_table(observer%columns, last - first + 1)
-      allocate (values(observer%ended))
+      allocate (wheels(size(suspension%wheels)))
+      allocate (values(observer%ended), source=ieee_value(1.0_wp, ieee_quiet_nan))
       state = design_state(suspension)
       schedule = new_schedule(suspension, case)
-      associate (shown => observer%shown, reported => observer%reported, ended => observer%ended)
+      if (has_kandc(observer)) call begin_design(suspension, observer%kandc)
+      associate (reported => observer%reported, ended => observer%ended)
          do k = first, last
             row = k - first + 1
-            call inputs_at(schedule, path%value(k), inputs)
-            values = ieee_value(1.0_wp, ieee_quiet_nan)
+            if (.not. path%is_reached(k)) values = ieee_value(1.0_wp, ieee_quiet_nan)
             values(1) = k - 1
             values(2) = path%value(k)/case%unit
             values(reported + 1) = merge(1.0_wp, 0.0_wp, path%is_reached(k))
@@ -129,19 +130,106 @@ contains
                if (observer%has_stability) values(reported + 2) = merge(1.0_wp, 0.0_wp, path%is_stable(k))
                values(ended - 2) = merge(1.0_wp, 0.0_wp, path%pivot_ratio(k) < nearly_singular)
                call unpack_state(path%packed(:, k), state)
-               call assemble(suspension, state, inputs, residual_only, kkt)
-               if (any(observer%is_kept(3:shown))) call state_values(suspension, state, kkt, observer%list, values(3:shown))
-               values(ended) = norm2(kkt%values)
-               if (norm2(kkt%values) > open_joints) values(reported + 1) = 0.0_wp
-               if (any(observer%is_kept(shown + 1:reported))) then
-                  call observe_kandc(suspension, state, inputs, kkt, observer%kandc)
-                  values(shown + 1:reported) = observer%kandc%values
+               call inputs_at(schedule, path%value(k), inputs)
+               call fill_quantities(suspension, state, inputs, kkt, observer, observer%has_violation, wheels, values)
+               if (observer%has_violation) then
+                  values(ended) = sqrt(dot_product(kkt%values, kkt%values))
+                  if (values(ended) > open_joints) values(reported + 1) = 0.0_wp
                end if
             end if
-            table%values(:, row) = values(observer%kept)
+            do c = 1, size(observer%kept)      ! a vector subscript would ask for memory
+               table%values(c, row) = values(observer%kept(c))
+            end do
          end do
       end associate
    end subroutine observe
+
+   !> The values of quantity_columns at one state, an equilibrium or close to one, as observe has them in its table.
+   subroutine observe_state(suspension, state, inputs, kkt, observer, wheels, all_values, values)
+      type(suspension_t), intent(in) :: suspension          !! on the rig
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      type(kkt_t), intent(inout) :: kkt                     !! work space
+      type(observer_t), intent(inout) :: observer           !! of make_observer
+      type(attitude_t), intent(inout) :: wheels(:)          !! work space, of each wheel
+      real(wp), allocatable, intent(inout) :: all_values(:) !! work space
+      real(wp), intent(out) :: values(:)                    !! of quantity_columns
+      integer :: c
+
+      if (.not. allocated(all_values)) allocate (all_values(observer%ended), source=0.0_wp)
+      if (has_kandc(observer)) call begin_design(suspension, observer%kandc)
+      call fill_quantities(suspension, state, inputs, kkt, observer, .false., wheels, all_values)
+      do c = 1, size(values)
+         values(c) = all_values(observer%kept(c + 2))
+      end do
+   end subroutine observe_state
+
+   !> The quantities among the columns of the table: without state and factor in front, and converged … at the end.
+   pure function quantity_columns(observer) result(names)
+      type(observer_t), intent(in) :: observer              !! of make_observer
+      character(name_length), allocatable :: names(:)
+      names = observer%columns(3:count(observer%kept <= observer%reported))
+   end function quantity_columns
+
+   !> Whether a column needs the compliance matrix, or is of the sections that come with it.
+   pure logical function reads_matrix(observer)
+      type(observer_t), intent(in) :: observer              !! of make_observer
+      reads_matrix = has_kandc(observer)
+   end function reads_matrix
+
+   !> Whether all columns follow from the poses of the wheels and the numbers of the wheels.
+   pure logical function reads_poses_of_wheels(observer)
+      type(observer_t), intent(in) :: observer              !! of make_observer
+      reads_poses_of_wheels = .not. has_kandc(observer) .and. has_only_wheels(observer%list)
+   end function reads_poses_of_wheels
+
+   !> Whether K&C quantities are asked.
+   pure logical function has_kandc(observer)
+      type(observer_t), intent(in) :: observer
+      has_kandc = observer%has_all
+      if (has_kandc) has_kandc = size(observer%kandc%blocks) > 0
+   end function has_kandc
+
+   !> The asked quantities of a state. begin_design was called.
+   subroutine fill_quantities(suspension, state, inputs, kkt, observer, needs_violation, wheels, values)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      type(kkt_t), intent(inout) :: kkt
+      type(observer_t), intent(inout) :: observer
+      logical, intent(in) :: needs_violation                !! the constraint violation is wanted, in kkt%values
+      type(attitude_t), intent(inout) :: wheels(:)
+      real(wp), intent(inout) :: values(:)                  !! all columns
+      logical :: has_matrix, has_attitudes
+      integer :: w, c
+
+      has_matrix = .false.
+      has_attitudes = has_wheels(observer%list)
+      if (has_kandc(observer)) then
+         has_matrix = observer%kandc%is_matrix_wanted
+         has_attitudes = has_attitudes .or. observer%kandc%has_wheels
+      end if
+      if (has_kandc(observer)) then
+         call assemble(suspension, state, inputs, merge(whole_tangent, residual_only, has_matrix), kkt)
+      else if (needs_violation .or. has_joints(observer%list)) then
+         call assemble_rows(suspension, state, inputs, kkt)
+      end if
+      if (has_attitudes) then
+         do w = 1, size(wheels)
+            associate (wheel => suspension%wheels(w))
+               call find_attitude(wheel, suspension%bodies(wheel%body)%origin, state%poses(wheel%body + 1), wheels(w))
+            end associate
+         end do
+      end if
+      associate (shown => observer%shown)
+         call state_values(suspension, state, wheels, kkt, observer%list, values(3:shown))
+         if (.not. has_kandc(observer)) return
+         call fill_kandc(suspension, state, inputs, wheels, kkt, observer%kandc)
+         do c = 1, size(observer%kandc%values)
+            values(shown + c) = observer%kandc%values(c)
+         end do
+      end associate
+   end subroutine fill_quantities
 
    !> The table of a single path, as observe with an observer of its own.
    subroutine sweep_table(suspension, case, path, kkt, table, wanted)
@@ -172,7 +260,7 @@ contains
       call list_columns(suspension, case, columns, list, kandc)
    end subroutine sweep_columns
 
-   !> The heads, and the work space of the K&C columns if the case requests them.
+   !> The heads, and the work space of the K&C columns if the case requests them. Which are asked is still to be said.
    subroutine list_columns(suspension, case, columns, list, kandc)
       type(suspension_t), intent(in) :: suspension
       type(case_t), intent(in) :: case
@@ -181,8 +269,8 @@ contains
       type(kandc_t), intent(out) :: kandc
       integer :: shown, reported
 
-      if (case%has_all) call start_kandc(suspension, kandc)
-      call state_columns(suspension, list)
+      if (case%has_all) call list_kandc(suspension, kandc)
+      call list_state(suspension, list)
       shown = 2 + list%used
       reported = shown + kandc%used
       allocate (columns(reported + ends_of(case)))
@@ -237,109 +325,5 @@ contains
          last = min(last + 1, path%states)
       end if
    end subroutine reached_rows
-
-   !> The compliance matrix at every converged state of a sweep as a table: one row per state, one column per entry.
-   !>
-   !> A column is called <place>_<displacement>_by_<load>_<unit>: displacement and load begin with the wheel (`left_`, `right_`),
-   !> then x, y, z (displacements), rx, ry, rz (rotations), fx, fy, fz (forces), mx, my, mz (moments), in the frame of the deck.
-   !> `centre`: loads and displacements at the wheel centres; `patch`: at the contact points of the deck. Loads keep their
-   !> direction; the vertical force on all wheels is held, heights held by the rig are released (ek_compliance). No wheel: none.
-   subroutine compliance_table(suspension, case, path, kkt, table)
-      type(suspension_t), intent(in) :: suspension      !! on the rig
-      type(case_t), intent(in) :: case
-      type(path_t), intent(in) :: path
-      type(kkt_t), intent(inout) :: kkt                 !! work space
-      type(table_t), intent(out) :: table
-      type(compliance_t) :: compliance
-      type(schedule_t) :: schedule
-      real(wp), allocatable :: c(:, :), scale(:), arm(:, :)
-      integer :: n, k, row
-
-      compliance = new_compliance(suspension, .false.)
-      n = 6*compliance%wheels
-      allocate (c(n, n), scale(n), arm(3, compliance%wheels))
-      scale = [(deck_frame(suspension), k=1, n/3)]
-      table = new_table(columns_of(suspension, compliance), count(path%is_reached))
-      schedule = new_schedule(suspension, case)
-      row = 0
-      do k = 1, path%states
-         if (.not. path%is_reached(k)) cycle
-         row = row + 1
-         table%values(1, row) = k - 1
-         table%values(2, row) = path%value(k)/case%unit
-         call state_compliance(suspension, schedule, path, k, kkt, compliance, c, arm)
-         call put(c, scale, table%values(3:2 + n*n, row))
-         call put(read_at_patch(load_at_patch(c, arm), arm), scale, table%values(3 + n*n:2 + 2*n*n, row))
-      end do
-   end subroutine compliance_table
-
-   !> The compliance matrix at one converged state of a sweep, at the wheel centres: x rearward, y right, z up
-   !> [m/N, rad/N, m/(N m), rad/(N m)]; not a number where the matrix is singular.
-   subroutine state_compliance(suspension, schedule, path, k, kkt, compliance, c, arm)
-      type(suspension_t), intent(in) :: suspension      !! on the rig
-      type(schedule_t), intent(in) :: schedule          !! of the case
-      type(path_t), intent(in) :: path
-      integer, intent(in) :: k                          !! the state
-      type(kkt_t), intent(inout) :: kkt                 !! work space
-      type(compliance_t), intent(inout) :: compliance   !! work space, of new_compliance
-      real(wp), intent(out) :: c(:, :)                  !! 6 × wheels, left before right
-      real(wp), intent(out) :: arm(:, :)                !! from each centre to the contact point of the deck [m]
-      type(state_t) :: state
-      type(inputs_t) :: inputs
-      integer :: w
-
-      state = design_state(suspension)
-      call unpack_state(path%packed(:, k), state)
-      call inputs_at(schedule, path%value(k), inputs)
-      call wheel_compliance(suspension, state, inputs, 0, kkt, compliance)
-      do w = 1, compliance%wheels
-         associate (wheel => suspension%wheels(compliance%order(w)))
-            arm(:, w) = rotated(state%poses(wheel%body + 1)%a, wheel%contact - wheel%centre)
-         end associate
-      end do
-      c = compliance%response(:size(c, 1), :size(c, 2))
-   end subroutine state_compliance
-
-   !> The entries of a matrix, row by row, in the units of the columns and the frame of the deck.
-   pure subroutine put(c, frame, values)
-      real(wp), intent(in) :: c(:, :)            !! SI
-      real(wp), intent(in) :: frame(:)           !! sign of every direction
-      real(wp), intent(inout) :: values(:)
-      integer :: i, j, at
-
-      at = 0
-      do i = 1, size(c, 1)
-         do j = 1, size(c, 2)
-            at = at + 1
-            values(at) = frame(i)*frame(j)*c(i, j)/(merge(1.0e-3_wp, degree, mod(i - 1, 6) < 3)/ &      ! mm or deg
-               merge(1.0e3_wp, 1.0e2_wp, mod(j - 1, 6) < 3))                                             ! per kN or 100 N m
-         end do
-      end do
-   end subroutine put
-
-   !> 'state', 'factor', then every entry of both matrices, row by row.
-   function columns_of(suspension, compliance) result(names)
-      type(suspension_t), intent(in) :: suspension
-      type(compliance_t), intent(in) :: compliance
-      character(name_length), allocatable :: names(:)
-      character(:), allocatable :: unit
-      integer :: n, p, i, j, at
-
-      n = 6*compliance%wheels
-      allocate (names(2 + 2*n*n))
-      names(1) = 'state'
-      names(2) = 'factor'
-      at = 2
-      do p = 1, 2
-         do i = 1, n
-            do j = 1, n
-               unit = trim(merge('mm ', 'deg', mod(i - 1, 6) < 3))//'_per_'//trim(merge('kn   ', '100nm', mod(j - 1, 6) < 3))
-               at = at + 1
-               names(at) = trim(places(p))//prefix_of(suspension, compliance%order((i + 5)/6))//trim(moves(mod(i - 1, 6) + 1))// &
-                  '_by_'//prefix_of(suspension, compliance%order((j + 5)/6))//loads(mod(j - 1, 6) + 1)//'_'//unit
-            end do
-         end do
-      end do
-   end function columns_of
 
 end module ek_sweep_table

@@ -3,7 +3,7 @@ module ek_target
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_convergence
-   use ek_text, only: str, quoted, nearest_name
+   use ek_text, only: str, quoted, suggestion
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_state, only: state_t, design_state, pack_state
@@ -242,10 +242,8 @@ contains
          return
       end if
       is_near = index(columns, name) > 0            ! as left_coil_length_mm contains coil_length
-      hint = nearest_name(name, columns)
-      if (hint /= '') then
-         hint = ' (did you mean '//quoted(hint)//'?)'
-      else if (any(is_near)) then
+      hint = suggestion(name, columns)
+      if (hint == '' .and. any(is_near)) then
          hint = ' (columns with this in their name: '//listed(pack(columns, is_near .and. [(count(is_near(:k)) <= most, &
             k=1, size(columns))]), ', ')//repeat(', …', merge(1, 0, count(is_near) > most))//')'
       end if

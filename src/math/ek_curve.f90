@@ -12,198 +12,116 @@
 !> An Akima curve depends on five neighbouring points: a distant corner causes no oscillation, and flat data stay flat.
 module ek_curve
    use ek_kinds, only: wp
+   use ek_number, only: num, mask, piece, zero, one, some, every, pieces_below, entry
    use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
-   public :: curve_t, new_curve, look_up_curve, curve_kinds, slopes_between, has_points, min_step
-
-   character(*), parameter :: curve_kinds(3) = [character(6) :: 'linear', 'akima', 'cubic']
-
-   real(wp), parameter :: min_step = 1.0e-30_wp   !! smallest distance of two points; with numbers below 1e30 no slope overflows
+   public :: curve_t, copy_curve, look_up_curve, slopes_between
 
    !> A curve, in the units of its points.
    type :: curve_t
       character(:), allocatable :: name            !! for messages; may be unallocated
-      real(wp), allocatable :: breaks(:)           !! x of the n points, increasing
-      real(wp), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
-      real(wp) :: end_value = 0.0_wp               !! y of the last point
-      real(wp) :: end_slope = 0.0_wp               !! slope beyond it
+      real(num), allocatable :: breaks(:)           !! x of the n points, increasing
+      real(num), allocatable :: coefficients(:, :)  !! (4, n−1): c1 … c4 of each piece
+      real(num) :: end_value = zero               !! y of the last point
+      real(num) :: end_slope = zero               !! slope beyond it
    end type curve_t
 
 contains
 
-   !> The curve through points; x must increase strictly, at least two (checked by the reader).
-   pure function new_curve(x, y, kind, x_unit, y_unit) result(curve)
-      real(wp), intent(in) :: x(:), y(:)
-      character(*), intent(in) :: kind         !! one of curve_kinds
-      real(wp), intent(in), optional :: x_unit, y_unit   !! by which the curve is multiplied, both above 0
-      type(curve_t) :: curve
-      real(wp) :: left(size(x) - 1), right(size(x) - 1), chord(size(x) - 1), slope(size(x)), h
-      integer :: k, n
+   !> A curve with the numbers of another one; its memory is used again if the number of points is the same.
+   pure subroutine copy_curve(from, to)
+      type(curve_t), intent(in) :: from
+      type(curve_t), intent(inout) :: to          !! keeps its name in this case
+      logical :: is_alike
 
-      n = size(x)
-      chord = (y(2:) - y(:n - 1))/(x(2:) - x(:n - 1))
-      left = chord
-      right = chord
-      if (kind /= 'linear') then
-         if (kind == 'akima') slope = akima_slopes(chord)
-         if (kind == 'cubic') slope = natural_slopes(x, chord)
-         left = slope(:n - 1)
-         right = slope(2:)
+      is_alike = allocated(to%breaks)
+      if (is_alike) is_alike = size(to%breaks) == size(from%breaks)
+      if (.not. is_alike) then
+         to = from
+         return
       end if
-      allocate (curve%breaks(n), curve%coefficients(4, n - 1))
-      curve%breaks = x
-      do k = 1, n - 1
-         h = x(k + 1) - x(k)
-         curve%coefficients(1, k) = y(k)
-         curve%coefficients(2, k) = left(k)
-         curve%coefficients(3, k) = (3.0_wp*chord(k) - 2.0_wp*left(k) - right(k))/h
-         curve%coefficients(4, k) = (left(k) + right(k) - 2.0_wp*chord(k))/h**2
-      end do
-      curve%end_value = y(n)
-      curve%end_slope = right(n - 1)
-      if (.not. present(x_unit)) return
-      curve%breaks = x*x_unit
-      do k = 1, 4
-         curve%coefficients(k, :) = curve%coefficients(k, :)*(y_unit/x_unit**(k - 1))
-      end do
-      curve%end_value = y(n)*y_unit
-      curve%end_slope = right(n - 1)*(y_unit/x_unit)
-   end function new_curve
-
-   !> Whether a curve was made from these points and units by `new_curve`.
-   pure logical function has_points(curve, x, y, x_unit, y_unit)
-      type(curve_t), intent(in) :: curve
-      real(wp), intent(in) :: x(:), y(:)
-      real(wp), intent(in) :: x_unit, y_unit
-      integer :: n
-
-      n = size(x)
-      has_points = .false.
-      if (.not. allocated(curve%breaks)) return
-      if (size(curve%breaks) /= n) return
-      has_points = all(abs(curve%breaks - x*x_unit) <= 0.0_wp) .and. abs(curve%end_value - y(n)*y_unit) <= 0.0_wp .and. &
-         all(abs(curve%coefficients(1, :) - y(:n - 1)*y_unit) <= 0.0_wp)
-   end function has_points
+      to%breaks(:) = from%breaks
+      to%coefficients(:, :) = from%coefficients
+      to%end_value = from%end_value
+      to%end_slope = from%end_slope
+   end subroutine copy_curve
 
    !> Value and slope at x; at a corner of a linear curve, the slope to the right.
    pure subroutine look_up_curve(curve, x, value, slope)
       type(curve_t), intent(in) :: curve
-      real(wp), intent(in) :: x
-      real(wp), intent(out) :: value, slope
-      real(wp) :: t
-      integer :: k, n
+      real(num), intent(in) :: x
+      real(num), intent(out) :: value, slope
+      real(num) :: t, v, s, c2, c3, c4
+      logical(mask) :: is_beyond, is_before, is_outside
+      integer(piece) :: k
+      integer :: n
 
       if (are_checked) call require(allocated(curve%breaks), 'look_up_curve: the curve has no points')
       n = size(curve%breaks)
       t = x - curve%breaks(n)
-      if (t >= 0.0_wp) then
-         value = curve%end_value + curve%end_slope*t
-         slope = curve%end_slope
-         return
-      end if
+      is_beyond = t >= 0.0_wp
+      value = curve%end_value + curve%end_slope*t
+      slope = curve%end_slope
+      if (every(is_beyond)) return
       t = x - curve%breaks(1)
-      if (t < 0.0_wp) then
-         slope = curve%coefficients(2, 1)
-         value = curve%coefficients(1, 1) + slope*t
-         return
+      is_before = t < 0.0_wp
+      if (some(is_before)) then
+         v = curve%coefficients(1, 1) + curve%coefficients(2, 1)*t
+         value = merge(v, value, is_before)
+         slope = merge(curve%coefficients(2, 1), slope, is_before)
       end if
-      k = count(curve%breaks(:n - 1) <= x)
-      t = x - curve%breaks(k)
-      associate (c => curve%coefficients(:, k))
-         value = c(1) + t*(c(2) + t*(c(3) + t*c(4)))
-         slope = c(2) + t*(2.0_wp*c(3) + t*(3.0_wp*c(4)))
-      end associate
+      is_outside = is_beyond .or. is_before
+      if (every(is_outside)) return
+      t = merge(curve%breaks(1), x, is_outside)
+      k = pieces_below(curve%breaks(:n - 1), t)
+      t = t - entry(curve%breaks, k)
+      c2 = entry(curve%coefficients(2, :), k)
+      c3 = entry(curve%coefficients(3, :), k)
+      c4 = entry(curve%coefficients(4, :), k)
+      v = entry(curve%coefficients(1, :), k) + t*(c2 + t*(c3 + t*c4))
+      s = c2 + t*(2.0_wp*c3 + t*(3.0_wp*c4))
+      value = merge(value, v, is_outside)
+      slope = merge(slope, s, is_outside)
    end subroutine look_up_curve
 
    !> The least and the largest slope between two places.
    pure subroutine slopes_between(curve, from, to, least, most)
       type(curve_t), intent(in) :: curve
-      real(wp), intent(in) :: from, to
-      real(wp), intent(out) :: least, most
-      real(wp) :: low, high, left, right, apex, slope(3)
+      real(num), intent(in) :: from, to
+      real(num), intent(out) :: least, most
+      real(num) :: low, high, left, right, apex, c2, c3, c4, at_left, at_apex, at_right
+      logical(mask) :: is_in_reach, is_straight
       integer :: k, n
 
       low = min(from, to)
       high = max(from, to)
-      least = huge(least)
-      most = -huge(most)
+      least = huge(1.0_wp)
+      most = -huge(1.0_wp)
       n = size(curve%breaks)
-      if (low <= curve%breaks(1)) then
-         least = curve%coefficients(2, 1)
-         most = least
-      end if
-      if (high >= curve%breaks(n)) then
-         least = min(least, curve%end_slope)
-         most = max(most, curve%end_slope)
-      end if
+      is_in_reach = low <= curve%breaks(1)
+      least = merge(curve%coefficients(2, 1), least, is_in_reach)
+      most = merge(curve%coefficients(2, 1), most, is_in_reach)
+      is_in_reach = high >= curve%breaks(n)
+      least = merge(min(least, curve%end_slope), least, is_in_reach)
+      most = merge(max(most, curve%end_slope), most, is_in_reach)
       do k = 1, n - 1
          left = max(low, curve%breaks(k)) - curve%breaks(k)
          right = min(high, curve%breaks(k + 1)) - curve%breaks(k)
-         if (left > right) cycle
-         associate (c => curve%coefficients(:, k))
-            apex = left
-            if (abs(c(4)) > 0.0_wp) apex = min(max(-c(3)/(3.0_wp*c(4)), left), right)
-            slope = c(2) + [left, apex, right]*(2.0_wp*c(3) + 3.0_wp*[left, apex, right]*c(4))
-         end associate
-         least = min(least, minval(slope))
-         most = max(most, maxval(slope))
+         is_in_reach = left <= right
+         if (.not. some(is_in_reach)) cycle
+         c2 = curve%coefficients(2, k)
+         c3 = curve%coefficients(3, k)
+         c4 = curve%coefficients(4, k)
+         is_straight = abs(c4) <= 0.0_wp          ! the slope
+         apex = min(max(-c3/(3.0_wp*merge(one, c4, is_straight)), left), right)
+         apex = merge(left, apex, is_straight)
+         at_left = c2 + left*(2.0_wp*c3 + 3.0_wp*left*c4)
+         at_apex = c2 + apex*(2.0_wp*c3 + 3.0_wp*apex*c4)
+         at_right = c2 + right*(2.0_wp*c3 + 3.0_wp*right*c4)
+         least = merge(min(least, min(min(at_left, at_apex), at_right)), least, is_in_reach)
+         most = merge(max(most, max(max(at_left, at_apex), at_right)), most, is_in_reach)
       end do
    end subroutine slopes_between
-
-   !> Akima (1970), eqs. 1, 8 and 9: d = (|m4 − m3| m2 + |m2 − m1| m3)/(|m4 − m3| + |m2 − m1|), m1 … m4 the two chords
-   !> on either side; if both differences vanish, the mean of m2 and m3. Two chords are extrapolated beyond each end.
-   pure function akima_slopes(chord) result(slope)
-      real(wp), intent(in) :: chord(:)
-      real(wp) :: slope(size(chord) + 1), m(-1:size(chord) + 2), before, after, least
-      integer :: k, n
-
-      n = size(chord)
-      m(1:n) = chord
-      ! extrapolation of the parabola through the last three points; with two points, of the line
-      m(0) = 2.0_wp*m(1) - m(min(2, n))
-      m(-1) = 2.0_wp*m(0) - m(1)
-      m(n + 1) = 2.0_wp*m(n) - m(max(n - 1, 1))
-      m(n + 2) = 2.0_wp*m(n + 1) - m(n)
-      least = 1.0e-9_wp*maxval(abs(m))     ! chords that differ only by rounding count as equal
-      do k = 1, n + 1
-         before = abs(m(k - 1) - m(k - 2))
-         after = abs(m(k + 1) - m(k))
-         if (before + after > least) then
-            slope(k) = (after*m(k - 1) + before*m(k))/(before + after)
-         else
-            slope(k) = 0.5_wp*(m(k - 1) + m(k))
-         end if
-      end do
-   end function akima_slopes
-
-   !> Slopes of the natural cubic spline: continuous curvature, zero at the ends.
-   !>
-   !>     d_{k−1}/h_{k−1} + 2 d_k (1/h_{k−1} + 1/h_k) + d_{k+1}/h_k = 3 (m_{k−1}/h_{k−1} + m_k/h_k)
-   !>
-   !> and 2 d_1 + d_2 = 3 m_1 at the first point, likewise at the last; the tridiagonal system is diagonally dominant and
-   !> solved without pivoting.
-   pure function natural_slopes(x, chord) result(slope)
-      real(wp), intent(in) :: x(:), chord(:)
-      real(wp) :: slope(size(x)), diagonal(size(x)), inverse(size(chord)), factor
-      integer :: k, n
-
-      n = size(x)
-      inverse = 1.0_wp/(x(2:) - x(:n - 1))
-      diagonal(1) = 2.0_wp*inverse(1)
-      slope(1) = 3.0_wp*chord(1)*inverse(1)
-      do k = 2, n
-         factor = inverse(k - 1)/diagonal(k - 1)
-         diagonal(k) = 2.0_wp*inverse(k - 1) - factor*inverse(k - 1)
-         slope(k) = 3.0_wp*chord(k - 1)*inverse(k - 1) - factor*slope(k - 1)
-         if (k == n) exit
-         diagonal(k) = diagonal(k) + 2.0_wp*inverse(k)
-         slope(k) = slope(k) + 3.0_wp*chord(k)*inverse(k)
-      end do
-      slope(n) = slope(n)/diagonal(n)
-      do k = n - 1, 1, -1
-         slope(k) = (slope(k) - inverse(k)*slope(k + 1))/diagonal(k)
-      end do
-   end function natural_slopes
 
 end module ek_curve

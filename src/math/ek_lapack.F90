@@ -5,20 +5,20 @@
 !> processors, raises SIGFPE on valid numbers. In other builds the names refer to the routines directly, at no cost.
 !>
 !> A wrapper changes the halting modes, which are restored on return (Fortran 2018, 17.6). Flags raised by the library are
-!> cleared first, as they would otherwise trap when the modes are restored.
+!> cleared first, as they would otherwise trap when the modes are restored. Each wrapper names the module of exceptions itself:
+!> gfortran restores the modes of a procedure only if the procedure, not its module, uses that module.
 module ek_lapack
 #ifdef EK_TRAPS
-   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
    use ek_kinds, only: wp
    use ek_lapack_routines, only: lapack_dsytrf => dsytrf, lapack_dsytrs => dsytrs, lapack_dsytrs2 => dsytrs2, &
       lapack_dlacn2 => dlacn2, lapack_dsysv => dsysv, lapack_dgesv => dgesv, lapack_dsyev => dsyev, lapack_dgesvd => dgesvd, &
-      lapack_dpotrf => dpotrf
+      lapack_dgelsd => dgelsd, lapack_dpotrf => dpotrf, lapack_dgetrf => dgetrf, lapack_dgetrs => dgetrs
 #else
-   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dpotrf
+   use ek_lapack_routines, only: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dgelsd, dpotrf, dgetrf, dgetrs
 #endif
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dgesv, dsyev, dgesvd, dgelsd, dpotrf, dgetrf, dgetrs
 
 #ifdef EK_TRAPS
 contains
@@ -26,6 +26,7 @@ contains
    ! what each does, and its arguments: see ek_lapack_routines
 
    pure subroutine dpotrf(uplo, n, a, lda, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: uplo
       integer, intent(in) :: n, lda
       real(wp), intent(inout) :: a(lda, *)
@@ -37,6 +38,7 @@ contains
    end subroutine dpotrf
 
    pure subroutine dsytrf(uplo, n, a, lda, ipiv, work, lwork, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: uplo
       integer, intent(in) :: n, lda, lwork
       real(wp), intent(inout) :: a(lda, *)
@@ -50,6 +52,7 @@ contains
    end subroutine dsytrf
 
    pure subroutine dsytrs(uplo, n, nrhs, a, lda, ipiv, b, ldb, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: uplo
       integer, intent(in) :: n, nrhs, lda, ldb
       real(wp), intent(in) :: a(lda, *)
@@ -63,6 +66,7 @@ contains
    end subroutine dsytrs
 
    pure subroutine dsytrs2(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: uplo
       integer, intent(in) :: n, nrhs, lda, ldb
       real(wp), intent(inout) :: a(lda, *)
@@ -77,6 +81,7 @@ contains
    end subroutine dsytrs2
 
    pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       integer, intent(in) :: n
       real(wp), intent(inout) :: v(n), x(n)
       integer, intent(inout) :: isgn(n)
@@ -90,6 +95,7 @@ contains
    end subroutine dlacn2
 
    pure subroutine dsysv(uplo, n, nrhs, a, lda, ipiv, b, ldb, work, lwork, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: uplo
       integer, intent(in) :: n, nrhs, lda, ldb, lwork
       real(wp), intent(inout) :: a(lda, *)
@@ -104,6 +110,7 @@ contains
    end subroutine dsysv
 
    pure subroutine dgesv(n, nrhs, a, lda, ipiv, b, ldb, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       integer, intent(in) :: n, nrhs, lda, ldb
       real(wp), intent(inout) :: a(lda, *)
       integer, intent(out) :: ipiv(*)
@@ -115,7 +122,34 @@ contains
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgesv
 
+   pure subroutine dgetrf(m, n, a, lda, ipiv, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
+      integer, intent(in) :: m, n, lda
+      real(wp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dgetrf(m, n, a, lda, ipiv, info)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dgetrf
+
+   pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
+      character, intent(in) :: trans
+      integer, intent(in) :: n, nrhs, lda, ldb
+      real(wp), intent(in) :: a(lda, *)
+      integer, intent(in) :: ipiv(*)
+      real(wp), intent(inout) :: b(ldb, *)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dgetrs
+
    pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: jobz, uplo
       integer, intent(in) :: n, lda, lwork
       real(wp), intent(inout) :: a(lda, *)
@@ -129,6 +163,7 @@ contains
    end subroutine dsyev
 
    pure subroutine dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
       character, intent(in) :: jobu, jobvt
       integer, intent(in) :: m, n, lda, ldu, ldvt, lwork
       real(wp), intent(inout) :: a(lda, *)
@@ -140,6 +175,22 @@ contains
       call lapack_dgesvd(jobu, jobvt, m, n, a, lda, s, u, ldu, vt, ldvt, work, lwork, info)
       call ieee_set_flag(ieee_usual, .false.)
    end subroutine dgesvd
+
+   pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+      use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
+      integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+      real(wp), intent(inout) :: a(lda, *), b(ldb, *)
+      real(wp), intent(out) :: s(*)
+      real(wp), intent(in) :: rcond
+      integer, intent(out) :: rank
+      real(wp), intent(out) :: work(*)
+      integer, intent(out) :: iwork(*)
+      integer, intent(out) :: info
+
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      call lapack_dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+      call ieee_set_flag(ieee_usual, .false.)
+   end subroutine dgelsd
 #endif
 
 end module ek_lapack

@@ -5,7 +5,7 @@ module ek_lapack_routines
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgesvd, dpotrf
+   public :: dsytrf, dsytrs, dsytrs2, dlacn2, dsysv, dsyev, dgesv, dgetrf, dgetrs, dgesvd, dgelsd, dpotrf
 
    interface
       !> Cholesky factorisation of a symmetric positive definite matrix; info = order of the first minor that is not.
@@ -92,6 +92,28 @@ module ek_lapack_routines
          integer, intent(out) :: info
       end subroutine dgesv
 
+      !> LU factorisation with partial pivoting; info > 0: a pivot is zero.
+      pure subroutine dgetrf(m, n, a, lda, ipiv, info)
+         import :: wp
+         implicit none(type, external)
+         integer, intent(in) :: m, n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out) :: ipiv(*)
+         integer, intent(out) :: info
+      end subroutine dgetrf
+
+      !> Solves with the factors of dgetrf; trans = 'T': with the transpose of the matrix.
+      pure subroutine dgetrs(trans, n, nrhs, a, lda, ipiv, b, ldb, info)
+         import :: wp
+         implicit none(type, external)
+         character, intent(in) :: trans
+         integer, intent(in) :: n, nrhs, lda, ldb
+         real(wp), intent(in) :: a(lda, *)
+         integer, intent(in) :: ipiv(*)
+         real(wp), intent(inout) :: b(ldb, *)
+         integer, intent(out) :: info
+      end subroutine dgetrs
+
       !> Eigenvalues and eigenvectors of a symmetric matrix, ascending.
       pure subroutine dsyev(jobz, uplo, n, a, lda, w, work, lwork, info)
          import :: wp
@@ -115,6 +137,21 @@ module ek_lapack_routines
          real(wp), intent(out) :: work(*)
          integer, intent(out) :: info
       end subroutine dgesvd
+
+      !> Least squares of minimum norm, by singular values; those below rcond times the largest count as zero.
+      pure subroutine dgelsd(m, n, nrhs, a, lda, b, ldb, s, rcond, rank, work, lwork, iwork, info)
+         import :: wp
+         implicit none(type, external)
+         integer, intent(in) :: m, n, nrhs, lda, ldb, lwork
+         real(wp), intent(inout) :: a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)      !! max(m, n) rows: right-hand sides, then solutions
+         real(wp), intent(out) :: s(*)
+         real(wp), intent(in) :: rcond
+         integer, intent(out) :: rank
+         real(wp), intent(out) :: work(*)
+         integer, intent(out) :: iwork(*)
+         integer, intent(out) :: info
+      end subroutine dgelsd
    end interface
 
 end module ek_lapack_routines

@@ -4,21 +4,22 @@
 !> body axes to global axes. Products satisfy A(p⊗q) = A(p) A(q).
 module ek_rotation
    use ek_kinds, only: wp, degree
+   use ek_number, only: num, mask, zero, one, some
    implicit none(type, external)
    private
    public :: cross, skew, unit_vector, perpendicular, angle_between
    public :: quaternion_product, quaternion_of_vector, rotation_matrix, rotate_quaternion
    public :: identity3
 
-   real(wp), parameter :: identity3(3, 3) = &
-      reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+   real(num), parameter :: identity3(3, 3) = &
+      reshape([one, zero, zero, zero, one, zero, zero, zero, one], [3, 3])
 
 contains
 
    !> a × b
    pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: c(3)
+      real(num), intent(in) :: a(3), b(3)
+      real(num) :: c(3)
       c(1) = a(2)*b(3) - a(3)*b(2)
       c(2) = a(3)*b(1) - a(1)*b(3)
       c(3) = a(1)*b(2) - a(2)*b(1)
@@ -26,8 +27,8 @@ contains
 
    !> p̃, the matrix with p̃ x = p × x.
    pure function skew(p) result(matrix)
-      real(wp), intent(in) :: p(3)
-      real(wp) :: matrix(3, 3)
+      real(num), intent(in) :: p(3)
+      real(num) :: matrix(3, 3)
       matrix(1, 1) = 0.0_wp; matrix(1, 2) = -p(3); matrix(1, 3) = p(2)
       matrix(2, 1) = p(3); matrix(2, 2) = 0.0_wp; matrix(2, 3) = -p(1)
       matrix(3, 1) = -p(2); matrix(3, 2) = p(1); matrix(3, 3) = 0.0_wp
@@ -35,35 +36,39 @@ contains
 
    !> v/|v|; v must not be zero (checked by the reader).
    pure function unit_vector(v) result(u)
-      real(wp), intent(in) :: v(3)
-      real(wp) :: u(3)
+      real(num), intent(in) :: v(3)
+      real(num) :: u(3)
       u = v/norm2(v)
    end function unit_vector
 
    !> A unit vector perpendicular to z, chosen deterministically: the global axis with the smallest
    !> component along z, made perpendicular to it.
    pure function perpendicular(z) result(x)
-      real(wp), intent(in) :: z(3)   !! unit vector
-      real(wp) :: x(3)
-      integer :: least
+      real(num), intent(in) :: z(3)   !! unit vector
+      real(num) :: x(3)
+      real(num) :: size(3)
+      logical(mask) :: is_x, is_y
 
-      least = minloc(abs(z), dim=1)
-      x = 0.0_wp
-      x(least) = 1.0_wp
+      size = abs(z)
+      is_x = size(1) <= size(2) .and. size(1) <= size(3)
+      is_y = size(2) <= size(3) .and. .not. is_x
+      x(1) = merge(one, zero, is_x)
+      x(2) = merge(one, zero, is_y)
+      x(3) = merge(zero, one, is_x .or. is_y)
       x = unit_vector(x - dot_product(x, z)*z)
    end function perpendicular
 
    !> Angle between two unit vectors [deg], accurate near 0 and 180 deg too.
-   pure real(wp) function angle_between(u, v) result(angle)
-      real(wp), intent(in) :: u(3), v(3)
+   pure real(num) function angle_between(u, v) result(angle)
+      real(num), intent(in) :: u(3), v(3)
       angle = 2.0_wp*atan2(norm2(u - v), norm2(u + v))/degree
    end function angle_between
 
    !> p ⊗ q
    !> Equation (R.3) of docs/theory/rotations.md.
    pure function quaternion_product(p, q) result(r)
-      real(wp), intent(in) :: p(4), q(4)
-      real(wp) :: r(4)
+      real(num), intent(in) :: p(4), q(4)
+      real(num) :: r(4)
       r(1) = p(1)*q(1) - p(2)*q(2) - p(3)*q(3) - p(4)*q(4)
       r(2) = p(1)*q(2) + p(2)*q(1) + p(3)*q(4) - p(4)*q(3)
       r(3) = p(1)*q(3) - p(2)*q(4) + p(3)*q(1) + p(4)*q(2)
@@ -73,28 +78,35 @@ contains
    !> Quaternion of the rotation vector v [rad]; exact for any length.
    !> Equations (R.1), (R.2) of docs/theory/rotations.md.
    pure function quaternion_of_vector(v) result(q)
-      real(wp), intent(in) :: v(3)
-      real(wp) :: q(4), square, half
+      real(num), intent(in) :: v(3)
+      real(num) :: q(4), square, s, half, factor
+      logical(mask) :: is_small
 
       square = v(1)**2 + v(2)**2 + v(3)**2
-      if (square < 1.0e-4_wp) then
+      is_small = square < 1.0e-4_wp
+      q(1) = one
+      factor = 0.5_wp
+      if (some(is_small)) then
          ! Taylor series: the next terms are below 1e-20 here, and no 0/0 at rest
-         q(1) = 1.0_wp - square/8.0_wp*(1.0_wp - square/48.0_wp*(1.0_wp - square/120.0_wp))
-         q(2:4) = v*(0.5_wp - square/48.0_wp*(1.0_wp - square/80.0_wp*(1.0_wp - square/168.0_wp)))
-      else
-         half = 0.5_wp*sqrt(square)
-         q(1) = cos(half)
-         q(2:4) = v*(0.5_wp*sin(half)/half)
+         s = merge(square, zero, is_small)
+         q(1) = 1.0_wp - s/8.0_wp*(1.0_wp - s/48.0_wp*(1.0_wp - s/120.0_wp))
+         factor = 0.5_wp - s/48.0_wp*(1.0_wp - s/80.0_wp*(1.0_wp - s/168.0_wp))
       end if
+      if (some(.not. is_small)) then
+         half = 0.5_wp*sqrt(merge(one, square, is_small))
+         q(1) = merge(q(1), cos(half), is_small)
+         factor = merge(factor, 0.5_wp*sin(half)/half, is_small)
+      end if
+      q(2:4) = v*factor
    end function quaternion_of_vector
 
    !> exp(ṽ) applied on the left of q, then normalised, so that rounding does not accumulate
    !> over any number of increments.
    !> Equation (R.5) of docs/theory/rotations.md.
    pure function rotate_quaternion(v, q) result(turned)
-      real(wp), intent(in) :: v(3)     !! rotation vector, global axes [rad]
-      real(wp), intent(in) :: q(4)
-      real(wp) :: turned(4), square
+      real(num), intent(in) :: v(3)     !! rotation vector, global axes [rad]
+      real(num), intent(in) :: q(4)
+      real(num) :: turned(4), square
 
       turned = quaternion_product(quaternion_of_vector(v), q)
       square = turned(1)**2 + turned(2)**2 + turned(3)**2 + turned(4)**2
@@ -104,8 +116,8 @@ contains
    !> A(q), body axes to global axes; q must be of unit length.
    !> Equation (R.4) of docs/theory/rotations.md.
    pure function rotation_matrix(q) result(a)
-      real(wp), intent(in) :: q(4)
-      real(wp) :: a(3, 3), xx, yy, zz, xy, xz, yz, wx, wy, wz
+      real(num), intent(in) :: q(4)
+      real(num) :: a(3, 3), xx, yy, zz, xy, xz, yz, wx, wy, wz
 
       xx = 2.0_wp*q(2)*q(2); yy = 2.0_wp*q(3)*q(3); zz = 2.0_wp*q(4)*q(4)
       xy = 2.0_wp*q(2)*q(3); xz = 2.0_wp*q(2)*q(4); yz = 2.0_wp*q(3)*q(4)

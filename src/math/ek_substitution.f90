@@ -7,7 +7,7 @@ module ek_substitution
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: substitute
+   public :: substitute, product_sum
 
 contains
 

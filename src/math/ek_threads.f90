@@ -1,5 +1,5 @@
 !> One thread for the linear algebra: matrices of this size gain nothing from more, and a second thread of OpenBLAS,
-!> once active, occupies a processor that another job of a batch queue could use. See also src/ek_one_thread.f90.
+!> once active, occupies a processor that another job of a batch queue could use. See also src/ek_one_thread.F90.
 module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use ek_kinds, only: i8

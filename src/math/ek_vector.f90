@@ -3,7 +3,7 @@
 !> An assignment to a whole allocatable array checks its shape at run time, and flang asks for memory for the right-hand side
 !> where that may overlap the left-hand side.
 module ek_vector
-   use ek_kinds, only: wp
+   use ek_number, only: num
    implicit none(type, external)
    private
    public :: add_multiple, multiply
@@ -13,8 +13,8 @@ contains
    !> y ← y + factor × x
    pure subroutine add_multiple(n, factor, x, y)
       integer, intent(in) :: n
-      real(wp), intent(in) :: factor, x(n)
-      real(wp), intent(inout) :: y(n)
+      real(num), intent(in) :: factor, x(n)
+      real(num), intent(inout) :: y(n)
       integer :: k
 
       do k = 1, n
@@ -25,8 +25,8 @@ contains
    !> y ← x y, component by component
    pure subroutine multiply(n, x, y)
       integer, intent(in) :: n
-      real(wp), intent(in) :: x(n)
-      real(wp), intent(inout) :: y(n)
+      real(num), intent(in) :: x(n)
+      real(num), intent(inout) :: y(n)
       integer :: k
 
       do k = 1, n

@@ -1,22 +1,30 @@
-!> Adding 3×3 blocks to the lower triangle of a matrix of bodies, six unknowns each: [Δr Δπ].
+!> The blocks of the tangent matrix of bodies, six unknowns each [Δr Δπ], and adding 3×3 parts to them.
 !>
-!> `at` is the number of unknowns before a block, `at_i` the number before body i; a negative value means the chassis, which
-!> has no unknowns. Diagonal blocks are added as full 3×3 blocks for simplicity; the part above the diagonal is never read.
+!> `blocks(:, :, b)` for b up to the number of bodies is the diagonal block of body b, of which the lower triangle counts; the
+!> others hold the coupling of two bodies, rows of the one with the larger number, columns of the other. An element or a measure
+!> between bodies i and j finds its three blocks by `at`: at(1) = i and at(2) = j are its diagonal blocks (0: the chassis, which
+!> has no unknowns), at(3) is the number of its coupling block, negative if body i has the larger number, 0 if there is none. A 3×3
+!> part is named by its rows and columns, each one of r_i, pi_i, r_j, pi_j. Parts on the diagonal are added in full.
 module ek_block
    use ek_kinds, only: wp
+   use ek_number, only: num
    use ek_rotation, only: cross, skew
    implicit none(type, external)
    private
-   public :: add_block, add_diagonal_block, add_link_stiffness, add_gap_hessian, add_gradient
+   public :: add_block, add_link_stiffness, add_gap_hessian, add_gradient
    public :: add_s_block, rotated, in_world, dyad, dyad_rest
+   public :: r_i, pi_i, r_j, pi_j
+
+   integer, parameter :: r_i = 1, pi_i = 2, r_j = 3, pi_j = 4      !! the unknowns of an element: Δr, Δπ of bodies i and j
 
 contains
 
-   !> y ← y + factor × gradient, that of a measure of two bodies, at their unknowns.
+   !> y ← y + factor × gradient, that of a measure of two bodies, at their unknowns; at_i, at_j: the number of unknowns before
+   !> those of body i, j; negative: the chassis.
    pure subroutine add_gradient(factor, gradient, at_i, at_j, y)
-      real(wp), intent(in) :: factor, gradient(12)
+      real(num), intent(in) :: factor, gradient(12)
       integer, intent(in) :: at_i, at_j
-      real(wp), intent(inout) :: y(*)
+      real(num), intent(inout) :: y(*)
 
       if (at_i >= 0) y(at_i + 1:at_i + 6) = y(at_i + 1:at_i + 6) + factor*gradient(1:6)
       if (at_j >= 0) y(at_j + 1:at_j + 6) = y(at_j + 1:at_j + 6) + factor*gradient(7:12)
@@ -24,21 +32,21 @@ contains
 
    !> A v
    pure function rotated(a, v) result(w)
-      real(wp), intent(in) :: a(3, 3), v(3)
-      real(wp) :: w(3)
+      real(num), intent(in) :: a(3, 3), v(3)
+      real(num) :: w(3)
       w(1) = a(1, 1)*v(1) + a(1, 2)*v(2) + a(1, 3)*v(3)
       w(2) = a(2, 1)*v(1) + a(2, 2)*v(2) + a(2, 3)*v(3)
       w(3) = a(3, 1)*v(1) + a(3, 2)*v(2) + a(3, 3)*v(3)
    end function rotated
 
-   !> A K Aᵀ; the chassis (at_i < 0) never rotates.
-   pure function in_world(a, k, at_i) result(world)
-      real(wp), intent(in) :: a(3, 3), k(3, 3)
-      integer, intent(in) :: at_i
-      real(wp) :: world(3, 3), ak(3, 3), row(3)
+   !> A K Aᵀ; the chassis (body 0) never rotates.
+   pure function in_world(a, k, body) result(world)
+      real(num), intent(in) :: a(3, 3), k(3, 3)
+      integer, intent(in) :: body
+      real(num) :: world(3, 3), ak(3, 3), row(3)
       integer :: j
 
-      if (at_i < 0) then
+      if (body <= 0) then
          world = k
          return
       end if
@@ -51,133 +59,159 @@ contains
       end do
    end function in_world
 
-   !> Adds S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I to a diagonal block; no action if the body has no unknowns.
+   !> Adds S(p,g) = ½(p gᵀ + g pᵀ) − (p·g) I to the diagonal block of rotations of a body.
    !> Equation (M.2) of docs/theory/measures.md.
-   pure subroutine add_s_block(p, g, at, body_at, ld, matrix)
-      real(wp), intent(in) :: p(3), g(3)
-      integer, intent(in) :: at, body_at, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: x, y, z, xy, xz, yz
+   pure subroutine add_s_block(p, g, body, blocks)
+      real(num), intent(in) :: p(3), g(3)
+      integer, intent(in) :: body           !! 0: no action
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: x, y, z, xy, xz, yz
 
-      if (body_at < 0) return
+      if (body <= 0) return
       x = p(1)*g(1)
       y = p(2)*g(2)
       z = p(3)*g(3)
-      matrix(at + 1, at + 1) = matrix(at + 1, at + 1) - (y + z)
-      matrix(at + 2, at + 2) = matrix(at + 2, at + 2) - (x + z)
-      matrix(at + 3, at + 3) = matrix(at + 3, at + 3) - (x + y)
+      blocks(4, 4, body) = blocks(4, 4, body) - (y + z)
+      blocks(5, 5, body) = blocks(5, 5, body) - (x + z)
+      blocks(6, 6, body) = blocks(6, 6, body) - (x + y)
       xy = 0.5_wp*(p(1)*g(2) + p(2)*g(1))
-      matrix(at + 2, at + 1) = matrix(at + 2, at + 1) + xy
-      matrix(at + 1, at + 2) = matrix(at + 1, at + 2) + xy
+      blocks(5, 4, body) = blocks(5, 4, body) + xy
+      blocks(4, 5, body) = blocks(4, 5, body) + xy
       xz = 0.5_wp*(p(1)*g(3) + p(3)*g(1))
-      matrix(at + 3, at + 1) = matrix(at + 3, at + 1) + xz
-      matrix(at + 1, at + 3) = matrix(at + 1, at + 3) + xz
+      blocks(6, 4, body) = blocks(6, 4, body) + xz
+      blocks(4, 6, body) = blocks(4, 6, body) + xz
       yz = 0.5_wp*(p(2)*g(3) + p(3)*g(2))
-      matrix(at + 3, at + 2) = matrix(at + 3, at + 2) + yz
-      matrix(at + 2, at + 3) = matrix(at + 2, at + 3) + yz
+      blocks(6, 5, body) = blocks(6, 5, body) + yz
+      blocks(5, 6, body) = blocks(5, 6, body) + yz
    end subroutine add_s_block
 
    !> Adds Jᵀ M J, J = [−I, ã, I, −b̃]: a symmetric stiffness M between two points.
    !> Equation (M.7) of docs/theory/measures.md.
-   pure subroutine add_link_stiffness(m, a, b, at_i, at_j, ld, matrix)
-      real(wp), intent(in) :: m(3, 3)       !! symmetric, global axes [N/m]
-      real(wp), intent(in) :: a(3), b(3)    !! arms, global axes [m]
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: m_arm(3, 3, 2), x(3, 3), arm(3)   ! M ã, M b̃
-      integer :: at(2), k, end
+   pure subroutine add_link_stiffness(m, a, b, at, blocks)
+      real(num), intent(in) :: m(3, 3)       !! symmetric, global axes [N/m]
+      real(num), intent(in) :: a(3), b(3)    !! arms, global axes [m]
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: m_a(3, 3), m_b(3, 3), x(3, 3)     ! M ã, M b̃
+      integer :: k
 
-      at = [at_i, at_j]
-      do end = 1, 2
-         if (at(end) < 0) cycle
-         arm = merge(a, b, end == 1)
+      if (at(1) > 0) then
          do k = 1, 3
-            m_arm(k, :, end) = cross(m(:, k), arm)
+            m_a(k, :) = cross(m(:, k), a)
          end do
          do k = 1, 3
-            x(:, k) = cross(m_arm(:, k, end), arm)
+            x(:, k) = cross(m_a(:, k), a)
          end do
-         call add_diagonal_block(m, at(end), at(end), ld, matrix)
-         call add_diagonal_block(x, at(end) + 3, at(end), ld, matrix)
-         x = -m_arm(:, :, end)
-         call add_block(x, at(end), at(end) + 3, ld, matrix)
-      end do
-      if (at_i < 0 .or. at_j < 0) return
+         call add_block(m, r_i, r_i, at, blocks)
+         call add_block(x, pi_i, pi_i, at, blocks)
+         x = -m_a
+         call add_block(x, r_i, pi_i, at, blocks)
+      end if
+      if (at(2) > 0) then
+         do k = 1, 3
+            m_b(k, :) = cross(m(:, k), b)
+         end do
+         do k = 1, 3
+            x(:, k) = cross(m_b(:, k), b)
+         end do
+         call add_block(m, r_j, r_j, at, blocks)
+         call add_block(x, pi_j, pi_j, at, blocks)
+         x = -m_b
+         call add_block(x, r_j, pi_j, at, blocks)
+      end if
+      if (at(3) == 0) return
       do k = 1, 3
-         x(:, k) = cross(a, m_arm(:, k, 2))
+         x(:, k) = cross(a, m_b(:, k))
       end do
-      call add_block(x, at_i + 3, at_j + 3, ld, matrix)
+      call add_block(x, pi_i, pi_j, at, blocks)
       x = -m
-      call add_block(x, at_i, at_j, ld, matrix)
-      call add_block(m_arm(:, :, 2), at_i, at_j + 3, ld, matrix)
-      x = transpose(m_arm(:, :, 1))
-      call add_block(x, at_i + 3, at_j, ld, matrix)
+      call add_block(x, r_i, r_j, at, blocks)
+      call add_block(m_b, r_i, pi_j, at, blocks)
+      x = transpose(m_a)
+      call add_block(x, pi_i, r_j, at, blocks)
    end subroutine add_link_stiffness
 
    !> Adds the Hessian of f·d, f fixed in body i (any length: the measure is linear in f).
    !>
    !> π_iπ_i: S(a+d,f);  π_jπ_j: S(b,f);  π_i r_j = f̃ = −π_i r_i;  π_iπ_j = (f·b)I − b fᵀ
    !> Equation (M.5) of docs/theory/measures.md.
-   pure subroutine add_gap_hessian(f, a, b, d, at_i, at_j, ld, matrix)
-      real(wp), intent(in) :: f(3), a(3), b(3), d(3)   !! global axes
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: arm(3), block(3, 3)
+   pure subroutine add_gap_hessian(f, a, b, d, at, blocks)
+      real(num), intent(in) :: f(3), a(3), b(3), d(3)   !! global axes
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: arm(3), block(3, 3)
 
-      call add_s_block(b, f, at_j + 3, at_j, ld, matrix)
-      if (at_i < 0) return
+      call add_s_block(b, f, at(2), blocks)
+      if (at(1) == 0) return
       arm = a + d
-      call add_s_block(arm, f, at_i + 3, at_i, ld, matrix)
+      call add_s_block(arm, f, at(1), blocks)
       block = -skew(f)
-      call add_block(block, at_i + 3, at_i, ld, matrix)
-      if (at_j < 0) return
+      call add_block(block, pi_i, r_i, at, blocks)
+      if (at(3) == 0) return
       block = skew(f)
-      call add_block(block, at_i + 3, at_j, ld, matrix)
-      call add_block(dyad_rest(b, f), at_i + 3, at_j + 3, ld, matrix)
+      call add_block(block, pi_i, r_j, at, blocks)
+      block = dyad_rest(b, f)
+      call add_block(block, pi_i, pi_j, at, blocks)
    end subroutine add_gap_hessian
 
-   !> matrix(at+1:at+3, at+1:at+3) += block; no action if the body has no unknowns.
-   pure subroutine add_diagonal_block(block, at, body_at, ld, matrix)
-      real(wp), intent(in) :: block(3, 3)
-      integer, intent(in) :: at, body_at, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      integer :: l
+   !> Adds a 3×3 part; no action if one of its bodies is the chassis. It is transposed where the transposed part is kept.
+   pure subroutine add_block(part, rows, columns, at, blocks)
+      real(num), intent(in) :: part(3, 3)
+      integer, intent(in) :: rows, columns      !! of the unknowns: r_i … pi_j
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      integer :: row, column, body_of_rows, body_of_columns
 
-      if (body_at < 0) return
-      do l = 1, 3
-         matrix(at + 1, at + l) = matrix(at + 1, at + l) + block(1, l)
-         matrix(at + 2, at + l) = matrix(at + 2, at + l) + block(2, l)
-         matrix(at + 3, at + l) = matrix(at + 3, at + l) + block(3, l)
-      end do
-   end subroutine add_diagonal_block
-
-   !> Adds an off-diagonal block at (row, column) to the lower triangle, transposed if it
-   !> belongs above the diagonal.
-   pure subroutine add_block(block, row, column, ld, matrix)
-      real(wp), intent(in) :: block(3, 3)
-      integer, intent(in) :: row, column, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      integer :: l
-
-      if (row > column) then
-         do l = 1, 3
-            matrix(row + 1, column + l) = matrix(row + 1, column + l) + block(1, l)
-            matrix(row + 2, column + l) = matrix(row + 2, column + l) + block(2, l)
-            matrix(row + 3, column + l) = matrix(row + 3, column + l) + block(3, l)
-         end do
-      else
-         do l = 1, 3
-            matrix(column + 1, row + l) = matrix(column + 1, row + l) + block(l, 1)
-            matrix(column + 2, row + l) = matrix(column + 2, row + l) + block(l, 2)
-            matrix(column + 3, row + l) = matrix(column + 3, row + l) + block(l, 3)
-         end do
+      body_of_rows = (rows + 1)/2
+      body_of_columns = (columns + 1)/2
+      row = 3*(1 - mod(rows, 2))
+      column = 3*(1 - mod(columns, 2))
+      if (body_of_rows == body_of_columns) then
+         if (at(body_of_rows) <= 0) return
+         if (row >= column) then
+            call add_part(part, row, column, blocks(1, 1, at(body_of_rows)))
+         else
+            call add_transposed(part, column, row, blocks(1, 1, at(body_of_rows)))
+         end if
+      else if (at(3) > 0 .eqv. body_of_rows == 2) then
+         if (at(3) /= 0) call add_part(part, row, column, blocks(1, 1, abs(at(3))))
+      else if (at(3) /= 0) then
+         call add_transposed(part, column, row, blocks(1, 1, abs(at(3))))
       end if
    end subroutine add_block
 
+   !> block(row+1:row+3, column+1:column+3) += part
+   pure subroutine add_part(part, row, column, block)
+      real(num), intent(in) :: part(3, 3)
+      integer, intent(in) :: row, column
+      real(num), intent(inout) :: block(6, 6)
+      integer :: l
+
+      do l = 1, 3
+         block(row + 1, column + l) = block(row + 1, column + l) + part(1, l)
+         block(row + 2, column + l) = block(row + 2, column + l) + part(2, l)
+         block(row + 3, column + l) = block(row + 3, column + l) + part(3, l)
+      end do
+   end subroutine add_part
+
+   !> block(row+1:row+3, column+1:column+3) += partᵀ
+   pure subroutine add_transposed(part, row, column, block)
+      real(num), intent(in) :: part(3, 3)
+      integer, intent(in) :: row, column
+      real(num), intent(inout) :: block(6, 6)
+      integer :: l
+
+      do l = 1, 3
+         block(row + 1, column + l) = block(row + 1, column + l) + part(l, 1)
+         block(row + 2, column + l) = block(row + 2, column + l) + part(l, 2)
+         block(row + 3, column + l) = block(row + 3, column + l) + part(l, 3)
+      end do
+   end subroutine add_transposed
+
    !> x yᵀ
    pure function dyad(x, y) result(m)
-      real(wp), intent(in) :: x(3), y(3)
-      real(wp) :: m(3, 3)
+      real(num), intent(in) :: x(3), y(3)
+      real(num) :: m(3, 3)
       m(:, 1) = x*y(1)
       m(:, 2) = x*y(2)
       m(:, 3) = x*y(3)
@@ -186,8 +220,8 @@ contains
    !> (x·y) I − x yᵀ
    !> Equation (M.3) of docs/theory/measures.md.
    pure function dyad_rest(x, y) result(m)
-      real(wp), intent(in) :: x(3), y(3)
-      real(wp) :: m(3, 3), c
+      real(num), intent(in) :: x(3), y(3)
+      real(num) :: m(3, 3), c
       c = dot_product(x, y)
       m = -dyad(x, y)
       m(1, 1) = m(1, 1) + c

@@ -100,6 +100,7 @@ module ek_blueprint
    !> The numbers of a case: parameters.
    type :: case_plan_t
       integer :: from = 0, to = 0, offset = 0
+      integer :: steer_from = 0, steer_to = 0      !! 0 in a grid: to the ends of the travel of &steering
    end type case_plan_t
 
    type :: blueprint_t

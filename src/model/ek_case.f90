@@ -4,12 +4,14 @@ module ek_case
    use ek_error, only: message_list_t
    implicit none(type, external)
    private
-   public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, method_names
+   public :: case_t, actuation_t, table_column_t, load_table_t, append_actuation, scales_loads, is_mountable, prefer_plan, &
+      copy_case_numbers, method_names, solver_names
    public :: default_tolerance, max_increments, max_driven
    public :: follow_names, follows_place, follows_tangent, follows_table
 
    character(*), parameter :: method_names(3) = [character(11) :: 'recursive', 'corrected', 'equilibrium']
    character(*), parameter :: follow_names(2) = [character(6) :: 'factor', 'arc']
+   character(*), parameter :: solver_names(2) = [character(6) :: 'lapack', 'plan']      !! see ek_kkt
    integer, parameter :: max_increments = 1000000   !! a state needs about 3 kB of memory
    integer, parameter :: max_driven = 24   !! loads, and rows, that one case may drive: nine loads per wheel and a few more
    real(wp), parameter :: default_tolerance = 1.0e-10_wp   !! m, that is 1e-7 mm
@@ -51,7 +53,11 @@ module ek_case
       integer :: wheel = 1                  !! number of the wheel whose travel is driven
       real(wp) :: from = 0.0_wp, to = 0.0_wp   !! swept values: factor of the load [-], or change of the driven value [m, rad]
       integer :: increments = 100
+      real(wp) :: steer_from = 0.0_wp, steer_to = 0.0_wp   !! of a grid: changes of the steering driver [m, rad]
+      integer :: steer_increments = 12
       character(:), allocatable :: method   !! one of method_names
+      logical :: uses_plan = .false.        !! solver 'plan': factorises by a plan of elimination; else by LAPACK
+      logical :: says_solver = .false.      !! the deck or the command line gives the solver
       logical :: follows_arc = .false.      !! states at equal distances along the path; else at equal swept values
       real(wp) :: tolerance = default_tolerance   !! largest last Newton correction of a state [m]
       ! a test of the rig, see ek_rig
@@ -79,6 +85,32 @@ contains
       is_mountable = .true.
       if (allocated(case%test)) is_mountable = case%test /= 'table' .or. case%table%rows > 0
    end function is_mountable
+
+   !> Takes the plan of elimination where neither deck nor command line gives a solver: for many designs of one deck.
+   elemental subroutine prefer_plan(case)
+      type(case_t), intent(inout) :: case
+      if (.not. case%says_solver) case%uses_plan = .true.
+   end subroutine prefer_plan
+
+   !> The numbers of a case of a deck for its copy of another design: nothing is allocated. An empty copy receives the whole case.
+   pure subroutine copy_case_numbers(from, to)
+      type(case_t), intent(in) :: from
+      type(case_t), intent(inout) :: to
+
+      if (.not. allocated(to%name)) then
+         to = from
+         return
+      end if
+      to%from = from%from
+      to%to = from%to
+      to%increments = from%increments
+      to%steer_from = from%steer_from
+      to%steer_to = from%steer_to
+      to%steer_increments = from%steer_increments
+      to%tolerance = from%tolerance
+      to%offset = from%offset
+      to%has_all = from%has_all
+   end subroutine copy_case_numbers
 
    !> Whether a case on the rig scales loads.
    pure logical function scales_loads(case)

@@ -7,12 +7,12 @@
 !>
 !> "Pull" below means the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_elastic
-   use ek_kinds, only: wp
+   use ek_number, only: num, zero
    use ek_law, only: law_t, look_up_law
    use ek_measure, only: measure_t
    use ek_relative_rotation, only: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, rotation_jacobian, &
       add_rotation_hessian
-   use ek_block, only: add_gap_hessian, add_link_stiffness, add_diagonal_block, add_block, rotated, in_world
+   use ek_block, only: add_gap_hessian, add_link_stiffness, add_block, rotated, in_world, pi_i, pi_j
    use ek_rotation, only: cross, identity3
    implicit none(type, external)
    private
@@ -23,29 +23,29 @@ module ek_elastic
    !> at two points; the design gap causes no force. What every evaluation reads comes first.
    type :: bushing_t
       ! set by set_bushing_axes: the same law in the axes of body i
-      real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
-      real(wp) :: force0(3) = 0.0_wp, moment0(3) = 0.0_wp
-      real(wp) :: gap0(3) = 0.0_wp           !! design gap, axes of body i [m]
+      real(num) :: stiffness_t(3, 3) = zero, stiffness_r(3, 3) = zero
+      real(num) :: force0(3) = zero, moment0(3) = zero
+      real(num) :: gap0(3) = zero           !! design gap, axes of body i [m]
       logical :: has_curves = .false.
-      real(wp) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
-      real(wp) :: kt(3) = 0.0_wp             !! N/m along the marker axes
-      real(wp) :: kr(3) = 0.0_wp             !! N m/rad about the marker axes
-      real(wp) :: preload_force(3) = 0.0_wp  !! on body j at design, marker axes [N]
-      real(wp) :: preload_moment(3) = 0.0_wp !! on body j at design, marker axes [N m]
+      real(num) :: axes(3, 3) = identity3     !! columns: marker axes x, y, z at design, global
+      real(num) :: kt(3) = zero             !! N/m along the marker axes
+      real(num) :: kr(3) = zero             !! N m/rad about the marker axes
+      real(num) :: preload_force(3) = zero  !! on body j at design, marker axes [N]
+      real(num) :: preload_moment(3) = zero !! on body j at design, marker axes [N m]
       ! curves instead of rates, in the order: along x, y, z, about x, y, z of the marker
       type(law_t), allocatable :: laws(:)    !! six if has_curves; a component without a curve keeps its rate
    end type bushing_t
 
    !> A bushing at one pair of poses.
    type :: bushing_evaluation_t
-      real(wp) :: a(3) = 0.0_wp, b(3) = 0.0_wp, d(3) = 0.0_wp   !! arms and gap, global [m]
-      real(wp) :: frame(3, 3) = identity3                      !! A_i
-      real(wp) :: gap(3) = 0.0_wp        !! gap minus design gap, axes of body i [m]
-      real(wp) :: force(3) = 0.0_wp      !! dV/dd, global [N]
-      real(wp) :: moment(3) = 0.0_wp     !! dV/dθ, axes of body i [N m]
+      real(num) :: a(3) = zero, b(3) = zero, d(3) = zero   !! arms and gap, global [m]
+      real(num) :: frame(3, 3) = identity3                      !! A_i
+      real(num) :: gap(3) = zero        !! gap minus design gap, axes of body i [m]
+      real(num) :: force(3) = zero      !! dV/dd, global [N]
+      real(num) :: moment(3) = zero     !! dV/dθ, axes of body i [N m]
       type(relative_rotation_t) :: rotation
       ! the rates, or the slopes of curves at this deflection, in the axes of body i
-      real(wp) :: stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp
+      real(num) :: stiffness_t(3, 3) = zero, stiffness_r(3, 3) = zero
    end type bushing_evaluation_t
 
 contains
@@ -64,8 +64,8 @@ contains
 
    !> E diag(k) Eᵀ
    pure function in_body(axes, k) result(matrix)
-      real(wp), intent(in) :: axes(3, 3), k(3)
-      real(wp) :: matrix(3, 3)
+      real(num), intent(in) :: axes(3, 3), k(3)
+      real(num) :: matrix(3, 3)
       integer :: i, j
 
       do j = 1, 3
@@ -82,7 +82,7 @@ contains
       type(measure_t), intent(in) :: measure            !! of the element: arms of the markers
       type(pose_t), intent(in) :: pose_i, pose_j
       type(bushing_evaluation_t), intent(inout) :: evaluation
-      real(wp) :: a(3), b(3), d(3), force(3), load(6), slope(6)
+      real(num) :: a(3), b(3), d(3), force(3), load(6), slope(6)
 
       a = rotated(pose_i%a, measure%arm_i)
       b = rotated(pose_j%a, measure%arm_j)
@@ -113,9 +113,9 @@ contains
    !> dV/d(component) minus the preload, along and about the marker axes [N, N m], and the slopes [N/m, N m/rad].
    pure subroutine evaluate_components(bushing, gap, theta, load, slope)
       type(bushing_t), intent(in) :: bushing
-      real(wp), intent(in) :: gap(3), theta(3)          !! axes of body i
-      real(wp), intent(out) :: load(6), slope(6)
-      real(wp) :: deflection(6)
+      real(num), intent(in) :: gap(3), theta(3)          !! axes of body i
+      real(num), intent(out) :: load(6), slope(6)
+      real(num) :: deflection(6)
       integer :: k
 
       slope(1:3) = bushing%kt
@@ -140,8 +140,8 @@ contains
    pure subroutine bushing_load(bushing, evaluation, force, moment)
       type(bushing_t), intent(in) :: bushing
       type(bushing_evaluation_t), intent(in) :: evaluation      !! of evaluate_bushing
-      real(wp), intent(out) :: force(3), moment(3)
-      real(wp) :: load(6), slope(6)
+      real(num), intent(out) :: force(3), moment(3)
+      real(num) :: load(6), slope(6)
 
       call evaluate_components(bushing, evaluation%gap, evaluation%rotation%theta, load, slope)
       force = -load(1:3)
@@ -151,8 +151,8 @@ contains
    !> The six rates at design, marker axes; for curves, their slopes [N/m, N m/rad].
    pure function design_rates(bushing) result(rates)
       type(bushing_t), intent(in) :: bushing
-      real(wp) :: rates(6), load(6)
-      real(wp), parameter :: none(3) = 0.0_wp
+      real(num) :: rates(6), load(6)
+      real(num), parameter :: none(3) = zero
 
       call evaluate_components(bushing, none, none, load, rates)
    end function design_rates
@@ -161,7 +161,7 @@ contains
    !> Equation (M.16) of docs/theory/measures.md.
    pure function bushing_force(evaluation) result(generalised_force)
       type(bushing_evaluation_t), intent(in) :: evaluation
-      real(wp) :: generalised_force(12), w(3), arm(3)
+      real(num) :: generalised_force(12), w(3), arm(3)
 
       w = rotated(evaluation%frame, rotation_gradient(evaluation%rotation, evaluation%moment))
       generalised_force(1:3) = -evaluation%force
@@ -173,16 +173,16 @@ contains
 
    !> Adds the full tangent d²V/dz²: material, and force × Hessian of the gap and of θ.
    !> Equation (M.17) of docs/theory/measures.md.
-   pure subroutine add_bushing_tangent(evaluation, at_i, at_j, ld, matrix)
+   pure subroutine add_bushing_tangent(evaluation, at, blocks)
       type(bushing_evaluation_t), intent(in) :: evaluation
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: g(3, 3), kg(3, 3), inner(3, 3), arm(3)
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: g(3, 3), kg(3, 3), inner(3, 3), arm(3)
       integer :: k, l
 
       arm = evaluation%a + evaluation%d
-      call add_link_stiffness(in_world(evaluation%frame, evaluation%stiffness_t, at_i), arm, evaluation%b, at_i, at_j, ld, matrix)
-      call add_gap_hessian(evaluation%force, evaluation%a, evaluation%b, evaluation%d, at_i, at_j, ld, matrix)
+      call add_link_stiffness(in_world(evaluation%frame, evaluation%stiffness_t, at(1)), arm, evaluation%b, at, blocks)
+      call add_gap_hessian(evaluation%force, evaluation%a, evaluation%b, evaluation%d, at, blocks)
       g = rotation_jacobian(evaluation%rotation)
       do k = 1, 3
          kg(:, k) = rotated(evaluation%stiffness_r, g(:, k))
@@ -193,26 +193,25 @@ contains
             inner(k, l) = inner(l, k)
          end do
       end do
-      call add_rotation_hessian(evaluation%rotation, evaluation%moment, inner, evaluation%frame, at_i, at_j, ld, matrix)
+      call add_rotation_hessian(evaluation%rotation, evaluation%moment, inner, evaluation%frame, at, blocks)
    end subroutine add_bushing_tangent
 
    !> Adds −(19) of the paper: Bᵀ C B with rows [−u, −a×u, u, b×u] and [0, −u, 0, u], for u = each of the three
    !> marker axes. Forces do not enter, and the rotation of the marker frame itself (u×d) is neglected.
    !> Equation (M.18) of docs/theory/measures.md.
-   pure subroutine add_bushing_material(evaluation, at_i, at_j, ld, matrix)
+   pure subroutine add_bushing_material(evaluation, at, blocks)
       type(bushing_evaluation_t), intent(in) :: evaluation
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: k(3, 3)
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: k(3, 3)
 
-      call add_link_stiffness(in_world(evaluation%frame, evaluation%stiffness_t, at_i), evaluation%a, evaluation%b, at_i, at_j, &
-         ld, matrix)
-      k = in_world(evaluation%frame, evaluation%stiffness_r, at_i)
-      call add_diagonal_block(k, at_i + 3, at_i, ld, matrix)
-      call add_diagonal_block(k, at_j + 3, at_j, ld, matrix)
-      if (at_i < 0 .or. at_j < 0) return
+      call add_link_stiffness(in_world(evaluation%frame, evaluation%stiffness_t, at(1)), evaluation%a, evaluation%b, at, blocks)
+      k = in_world(evaluation%frame, evaluation%stiffness_r, at(1))
+      call add_block(k, pi_i, pi_i, at, blocks)
+      call add_block(k, pi_j, pi_j, at, blocks)
+      if (at(3) == 0) return
       k = -k
-      call add_block(k, at_i + 3, at_j + 3, ld, matrix)
+      call add_block(k, pi_i, pi_j, at, blocks)
    end subroutine add_bushing_material
 
 end module ek_elastic

@@ -17,13 +17,13 @@
 !> case in `look_up_element`, `element_slopes` and `is_linear`.
 module ek_element
    use ek_kinds, only: wp
-   use ek_text, only: quoted
+   use ek_number, only: num, mask, zero, some
    use ek_measure, only: measure_t, is_of_angle
-   use ek_law, only: law_t, look_up_law, find_slopes
+   use ek_law, only: law_t, copy_law, look_up_law, find_slopes
    use ek_elastic, only: bushing_t
    implicit none(type, external)
    private
-   public :: element_t, element_kinds, set_kind, set_design_value, is_of_angle, element_label
+   public :: element_t, element_kinds, set_kind, set_design_value, copy_element, is_of_angle
    public :: axial_spring, damper, stop_spring, torsion_spring, measure_spring, bushing_element
    public :: element_numbers, rate_number, preload_number, free_length_number, clearance_number, rounding_number, set_numbers
    public :: look_up_element, element_slopes, is_linear
@@ -67,12 +67,12 @@ module ek_element
       integer :: kind = axial_spring
       logical :: is_balanced = .true.       !! spring: balance may change its preload
       type(measure_t) :: measure            !! its bodies and points; the length, angle or other measure it acts on; 0: bushing
-      real(wp) :: preload = 0.0_wp          !! compression at design [N], moment on body j about the axis [N m]
+      real(num) :: preload = zero          !! compression at design [N], moment on body j about the axis [N m]
       type(law_t) :: law                    !! of the measure; the preload is subtracted [N, N m]
       type(bushing_t) :: bushing            !! the six components of a bushing
-      real(wp) :: design_length = 0.0_wp    !! value at design: m, rad, -
-      real(wp) :: free_length = 0.0_wp      !! m; 0: not given
-      real(wp) :: clearance = 0.0_wp        !! of a stop [m]
+      real(num) :: design_length = zero    !! value at design: m, rad, -
+      real(num) :: free_length = zero      !! m; 0: not given
+      real(num) :: clearance = zero        !! of a stop [m]
       character(:), allocatable :: name, where
    end type element_t
 
@@ -81,7 +81,7 @@ contains
    !> Takes the numbers of a design, in SI; 0 where the deck gives none.
    pure subroutine set_numbers(element, numbers)
       type(element_t), intent(inout) :: element
-      real(wp), intent(in) :: numbers(element_numbers)      !! N/m and N, of an angle N m/rad and N m; m
+      real(num), intent(in) :: numbers(element_numbers)      !! N/m and N, of an angle N m/rad and N m; m
 
       element%law%rate = numbers(rate_number)
       element%preload = numbers(preload_number)
@@ -107,31 +107,75 @@ contains
    !> A free length sets the preload from the design length; with a curve, compression is measured from the free length.
    pure subroutine set_design_value(element, value)
       type(element_t), intent(inout) :: element
-      real(wp), intent(in) :: value       !! m, rad, -
+      real(num), intent(in) :: value       !! m, rad, -
+      logical(mask) :: has_free_length
 
       element%design_length = value
       element%law%reference = value + element%law%sign*element%clearance
-      if (.not. element%free_length > 0.0_wp) return
+      has_free_length = element%free_length > 0.0_wp
+      if (.not. some(has_free_length)) return
       if (element%law%has_curve) then
-         element%law%reference = element%free_length
+         element%law%reference = merge(element%free_length, element%law%reference, has_free_length)
       else
-         element%preload = element%law%rate*(element%free_length - value)
+         element%preload = merge(element%law%rate*(element%free_length - value), element%preload, has_free_length)
       end if
    end subroutine set_design_value
+
+   !> The numbers of an element for another one, which is the same but for numbers; nothing is allocated.
+   pure subroutine copy_element(from, to)
+      type(element_t), intent(in) :: from
+      type(element_t), intent(inout) :: to
+
+      to%measure = from%measure
+      to%preload = from%preload
+      to%design_length = from%design_length
+      to%free_length = from%free_length
+      to%clearance = from%clearance
+      if (from%kind == bushing_element) then
+         call copy_bushing(from%bushing, to%bushing)
+      else
+         call copy_law(from%law, to%law)
+      end if
+   end subroutine copy_element
+
+   !> The same of a bushing.
+   pure subroutine copy_bushing(from, to)
+      type(bushing_t), intent(in) :: from
+      type(bushing_t), intent(inout) :: to
+      integer :: c
+
+      if (.not. (allocated(from%laws) .and. allocated(to%laws))) then
+         to = from
+         return
+      end if
+      to%stiffness_t = from%stiffness_t
+      to%stiffness_r = from%stiffness_r
+      to%force0 = from%force0
+      to%moment0 = from%moment0
+      to%gap0 = from%gap0
+      to%axes = from%axes
+      to%kt = from%kt
+      to%kr = from%kr
+      to%preload_force = from%preload_force
+      to%preload_moment = from%preload_moment
+      do c = 1, size(to%laws)
+         call copy_law(from%laws(c), to%laws(c))
+      end do
+   end subroutine copy_bushing
 
    !> Force of an element of one measure without its preload (derivative of the energy) at a value of the measure, and its slope.
    pure subroutine look_up_element(element, value, force, slope)
       type(element_t), intent(in) :: element
-      real(wp), intent(in) :: value               !! m, rad, -
-      real(wp), intent(out) :: force, slope       !! N and N/m; N m and N m/rad
+      real(num), intent(in) :: value               !! m, rad, -
+      real(num), intent(out) :: force, slope       !! N and N/m; N m and N m/rad
       call look_up_law(element%law, value, force, slope)
    end subroutine look_up_element
 
    !> The least and the largest slope of that force between two values of the measure.
    pure subroutine element_slopes(element, from, to, least, most)
       type(element_t), intent(in) :: element
-      real(wp), intent(in) :: from, to            !! m, rad, -
-      real(wp), intent(out) :: least, most        !! N/m, N m/rad
+      real(num), intent(in) :: from, to            !! m, rad, -
+      real(num), intent(out) :: least, most        !! N/m, N m/rad
       call find_slopes(element%law, from, to, least, most)
    end subroutine element_slopes
 
@@ -140,12 +184,5 @@ contains
       type(element_t), intent(in) :: element
       is_linear = .not. (element%law%has_curve .or. element%law%is_one_sided)
    end function is_linear
-
-   !> "spring 'coil'", for messages.
-   pure function element_label(element) result(text)
-      type(element_t), intent(in) :: element
-      character(:), allocatable :: text
-      text = trim(element_kinds(element%kind)%label)//' '//quoted(element%name)
-   end function element_label
 
 end module ek_element

@@ -3,9 +3,10 @@
 !> "Pull" is the generalised force dV/dz, the gradient of the energy; the force ON the bodies is −dV/dz.
 module ek_element_force
    use ek_kinds, only: wp
+   use ek_number, only: num, zero
    use ek_relative_rotation, only: pose_t
    use ek_measure, only: evaluation_t, evaluate, add_measure_hessian, is_of_angle, distance, global_gap
-   use ek_block, only: add_link_stiffness, add_diagonal_block, add_block, dyad
+   use ek_block, only: add_link_stiffness, add_block, dyad
    use ek_elastic, only: bushing_evaluation_t, evaluate_bushing, bushing_force, add_bushing_tangent, add_bushing_material, &
       design_rates
    use ek_element, only: element_t, look_up_element, bushing_element
@@ -16,9 +17,9 @@ module ek_element_force
 
    !> An element at one pair of poses.
    type :: element_evaluation_t
-      real(wp) :: generalised_force(12) = 0.0_wp      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
-      real(wp) :: tension = 0.0_wp       !! dV/dvalue and its slope, of an element of one measure
-      real(wp) :: slope = 0.0_wp
+      real(num) :: generalised_force(12) = zero      !! dV/d[Δr_i Δπ_i Δr_j Δπ_j] [N, N m]
+      real(num) :: tension = zero       !! dV/dvalue and its slope, of an element of one measure
+      real(num) :: slope = zero
       type(evaluation_t) :: measure
       type(bushing_evaluation_t) :: bushing
    end type element_evaluation_t
@@ -45,48 +46,47 @@ contains
    !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine spring_tension(spring, value, tension, slope)
       type(element_t), intent(in) :: spring
-      real(wp), intent(in) :: value     !! m, rad, -
-      real(wp), intent(out) :: tension  !! N, pulls the ends together; N m, reduces the angle
-      real(wp), intent(out) :: slope    !! N/m, N m/rad
+      real(num), intent(in) :: value     !! m, rad, -
+      real(num), intent(out) :: tension  !! N, pulls the ends together; N m, reduces the angle
+      real(num), intent(out) :: slope    !! N/m, N m/rad
 
       call look_up_element(spring, value, tension, slope)
       tension = tension - spring%preload
    end subroutine spring_tension
 
    !> Adds d²V/dz²: the material part, and force × Hessian.
-   pure subroutine add_element_tangent(element, evaluation, is_material, at_i, at_j, ld, matrix)
+   pure subroutine add_element_tangent(element, evaluation, is_material, at, blocks)
       type(element_t), intent(in) :: element
       type(element_evaluation_t), intent(in) :: evaluation          !! of evaluate_element
       logical, intent(in) :: is_material                !! the material part alone, −(19) of the paper
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
 
       if (element%kind == bushing_element) then
-         if (is_material) call add_bushing_material(evaluation%bushing, at_i, at_j, ld, matrix)
-         if (.not. is_material) call add_bushing_tangent(evaluation%bushing, at_i, at_j, ld, matrix)
+         if (is_material) call add_bushing_material(evaluation%bushing, at, blocks)
+         if (.not. is_material) call add_bushing_tangent(evaluation%bushing, at, blocks)
       else if (is_material) then
-         call add_spring_material(element%measure%kind, evaluation%measure, evaluation%slope, at_i, at_j, ld, matrix)
+         call add_spring_material(element%measure%kind, evaluation%measure, evaluation%slope, at, blocks)
       else
-         call add_spring_tangent(element%measure%kind, evaluation%measure, evaluation%tension, evaluation%slope, at_i, at_j, &
-            ld, matrix)
+         call add_spring_tangent(element%measure%kind, evaluation%measure, evaluation%tension, evaluation%slope, at, blocks)
       end if
    end subroutine add_element_tangent
 
    !> Adds slope g gᵀ + tension × Hessian of the measure, g its gradient. Of a distance: Jᵀ[slope e eᵀ + tension/L (I − e eᵀ)]J and
    !> the arm terms, which are those of a gap along e.
    !> Equation (M.13) of docs/theory/measures.md.
-   pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at_i, at_j, ld, matrix)
+   pure subroutine add_spring_tangent(kind, evaluation, tension, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure
       type(evaluation_t), intent(in) :: evaluation
-      real(wp), intent(in) :: tension, slope
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: m(3, 3), across
+      real(num), intent(in) :: tension, slope
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: m(3, 3), across
       integer :: k
 
       if (kind /= distance) then
-         call add_spring_material(kind, evaluation, slope, at_i, at_j, ld, matrix)
-         call add_measure_hessian(kind, evaluation, tension, at_i, at_j, ld, matrix)
+         call add_spring_material(kind, evaluation, slope, at, blocks)
+         call add_measure_hessian(kind, evaluation, tension, at, blocks)
          return
       end if
       across = tension/evaluation%value
@@ -94,34 +94,29 @@ contains
          m(:, k) = ((slope - across)*evaluation%u(k))*evaluation%u
          m(k, k) = m(k, k) + across
       end do
-      call add_link_stiffness(m, evaluation%a, evaluation%b, at_i, at_j, ld, matrix)
-      call add_measure_hessian(global_gap, evaluation, tension, at_i, at_j, ld, matrix)
+      call add_link_stiffness(m, evaluation%a, evaluation%b, at, blocks)
+      call add_measure_hessian(global_gap, evaluation, tension, at, blocks)
    end subroutine add_spring_tangent
 
    !> Adds slope g gᵀ alone: the material part.
    !> Equation (M.13) of docs/theory/measures.md.
-   pure subroutine add_spring_material(kind, evaluation, slope, at_i, at_j, ld, matrix)
+   pure subroutine add_spring_material(kind, evaluation, slope, at, blocks)
       integer, intent(in) :: kind                       !! of the measure
       type(evaluation_t), intent(in) :: evaluation
-      real(wp), intent(in) :: slope                     !! N/m, N m/rad, N m
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: scaled(3), block(3, 3)
-      integer :: at(4), k, l, step
+      real(num), intent(in) :: slope                     !! N/m, N m/rad, N m
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: scaled(3), part(3, 3)
+      integer :: k, l, step
 
-      at = [at_i, at_i + 3, at_j, at_j + 3]             ! negative: of the chassis
       step = merge(2, 1, is_of_angle(kind))             ! the gradient of an angle has no translations
       do l = step, 4, step
-         if (at(l - mod(l + 1, 2)) < 0) cycle
+         if (at((l + 1)/2) == 0) cycle
          scaled = slope*evaluation%gradient(3*l - 2:3*l)
          do k = step, l, step
-            if (at(k - mod(k + 1, 2)) < 0) cycle
-            block = dyad(scaled, evaluation%gradient(3*k - 2:3*k))
-            if (k == l) then
-               call add_diagonal_block(block, at(l), at(l), ld, matrix)
-            else
-               call add_block(block, at(l), at(k), ld, matrix)
-            end if
+            if (at((k + 1)/2) == 0) cycle
+            part = dyad(scaled, evaluation%gradient(3*k - 2:3*k))
+            call add_block(part, l, k, at, blocks)      ! l, k: unknowns r_i … pi_j
          end do
       end do
    end subroutine add_spring_material
@@ -130,7 +125,7 @@ contains
    !> element of one measure is the first or, of an angle, the fourth; the others are 0.
    pure function design_stiffness(element) result(rates)
       type(element_t), intent(in) :: element
-      real(wp) :: rates(6), tension, slope
+      real(num) :: rates(6), tension, slope
 
       if (element%kind == bushing_element) then
          rates = design_rates(element%bushing)

@@ -21,13 +21,14 @@
 !> solver and pictures do not depend on the names.
 module ek_joint
    use ek_kinds, only: wp
+   use ek_row, only: row_t, term_t
    use ek_measure, only: measure_t, axis_axis, body_gap, global_gap, distance
-   use ek_rotation, only: cross, perpendicular, identity3, angle_between
+   use ek_rotation, only: cross, perpendicular, unit_vector, identity3, angle_between
    implicit none(type, external)
    private
    public :: joint_t, row_t, term_t, joint_geometry_t, joint_terms, joint_kinds, joint_table, joint_kind_t, max_terms, axes_fit
    public :: no_axis, one_axis, one_or_two, two_axes, either_axis, any_angle, right_angle, no_angle, not_opposed
-   public :: no_part, unseen_part, rod_part, ball_part, hinge_part, slider_part
+   public :: no_part, unseen_part, rod_part, ball_part, hinge_part, slider_part, guide_part
 
    integer, parameter :: max_terms = 6   !! largest number of terms of a joint (fixed)
 
@@ -37,7 +38,7 @@ module ek_joint
    ! angle between axis and axis_2
    integer, parameter :: any_angle = 0, right_angle = 1, no_angle = 2, not_opposed = 3
    ! parts in pictures: without an attachment point; with one that is not drawn; drawn
-   integer, parameter :: no_part = 0, unseen_part = 1, rod_part = 2, ball_part = 3, hinge_part = 4, slider_part = 5
+   integer, parameter :: no_part = 0, unseen_part = 1, rod_part = 2, ball_part = 3, hinge_part = 4, slider_part = 5, guide_part = 6
 
    !> The properties of a kind.
    type :: joint_kind_t
@@ -57,8 +58,8 @@ module ek_joint
       joint_kind_t('translational', 1, 1, one_axis, any_angle, slider_part), &
       joint_kind_t('fixed', 1, 1, no_axis, any_angle, unseen_part), &
       joint_kind_t('distance', 2, 2, no_axis, any_angle, rod_part), &
-      joint_kind_t('in_plane', 1, 2, one_axis, any_angle, no_part), &
-      joint_kind_t('in_line', 1, 2, one_axis, any_angle, no_part), &
+      joint_kind_t('in_plane', 1, 2, one_axis, any_angle, guide_part), &
+      joint_kind_t('in_line', 1, 2, one_axis, any_angle, guide_part), &
       joint_kind_t('perpendicular', 0, 1, two_axes, right_angle, no_part), &
       joint_kind_t('parallel', 0, 1, one_or_two, no_angle, no_part), &
       joint_kind_t('driver', 0, 0, no_axis, any_angle, no_part, .true.), &
@@ -77,25 +78,11 @@ module ek_joint
       integer :: first_row = 0, rows = 0
       integer :: chosen_axis = 0             !! universal: 1 or 2 if the program chose this axis; 0: both given
       real(wp) :: axis(3, 2) = 0.0_wp        !! universal: axis and axis_2, unit vectors, global at design
+      real(wp) :: across(3) = 0.0_wp         !! direction nearest to which the rows take theirs across the axis; 0: free choice
       logical :: is_of_measures = .false.    !! driver, coupler: its reaction is one number, not a force at a point
       logical :: says_balance = .false.      !! driver with a stiffness: the deck gives `balance`
       logical :: is_balanced = .true.        !! the value of `balance`
    end type joint_t
-
-   !> coefficient × measure
-   type :: term_t
-      type(measure_t) :: measure
-      real(wp) :: coefficient = 1.0_wp
-   end type term_t
-
-   !> One equation Σ terms = target.
-   type :: row_t
-      integer :: first = 0, terms = 1      !! its terms are first … first+terms−1 of the suspension
-      real(wp) :: target = 0.0_wp          !! value at design [m, - or rad]
-      integer :: joint = 0                 !! number of the joint
-      logical :: is_driver = .false.
-      real(wp) :: compliance = 0.0_wp      !! driver with a stiffness: Σ terms = target + compliance × λ [m/N, rad/(N m)]
-   end type row_t
 
    !> The geometry that defines a joint: design position, global axes, SI.
    type :: joint_geometry_t
@@ -103,6 +90,7 @@ module ek_joint
       real(wp) :: point_i(3) = 0.0_wp, point_j(3) = 0.0_wp   !! equal unless two points are given
       real(wp) :: axis_i(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body i
       real(wp) :: axis_j(3) = [0.0_wp, 0.0_wp, 1.0_wp]       !! unit, fixed in body j
+      real(wp) :: across(3) = 0.0_wp                         !! as in joint_t
    end type joint_geometry_t
 
 contains
@@ -114,6 +102,8 @@ contains
       real(wp), parameter :: tolerance = 0.01_wp, widest = 179.0_wp      ! deg
       real(wp) :: angle
 
+      axes_fit = .true.
+      if (all(needed /= [right_angle, no_angle, not_opposed])) return
       angle = angle_between(axis_i, axis_j)
       select case (needed)
       case (right_angle)
@@ -122,8 +112,6 @@ contains
          axes_fit = min(angle, 180.0_wp - angle) <= tolerance
       case (not_opposed)
          axes_fit = angle <= widest
-      case default
-         axes_fit = .true.
       end select
    end function axes_fit
 
@@ -146,6 +134,7 @@ contains
       z = geometry%axis_i
       z_j = geometry%axis_j
       x = perpendicular(z)
+      if (norm2(geometry%across) > 0.0_wp) x = unit_vector(geometry%across - dot_product(geometry%across, z)*z)
       y = cross(z, x)
 
       select case (kind)

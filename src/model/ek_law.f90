@@ -8,43 +8,63 @@
 !>     p(e) = 0 for e ≤ −r/2,   (e + r/2)²/(2r) between,   e for e ≥ r/2
 module ek_law
    use ek_kinds, only: wp
-   use ek_curve, only: curve_t, look_up_curve, slopes_between
+   use ek_number, only: num, mask, zero, one, every
+   use ek_curve, only: curve_t, copy_curve, look_up_curve, slopes_between
    implicit none(type, external)
    private
-   public :: law_t, look_up_law, deflection, find_slopes
+   public :: law_t, copy_law, look_up_law, deflection, find_slopes
 
    !> Units depend on the measure: m and N, or rad and N m.
    type :: law_t
-      real(wp) :: sign = 1.0_wp             !! s
-      real(wp) :: reference = 0.0_wp        !! value at which e = 0
-      real(wp) :: rate = 0.0_wp             !! used without a curve
+      real(num) :: sign = one             !! s
+      real(num) :: reference = zero        !! value at which e = 0
+      real(num) :: rate = zero             !! used without a curve
       logical :: has_curve = .false.
       logical :: is_one_sided = .false.
-      real(wp) :: rounding = 0.0_wp         !! r of a one-sided law, above 0
+      real(num) :: rounding = zero         !! r of a one-sided law, above 0
       type(curve_t) :: curve
    end type law_t
 
 contains
 
+   !> A law with the numbers of another one of its kind; nothing is allocated.
+   pure subroutine copy_law(from, to)
+      type(law_t), intent(in) :: from
+      type(law_t), intent(inout) :: to
+
+      if (.not. from%has_curve) then
+         to = from
+         return
+      end if
+      to%sign = from%sign
+      to%reference = from%reference
+      to%rate = from%rate
+      to%has_curve = from%has_curve
+      to%is_one_sided = from%is_one_sided
+      to%rounding = from%rounding
+      call copy_curve(from%curve, to%curve)
+   end subroutine copy_law
+
    !> Force (derivative of the energy) at a value of the measure, and its slope.
    !> Equation (M.14) of docs/theory/measures.md.
    pure subroutine look_up_law(law, value, force, slope)
       type(law_t), intent(in) :: law
-      real(wp), intent(in) :: value
-      real(wp), intent(out) :: force, slope
-      real(wp) :: p, share, y
+      real(num), intent(in) :: value
+      real(num), intent(out) :: force, slope
+      real(num) :: p, share, y, half
+      logical(mask) :: is_free
 
       p = law%sign*(value - law%reference)
-      share = 1.0_wp                       ! dp/de
       if (law%is_one_sided) then
-         if (p <= -0.5_wp*law%rounding) then
-            force = 0.0_wp
-            slope = 0.0_wp
+         half = 0.5_wp*law%rounding
+         is_free = p <= -half
+         if (every(is_free)) then
+            force = zero
+            slope = zero
             return
-         else if (p < 0.5_wp*law%rounding) then
-            share = (p + 0.5_wp*law%rounding)/law%rounding
-            p = 0.5_wp*law%rounding*share**2
          end if
+         share = min(max((p + half)/law%rounding, zero), one)         ! dp/de
+         p = merge(half*share**2, p, p < half)
       end if
       if (law%has_curve) then
          call look_up_curve(law%curve, p, y, slope)
@@ -53,32 +73,33 @@ contains
          slope = law%rate
       end if
       force = law%sign*y
+      if (.not. law%is_one_sided) return
+      force = merge(zero, force, is_free)
       slope = slope*share
    end subroutine look_up_law
 
    !> e: compression of a spring, penetration of a stop (negative: its gap).
-   pure real(wp) function deflection(law, value)
+   pure real(num) function deflection(law, value)
       type(law_t), intent(in) :: law
-      real(wp), intent(in) :: value
+      real(num), intent(in) :: value
       deflection = law%sign*(value - law%reference)
    end function deflection
 
    !> The least and the largest slope of the force between two values of the measure.
    pure subroutine find_slopes(law, from, to, least, most)
       type(law_t), intent(in) :: law
-      real(wp), intent(in) :: from, to
-      real(wp), intent(out) :: least, most
-      real(wp) :: p(2), share(2), curve(2)
-      integer :: k
+      real(num), intent(in) :: from, to
+      real(num), intent(out) :: least, most
+      real(num) :: p(2), share(2), curve(2), ends(2)
 
-      p = [deflection(law, from), deflection(law, to)]
-      p = [minval(p), maxval(p)]
-      share = 1.0_wp
+      ends(1) = deflection(law, from)
+      ends(2) = deflection(law, to)
+      p(1) = min(ends(1), ends(2))
+      p(2) = max(ends(1), ends(2))
+      share = one
       if (law%is_one_sided) then
-         share = min(max((p + 0.5_wp*law%rounding)/law%rounding, 0.0_wp), 1.0_wp)
-         do k = 1, 2
-            if (p(k) < 0.5_wp*law%rounding) p(k) = 0.5_wp*law%rounding*share(k)**2
-         end do
+         share = min(max((p + 0.5_wp*law%rounding)/law%rounding, zero), one)
+         p = merge(0.5_wp*law%rounding*share**2, p, p < 0.5_wp*law%rounding)
       end if
       curve = law%rate
       if (law%has_curve) call slopes_between(law%curve, p(1), p(2), curve(1), curve(2))

@@ -21,8 +21,9 @@
 !> against central differences in tests/model/test_measure.pf.
 module ek_measure
    use ek_kinds, only: wp
+   use ek_number, only: num, zero
    use ek_rotation, only: cross, identity3
-   use ek_block, only: add_block, add_s_block, add_link_stiffness, add_gap_hessian, rotated, dyad, dyad_rest
+   use ek_block, only: add_block, add_s_block, add_link_stiffness, add_gap_hessian, rotated, dyad, dyad_rest, pi_i, pi_j
    use ek_relative_rotation, only: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, add_rotation_hessian
    implicit none(type, external)
    private
@@ -41,20 +42,20 @@ module ek_measure
    type :: measure_t
       integer :: kind = 0                 !! one of the five above
       integer :: body_i = 0, body_j = 0
-      real(wp) :: u(3) = 0.0_wp           !! direction in i (body_gap, axis_axis: unit), n, or m
-      real(wp) :: v(3) = 0.0_wp           !! direction in j (axis_axis)
-      real(wp) :: arm_i(3) = 0.0_wp       !! point on i from its reference point, body axes [m]
-      real(wp) :: arm_j(3) = 0.0_wp       !! point on j from its reference point, body axes [m]
+      real(num) :: u(3) = zero           !! direction in i (body_gap, axis_axis: unit), n, or m
+      real(num) :: v(3) = zero           !! direction in j (axis_axis)
+      real(num) :: arm_i(3) = zero       !! point on i from its reference point, body axes [m]
+      real(num) :: arm_j(3) = zero       !! point on j from its reference point, body axes [m]
    end type measure_t
 
    !> An evaluation: the vectors of a measure in global axes at one pair of poses, computed once and used for
    !> value, gradient and Hessian.
    type :: evaluation_t
-      real(wp) :: value = 0.0_wp
-      real(wp) :: gradient(12) = 0.0_wp
-      real(wp) :: u(3) = 0.0_wp, v(3) = 0.0_wp   !! directions, or e and (m·θ): A_i g
-      real(wp) :: a(3) = 0.0_wp, b(3) = 0.0_wp, d(3) = 0.0_wp
-      real(wp) :: frame(3, 3) = 0.0_wp           !! A_i, kept for `rotation`
+      real(num) :: value = zero
+      real(num) :: gradient(12) = zero
+      real(num) :: u(3) = zero, v(3) = zero   !! directions, or e and (m·θ): A_i g
+      real(num) :: a(3) = zero, b(3) = zero, d(3) = zero
+      real(num) :: frame(3, 3) = zero           !! A_i, kept for `rotation`
       type(relative_rotation_t) :: rotation
    end type evaluation_t
 
@@ -69,7 +70,7 @@ contains
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
       type(evaluation_t), intent(inout) :: evaluation     !! only the components that this kind needs are set
-      real(wp) :: a(3), b(3), d(3), g(3), u(3), v(3), w(3)
+      real(num) :: a(3), b(3), d(3), g(3), u(3), v(3), w(3)
 
       select case (measure%kind)
       case (axis_axis)
@@ -124,7 +125,7 @@ contains
    end subroutine evaluate
 
    !> The value alone.
-   pure real(wp) function measure_value(measure, pose_i, pose_j) result(value)
+   pure real(num) function measure_value(measure, pose_i, pose_j) result(value)
       type(measure_t), intent(in) :: measure
       type(pose_t), intent(in) :: pose_i, pose_j
       type(evaluation_t) :: evaluation
@@ -138,38 +139,35 @@ contains
       is_of_angle = kind == rotation .or. kind == axis_axis
    end function is_of_angle
 
-   !> Adds weight × Hessian to the lower triangle of a matrix.
-   !>
-   !> at_i, at_j: number of unknowns before those of body i, j; negative: the body has none.
-   !> Diagonal 3×3 blocks are added in full.
+   !> Adds weight × Hessian to the blocks of a matrix (see ek_block).
    !> Equations (M.1), (M.4), (M.6), (M.7) of docs/theory/measures.md.
-   pure subroutine add_measure_hessian(kind, evaluation, weight, at_i, at_j, ld, matrix)
+   pure subroutine add_measure_hessian(kind, evaluation, weight, at, blocks)
       integer, intent(in) :: kind
       type(evaluation_t), intent(in) :: evaluation          !! from `evaluate`, at the same poses
-      real(wp), intent(in) :: weight
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: u(3), m(3, 3)
-      real(wp), parameter :: none(3, 3) = 0.0_wp
+      real(num), intent(in) :: weight
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: u(3), m(3, 3)
+      real(num), parameter :: none(3, 3) = zero
 
       u = weight*evaluation%u
       select case (kind)
       case (rotation)
-         call add_rotation_hessian(evaluation%rotation, u, none, evaluation%frame, at_i, at_j, ld, matrix)
+         call add_rotation_hessian(evaluation%rotation, u, none, evaluation%frame, at, blocks)
       case (axis_axis)
-         call add_s_block(u, evaluation%v, at_i + 3, at_i, ld, matrix)
-         call add_s_block(u, evaluation%v, at_j + 3, at_j, ld, matrix)
-         if (at_i >= 0 .and. at_j >= 0) call add_block(dyad_rest(evaluation%v, u), at_i + 3, at_j + 3, ld, matrix)
+         call add_s_block(u, evaluation%v, at(1), blocks)
+         call add_s_block(u, evaluation%v, at(2), blocks)
+         if (at(3) /= 0) call add_block(dyad_rest(evaluation%v, u), pi_i, pi_j, at, blocks)
       case (body_gap)
-         call add_gap_hessian(u, evaluation%a, evaluation%b, evaluation%d, at_i, at_j, ld, matrix)
+         call add_gap_hessian(u, evaluation%a, evaluation%b, evaluation%d, at, blocks)
       case (global_gap, distance)
          if (kind == distance) then
             m = (weight/evaluation%value)*(identity3 - dyad(evaluation%u, evaluation%u))
-            call add_link_stiffness(m, evaluation%a, evaluation%b, at_i, at_j, ld, matrix)
+            call add_link_stiffness(m, evaluation%a, evaluation%b, at, blocks)
          end if
-         call add_s_block(evaluation%b, u, at_j + 3, at_j, ld, matrix)
+         call add_s_block(evaluation%b, u, at(2), blocks)
          u = -u
-         call add_s_block(evaluation%a, u, at_i + 3, at_i, ld, matrix)
+         call add_s_block(evaluation%a, u, at(1), blocks)
       end select
    end subroutine add_measure_hessian
 

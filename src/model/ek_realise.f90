@@ -9,12 +9,14 @@
 module ek_realise
    use ek_kinds, only: wp
    use ek_contract, only: are_checked, require
-   use ek_curve, only: curve_t, new_curve, has_points, look_up_curve, min_step
+   use ek_curve, only: curve_t, look_up_curve
+   use ek_new_curve, only: new_curve, has_points, min_step
    use ek_measure, only: distance
    use ek_joint, only: term_t, joint_geometry_t, joint_terms, joint_table, axes_fit, max_terms
    use ek_element, only: element_kinds, element_numbers, set_numbers
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
+   use ek_grid, only: is_grid
    use ek_completion, only: settle_design
    use ek_blueprint, only: blueprint_t, inward, number_at, triple_at
    use ek_design_vector, only: find_vectors, marker_axes, spin_of
@@ -135,6 +137,7 @@ contains
             geometry%point_j = suspension%vectors(:, this%ends(2))
             geometry%axis_i = suspension%vectors(:, this%axes(1))
             geometry%axis_j = suspension%vectors(:, this%axes(2))
+            geometry%across = joint%across
             is_good = is_good .and. axes_fit(joint_table(joint%number)%angle, geometry%axis_i, geometry%axis_j)
             if (joint_table(joint%number)%min_points == 2) &
                is_good = is_good .and. norm2(geometry%point_j - geometry%point_i) > 0.0_wp
@@ -292,6 +295,7 @@ contains
       real(wp), intent(in) :: x(:)
       type(case_t), intent(inout) :: cases(:)
       logical, intent(inout) :: is_good
+      real(wp) :: travel                     ! of the rack
       integer :: k
 
       do k = 1, size(cases)
@@ -301,6 +305,12 @@ contains
             cases(k)%from = number_at(x, this%from)
             cases(k)%to = number_at(x, this%to)
             is_good = is_good .and. abs(cases(k)%to - cases(k)%from) > 0.0_wp
+            if (is_grid(cases(k))) then
+               travel = number_at(x, plan%steering(2))
+               cases(k)%steer_from = number_at(x, this%steer_from, -travel)
+               cases(k)%steer_to = number_at(x, this%steer_to, travel)
+               is_good = is_good .and. abs(cases(k)%steer_to - cases(k)%steer_from) > 0.0_wp
+            end if
             if (cases(k)%test == 'roll') is_good = is_good .and. max(abs(cases(k)%from), abs(cases(k)%to)) <= steepest_roll
          end associate
       end do

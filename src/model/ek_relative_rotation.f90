@@ -5,25 +5,26 @@
 !> Equation (R.11) of docs/theory/rotations.md.
 module ek_relative_rotation
    use ek_kinds, only: wp
+   use ek_number, only: num, mask, zero, one, some
    use ek_rotation, only: cross, identity3
-   use ek_block, only: add_block, add_diagonal_block, rotated, in_world
+   use ek_block, only: add_block, rotated, in_world, pi_i, pi_j
    implicit none(type, external)
    private
    public :: pose_t, relative_rotation_t, relative_rotation, rotation_gradient, rotation_jacobian, add_rotation_hessian
 
    !> The pose of a body. Stored contiguously (128 bytes), because every measure reads all of it.
    type :: pose_t
-      real(wp) :: r(3) = 0.0_wp                          !! reference point, global [m]
-      real(wp) :: q(4) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]  !! unit quaternion of a
-      real(wp) :: a(3, 3) = identity3                    !! body axes → global axes
+      real(num) :: r(3) = zero                          !! reference point, global [m]
+      real(num) :: q(4) = [one, zero, zero, zero]  !! unit quaternion of a
+      real(num) :: a(3, 3) = identity3                    !! body axes → global axes
    end type pose_t
 
    !> The relative rotation of two bodies: θ = α(t) p, p = 2 qv, t = pᵀp, in the axes of body i.
    type :: relative_rotation_t
-      real(wp) :: q0 = 1.0_wp, qv(3) = 0.0_wp   !! quaternion of A_iᵀ A_j, q0 ≥ 0
-      real(wp) :: p(3) = 0.0_wp
-      real(wp) :: alpha = 1.0_wp, alpha1 = 0.0_wp, alpha2 = 0.0_wp   !! α, dα/dt, d²α/dt²
-      real(wp) :: theta(3) = 0.0_wp             !! rotation vector [rad]
+      real(num) :: q0 = one, qv(3) = zero   !! quaternion of A_iᵀ A_j, q0 ≥ 0
+      real(num) :: p(3) = zero
+      real(num) :: alpha = one, alpha1 = zero, alpha2 = zero   !! α, dα/dt, d²α/dt²
+      real(num) :: theta(3) = zero             !! rotation vector [rad]
    end type relative_rotation_t
 
 contains
@@ -33,34 +34,41 @@ contains
    pure subroutine relative_rotation(pose_i, pose_j, turn)
       type(pose_t), intent(in) :: pose_i, pose_j
       type(relative_rotation_t), intent(out) :: turn
-      real(wp) :: i0, iv(3), j0, jv(3), qv(3), p(3), half, s
+      real(num) :: i0, iv(3), j0, jv(3), qv(3), p(3), s, q0, alpha, alpha1, alpha2
+      logical(mask) :: is_far, is_small
 
       i0 = pose_i%q(1); iv = pose_i%q(2:4)
       j0 = pose_j%q(1); jv = pose_j%q(2:4)
-      turn%q0 = i0*j0 + dot_product(iv, jv)
+      q0 = i0*j0 + dot_product(iv, jv)
       qv = i0*jv - j0*iv - cross(iv, jv)
-      if (turn%q0 < 0.0_wp) then
-         turn%q0 = -turn%q0
-         qv = -qv
+      is_far = q0 < 0.0_wp                 ! q and −q are the same rotation
+      if (some(is_far)) then
+         q0 = merge(-q0, q0, is_far)
+         qv = merge(-qv, qv, is_far)
       end if
       p = 2.0_wp*qv
       s = dot_product(qv, qv)
+      turn%q0 = q0
       turn%qv = qv
       turn%p = p
-      if (s < 1.0e-3_wp) then
+      is_small = s < 1.0e-3_wp
+      if (some(is_small)) then
          ! asin(x)/x and its derivatives in t = 4 x²; s = x². Neglected terms are below 1e-17 of α
-         turn%alpha = 1.0_wp + s*(1.0_wp/6 + s*(3.0_wp/40 + s*(5.0_wp/112 + s*(35.0_wp/1152 + s*63.0_wp/2816))))
+         turn%alpha = 1.0_wp + s*(1.0_wp/6 + s*(3.0_wp/40 + s*(5.0_wp/112 + s*(35.0_wp/1152 + s*63.0_wp/2816.0_wp))))
          turn%alpha1 = 0.25_wp*(1.0_wp/6 + s*(3.0_wp/20 + s*(15.0_wp/112 + s*(35.0_wp/288 + s*(315.0_wp/2816 &
-            + s*231.0_wp*6/13312)))))
+            + s*231.0_wp*6.0_wp/13312.0_wp)))))
          turn%alpha2 = 0.0625_wp*(3.0_wp/20 + s*(15.0_wp/56 + s*(35.0_wp/96 + s*(315.0_wp/704 &
-            + s*231.0_wp*30/13312))))
-      else
-         s = sqrt(s)
-         half = atan2(s, turn%q0)
-         turn%alpha = half/s
+            + s*231.0_wp*30.0_wp/13312.0_wp))))
+      end if
+      if (some(.not. is_small)) then
+         s = sqrt(merge(one, s, is_small))
+         alpha = atan2(s, q0)/s
          ! q0 = cos(half angle): zero only at a relative rotation of exactly 180 deg, where θ itself jumps
-         turn%alpha1 = (1.0_wp/turn%q0 - turn%alpha)/(8.0_wp*s*s)
-         turn%alpha2 = (0.125_wp/turn%q0**3 - 3.0_wp*turn%alpha1)/(8.0_wp*s*s)
+         alpha1 = (1.0_wp/q0 - alpha)/(8.0_wp*s*s)
+         alpha2 = (0.125_wp/q0**3 - 3.0_wp*alpha1)/(8.0_wp*s*s)
+         turn%alpha = merge(turn%alpha, alpha, is_small)
+         turn%alpha1 = merge(turn%alpha1, alpha1, is_small)
+         turn%alpha2 = merge(turn%alpha2, alpha2, is_small)
       end if
       turn%theta = turn%alpha*p
    end subroutine relative_rotation
@@ -69,8 +77,8 @@ contains
    !> Equation (M.10) of docs/theory/measures.md.
    pure function rotation_gradient(turn, m) result(g)
       type(relative_rotation_t), intent(in) :: turn
-      real(wp), intent(in) :: m(3)
-      real(wp) :: g(3), w(3)
+      real(num), intent(in) :: m(3)
+      real(num) :: g(3), w(3)
       w = turn%alpha*m + (2.0_wp*turn%alpha1*dot_product(turn%p, m))*turn%p
       g = turn%q0*w + cross(turn%qv, w)
    end function rotation_gradient
@@ -80,7 +88,7 @@ contains
    !> Equation (R.9) of docs/theory/rotations.md.
    pure function rotation_jacobian(turn) result(jacobian)
       type(relative_rotation_t), intent(in) :: turn
-      real(wp) :: jacobian(3, 3), w(3)
+      real(num) :: jacobian(3, 3), w(3)
       integer :: k
 
       do k = 1, 3
@@ -97,14 +105,14 @@ contains
    !> δ = A_iᵀ(π_j − π_i − ½ π_i×π_j) brings the block π_iπ_j += ½ [A_i g]~.
    !> Equations (M.8), (M.9), (M.10), (M.12) of docs/theory/measures.md.
    !> Equation (R.11) of docs/theory/rotations.md.
-   pure subroutine add_rotation_hessian(turn, m, inner, a_i, at_i, at_j, ld, matrix)
+   pure subroutine add_rotation_hessian(turn, m, inner, a_i, at, blocks)
       type(relative_rotation_t), intent(in) :: turn
-      real(wp), intent(in) :: m(3)           !! body-i axes
-      real(wp), intent(in) :: inner(3, 3)
-      real(wp), intent(in) :: a_i(3, 3)      !! rotation of body i
-      integer, intent(in) :: at_i, at_j, ld
-      real(wp), intent(inout) :: matrix(ld, *)
-      real(wp) :: h(3, 3), w(3), mp, c1, c2, core(3, 3), left(3, 3), g(3), b(3, 3), row(3), half_wq
+      real(num), intent(in) :: m(3)           !! body-i axes
+      real(num), intent(in) :: inner(3, 3)
+      real(num), intent(in) :: a_i(3, 3)      !! rotation of body i
+      integer, intent(in) :: at(3)
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: h(3, 3), w(3), mp, c1, c2, core(3, 3), left(3, 3), g(3), b(3, 3), row(3), half_wq
       integer :: k
 
       mp = dot_product(m, turn%p)
@@ -127,17 +135,17 @@ contains
       do k = 1, 3
          h(k, k) = h(k, k) - half_wq
       end do
-      b = in_world(a_i, h, at_i)
-      call add_diagonal_block(b, at_i + 3, at_i, ld, matrix)
-      call add_diagonal_block(b, at_j + 3, at_j, ld, matrix)
-      if (at_i < 0 .or. at_j < 0) return
+      b = in_world(a_i, h, at(1))
+      call add_block(b, pi_i, pi_i, at, blocks)
+      call add_block(b, pi_j, pi_j, at, blocks)
+      if (at(3) == 0) return
       g = turn%q0*w + cross(turn%qv, w)
       g = 0.5_wp*rotated(a_i, g)
       b = -b
       b(2, 1) = b(2, 1) + g(3); b(3, 1) = b(3, 1) - g(2)
       b(1, 2) = b(1, 2) - g(3); b(3, 2) = b(3, 2) + g(1)
       b(1, 3) = b(1, 3) + g(2); b(2, 3) = b(2, 3) - g(1)
-      call add_block(b, at_i + 3, at_j + 3, ld, matrix)
+      call add_block(b, pi_i, pi_j, at, blocks)
    end subroutine add_rotation_hessian
 
 end module ek_relative_rotation

@@ -6,13 +6,16 @@
 module ek_suspension
    use ek_kinds, only: wp, units_t
    use ek_relative_rotation, only: pose_t
-   use ek_measure, only: measure_t
+   use ek_measure, only: measure_t, rotation, axis_axis
    use ek_joint, only: joint_t, row_t, term_t
-   use ek_element, only: element_t
+   use ek_element, only: element_t, copy_element
+   use ek_load, only: load_t
+   use ek_contract, only: are_checked, require
    implicit none(type, external)
    private
    public :: suspension_t, body_t, point_t, load_t, wheel_t, readout_t, axle_t, steering_t
-   public :: allocate_lists, body_name, design_poses, driver_row, load_number, has_symmetric_loads
+   public :: allocate_lists, copy_numbers, body_name, design_poses, driver_row, driver_unit, load_number, &
+      has_symmetric_loads
 
    !> A rigid body.
    type :: body_t
@@ -30,18 +33,6 @@ module ek_suspension
       real(wp) :: at(3) = 0.0_wp          !! m
       logical :: is_used = .false.
    end type point_t
-
-   !> A force and a moment at a point of a body.
-   type :: load_t
-      character(:), allocatable :: name, where
-      integer :: body = 0
-      real(wp) :: arm(3) = 0.0_wp         !! point of application from the reference point, body axes [m]
-      real(wp) :: force(3) = 0.0_wp       !! N, global axes at design
-      real(wp) :: moment(3) = 0.0_wp      !! N m
-      logical :: follows = .false.        !! rotates with the body
-      logical :: is_case = .false.        !! scaled by the case that refers to it; otherwise always acting
-      logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
-   end type load_t
 
    !> A wheel on its carrier.
    type :: wheel_t
@@ -136,6 +127,75 @@ contains
       self%steering%driver = ''
    end subroutine allocate_lists
 
+   !> The numbers of a suspension for another one, which has the same parts, and may have those of a rig behind them (ek_rig): joints,
+   !> rows, terms and loads. Every number that realise, settle_design or balance sets is copied; nothing is allocated.
+   pure subroutine copy_numbers(from, to)
+      type(suspension_t), intent(in) :: from
+      type(suspension_t), intent(inout) :: to
+      integer :: k
+
+      if (are_checked) call require(size(from%bodies) == size(to%bodies) .and. size(from%joints) <= size(to%joints) .and. &
+         size(from%terms) <= size(to%terms) .and. size(from%elements) == size(to%elements) .and. &
+         size(from%loads) <= size(to%loads), 'copy_numbers: the suspensions are of different models')
+      to%gravity = from%gravity
+      do k = 1, size(from%bodies)
+         to%bodies(k)%origin = from%bodies(k)%origin
+         to%bodies(k)%attached = from%bodies(k)%attached
+         to%bodies(k)%mass = from%bodies(k)%mass
+         to%bodies(k)%centre = from%bodies(k)%centre
+      end do
+      do k = 1, size(from%points)
+         to%points(k)%at = from%points(k)%at
+      end do
+      do k = 1, size(from%joints)
+         to%joints(k)%arm_j = from%joints(k)%arm_j
+         to%joints(k)%axis = from%joints(k)%axis
+      end do
+      to%rows(:size(from%rows)) = from%rows
+      to%terms(:size(from%terms)) = from%terms
+      do k = 1, size(from%elements)
+         call copy_element(from%elements(k), to%elements(k))
+      end do
+      do k = 1, size(from%loads)
+         to%loads(k)%arm = from%loads(k)%arm
+         to%loads(k)%force = from%loads(k)%force
+         to%loads(k)%moment = from%loads(k)%moment
+      end do
+      do k = 1, size(from%wheels)
+         call copy_wheel(from%wheels(k), to%wheels(k))
+      end do
+      do k = 1, size(from%readouts)
+         to%readouts(k)%measure = from%readouts(k)%measure
+         to%readouts(k)%design_value = from%readouts(k)%design_value
+      end do
+      to%axle%wheelbase = from%axle%wheelbase
+      to%axle%cg_height = from%axle%cg_height
+      to%axle%mass = from%axle%mass
+      to%axle%brake_share = from%axle%brake_share
+      to%axle%drive_share = from%axle%drive_share
+      to%axle%front_overhang = from%axle%front_overhang
+      to%axle%front_width = from%axle%front_width
+      to%steering%ratio = from%steering%ratio
+      to%steering%travel = from%steering%travel
+      if (allocated(from%vectors)) to%vectors(:, :) = from%vectors
+   end subroutine copy_numbers
+
+   pure subroutine copy_wheel(from, to)
+      type(wheel_t), intent(in) :: from
+      type(wheel_t), intent(inout) :: to
+
+      to%centre = from%centre
+      to%contact = from%contact
+      to%spin = from%spin
+      to%toe = from%toe
+      to%camber = from%camber
+      to%radius = from%radius
+      to%tyre_rate = from%tyre_rate
+      to%tyre_width = from%tyre_width
+      to%sprung_mass = from%sprung_mass
+      to%steer_axis = from%steer_axis
+   end subroutine copy_wheel
+
    !> The length of Δq.
    pure integer function unknowns(self)
       class(suspension_t), intent(in) :: self
@@ -186,6 +246,24 @@ contains
          if (self%joints(k)%kind == 'driver' .and. self%joints(k)%name == name) driver_row = self%joints(k)%first_row
       end do
    end function driver_row
+
+   !> The unit of the value of a driver in results: mm, deg or '-'; mm for those of the rig.
+   pure function driver_unit(self, name) result(unit)
+      type(suspension_t), intent(in) :: self
+      character(*), intent(in) :: name
+      character(3) :: unit
+      integer :: row
+
+      unit = 'mm'
+      row = driver_row(self, name)
+      if (row == 0) return
+      select case (self%terms(self%rows(row)%first)%measure%kind)
+      case (rotation)
+         unit = 'deg'
+      case (axis_axis)
+         unit = '-'
+      end select
+   end function driver_unit
 
    !> Number of the load with this name; 0 for an empty name.
    pure integer function load_number(self, name)

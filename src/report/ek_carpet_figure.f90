@@ -1,59 +1,92 @@
-!> Carpet plot of a grid of two factors: each response over an abscissa that is shifted with the second factor, as lines on which one
-!> of the factors is constant. Both factors can be read off it at any response, and the response with the accuracy of an axis.
+!> Carpet plot over a grid of two factors: each response over an abscissa that is shifted with the second factor, as lines on which
+!> one of the factors is constant. Both factors can be read off it at any response, and the response with the accuracy of an axis.
+!>
+!> A carpet is plain numbers: a study makes one of its grid of designs, a report one of a test over travel and steering.
 module ek_carpet_figure
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
+   use ek_error, only: message_list_t
    use ek_text, only: str
    use ek_study_data, only: study_data_t, most_panels, is_geometric, range_of_values
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
    implicit none(type, external)
    private
-   public :: carpet_script
+   public :: carpet_t, new_carpet, carpet_script, study_carpet, is_drawn, colours
 
    character(*), parameter :: nl = new_line('a')
    integer, parameter :: most_lines = 7           !! of either factor; of more levels some are drawn
    real(wp), parameter :: shift = 0.8_wp          !! of the abscissa from the first to the last level of factor 2, per width
+   !> Of lines of equal factor 1 and 2.
    character(*), parameter :: colours(2) = ["rgb '#0072B2'", "rgb '#D55E00'"]
 
-   !> The grid: levels in ascending order, and the design at each pair.
+   !> A grid of two factors, in the order of their levels, and the responses there.
    type :: carpet_t
-      integer, allocatable :: design(:, :)           !! (level of factor 1, of factor 2)
-      real(wp), allocatable :: place(:, :)           !! of a level from 0 to 1; (level, factor)
       integer :: levels(2) = 0
+      type(message_list_t) :: factors                !! their labels
+      type(message_list_t) :: responses              !! likewise
+      real(wp), allocatable :: level(:, :)           !! value of a level, ascending; (level, factor)
+      real(wp), allocatable :: place(:, :)           !! the same from 0 to 1
+      real(wp), allocatable :: value(:, :, :)        !! (level of factor 1, of factor 2, response); NaN: none
    end type carpet_t
 
 contains
 
-   !> The script of a grid of two factors.
-   function carpet_script(study, name, subtitle) result(text)
-      type(study_data_t), intent(in) :: study
-      character(*), intent(in) :: name, subtitle
+   !> A carpet still without labels and values.
+   pure type(carpet_t) function new_carpet(first, second, responses, is_log) result(carpet)
+      real(wp), intent(in) :: first(:), second(:)    !! levels of the factors, ascending
+      integer, intent(in) :: responses
+      logical, intent(in) :: is_log(2)               !! the levels stand in equal ratios
+
+      carpet%levels = [size(first), size(second)]
+      allocate (carpet%level(maxval(carpet%levels), 2), source=0.0_wp)
+      allocate (carpet%place(maxval(carpet%levels), 2), source=0.0_wp)
+      carpet%level(:size(first), 1) = first
+      carpet%level(:size(second), 2) = second
+      carpet%place(:size(first), 1) = places(first, is_log(1))
+      carpet%place(:size(second), 2) = places(second, is_log(2))
+      allocate (carpet%value(size(first), size(second), responses), source=0.0_wp)
+   end function new_carpet
+
+   !> Levels from 0 to 1.
+   pure function places(levels, is_log)
+      real(wp), intent(in) :: levels(:)
+      logical, intent(in) :: is_log
+      real(wp) :: places(size(levels))
+
+      places = levels
+      if (is_log) places = log(levels)
+      places = (places - places(1))/max(places(size(levels)) - places(1), tiny(1.0_wp))
+   end function places
+
+   !> The script of a carpet, a panel for each response.
+   function carpet_script(carpet, name, title, subtitle) result(text)
+      type(carpet_t), intent(in) :: carpet
+      character(*), intent(in) :: name, title, subtitle
       character(:), allocatable :: text
-      type(carpet_t) :: carpet
       type(sheet_t) :: sheet
       integer :: r, f
 
-      call lay(study, carpet)
-      sheet = new_sheet(name, 'Carpet over two factors', subtitle//'; blue: lines of equal '//study%factors(1)%label// &
-         ', orange: of equal '//study%factors(2)%label, min(size(study%responses), most_panels))
+      sheet = new_sheet(name, title, subtitle//'; blue: lines of equal '//carpet%factors%line(1)// &
+         ', orange: of equal '//carpet%factors%line(2), size(carpet%value, 3))
       sheet%bottom = 40
       if (sheet%panels == 1) sheet%width = 900
       do r = 1, sheet%panels
          do f = 1, 2
-            call add_lines(study, carpet, f, r, sheet)
-            call add_ends(study, carpet, f, r, sheet)
+            call add_lines(carpet, f, r, sheet)
+            call add_ends(carpet, f, r, sheet)
          end do
       end do
       call begin_panels(sheet)
       call sheet%text%line('unset xtics; unset xzeroaxis; unset yzeroaxis; set border 2; set grid noxtics')
       call sheet%text%line('set offsets graph 0.16, graph 0.14, graph 0.1, graph 0.1')
       do r = 1, sheet%panels
-         call begin_panel(sheet, r, '', '', study%responses(r)%label)
+         call begin_panel(sheet, r, '', '', carpet%responses%line(r))
          text = 'plot '
          do f = 1, 2
             if (f == 2) text = text//', \'//nl//'     '
             text = text//'$equal'//str(f)//'_'//str(r)//' using 1:2 with lines linewidth 2 linecolor '//colours(f)//' notitle'// &
-               labels(.true.)//labels(.false.)
+               labels(1)//labels(-1)
+            if (f == 2) text = text//labels(2)//labels(-2)
          end do
          call sheet%text%line(text)
       end do
@@ -62,26 +95,25 @@ contains
 
    contains
 
-      !> The values at the ends of the lines, above or below them, outside the carpet.
-      function labels(is_above) result(words)
-         logical, intent(in) :: is_above
+      !> The values at the ends of the lines, outside the carpet, that add_ends puts at a side.
+      function labels(side) result(words)
+         integer, intent(in) :: side
          character(:), allocatable :: words
 
-         words = trim(merge('right offset -0.7,', 'left offset 0.7,  ', is_at_begin(study, carpet, f, r)))// &
-            trim(merge(' 0.45 ', ' -0.45', is_above))
-         words = ', \'//nl//'     $ends'//str(f)//'_'//str(r)//' using ($3 '//trim(merge('> 0', '< 0', is_above))// &
+         words = trim(merge('right offset -0.7,', 'left offset 0.7,  ', is_at_begin(carpet, f, r)))//' '// &
+            str(sign(0.45_wp, real(side, wp)))
+         if (abs(side) == 2) words = 'center offset 0, '//str(sign(1.5_wp, real(side, wp)))
+         words = ', \'//nl//'     $ends'//str(f)//'_'//str(r)//' using ($3 == '//str(side)// &
             ' ? $1 : NaN):2:4 with labels '//words//" font ',12' textcolor "//colours(f)//' notitle'
       end function labels
 
    end function carpet_script
 
-   !> Finds levels and designs. The grid has the designs of the last factor first.
-   subroutine lay(study, carpet)
+   !> The carpet of a study, a grid of two factors, which has the designs of the last factor first.
+   type(carpet_t) function study_carpet(study) result(carpet)
       type(study_data_t), intent(in) :: study
-      type(carpet_t), intent(out) :: carpet
       integer, allocatable :: order(:), other(:)
-      real(wp) :: values(study%designs)
-      integer :: n(2), f, k
+      integer :: n(2), f, i, j, k, r
 
       n(2) = 1
       do k = 2, study%designs
@@ -89,21 +121,22 @@ contains
          n(2) = k
       end do
       n(1) = study%designs/n(2)
-      carpet%levels = n
-      allocate (carpet%place(maxval(n), 2))
-      other = ascending(study%x(1, 1:n(1)*n(2):n(2)))
-      order = ascending(study%x(2, :n(2)))
-      allocate (carpet%design(n(1), n(2)))
-      do k = 1, n(2)
-         carpet%design(:, k) = (other - 1)*n(2) + order(k)
-      end do
+      allocate (other, source=ascending(study%x(1, 1:n(1)*n(2):n(2))))
+      allocate (order, source=ascending(study%x(2, :n(2))))
+      carpet = new_carpet(study%x(1, (other - 1)*n(2) + 1), study%x(2, order), min(size(study%responses), most_panels), &
+         [is_geometric(study%x(1, :)), is_geometric(study%x(2, :))])
       do f = 1, 2
-         values(:n(f)) = study%x(f, carpet%design(:, 1))
-         if (f == 2) values(:n(f)) = study%x(f, carpet%design(1, :))
-         if (is_geometric(study%x(f, :))) values(:n(f)) = log(values(:n(f)))
-         carpet%place(:n(f), f) = (values(:n(f)) - values(1))/max(values(n(f)) - values(1), tiny(1.0_wp))
+         call carpet%factors%add(study%factors(f)%label)
       end do
-   end subroutine lay
+      do r = 1, size(carpet%value, 3)
+         call carpet%responses%add(study%responses(r)%label)
+         do j = 1, n(2)
+            do i = 1, n(1)
+               carpet%value(i, j, r) = study%y(r, (other(i) - 1)*n(2) + order(j))
+            end do
+         end do
+      end do
+   end function study_carpet
 
    !> The order in which values ascend.
    pure function ascending(values) result(order)
@@ -132,18 +165,16 @@ contains
    end function is_drawn
 
    !> Abscissa and response at a pair of levels.
-   pure function point_of(study, carpet, i, j, r) result(point)
-      type(study_data_t), intent(in) :: study
+   pure function point_of(carpet, i, j, r) result(point)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: i, j, r                 !! levels of factors 1 and 2; response
       real(wp) :: point(2)
 
-      point = [carpet%place(i, 1) + shift*carpet%place(j, 2), study%y(r, carpet%design(i, j))]
+      point = [carpet%place(i, 1) + shift*carpet%place(j, 2), carpet%value(i, j, r)]
    end function point_of
 
    !> The lines on which factor f is constant.
-   subroutine add_lines(study, carpet, f, r, sheet)
-      type(study_data_t), intent(in) :: study
+   subroutine add_lines(carpet, f, r, sheet)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
       type(sheet_t), intent(inout) :: sheet
@@ -153,8 +184,8 @@ contains
       do i = 1, carpet%levels(f)
          if (.not. is_drawn(i, carpet%levels(f))) cycle
          do j = 1, carpet%levels(3 - f)
-            if (f == 1) call add_numbers(sheet, point_of(study, carpet, i, j, r))
-            if (f == 2) call add_numbers(sheet, point_of(study, carpet, j, i, r))
+            if (f == 1) call add_numbers(sheet, point_of(carpet, i, j, r))
+            if (f == 2) call add_numbers(sheet, point_of(carpet, j, i, r))
          end do
          call sheet%text%line('')
       end do
@@ -163,48 +194,47 @@ contains
 
    !> Whether the lines of equal factor f carry their values where the other factor is smallest: on that edge of the carpet on which
    !> the response changes most, so that they lie apart.
-   pure logical function is_at_begin(study, carpet, f, r)
-      type(study_data_t), intent(in) :: study
+   pure logical function is_at_begin(carpet, f, r)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
       real(wp) :: first(2), last(2)
 
       if (f == 1) then
-         first = range_of_values(study%y(r, carpet%design(:, 1)))
-         last = range_of_values(study%y(r, carpet%design(:, carpet%levels(2))))
+         first = range_of_values(carpet%value(:, 1, r))
+         last = range_of_values(carpet%value(:, carpet%levels(2), r))
       else
-         first = range_of_values(study%y(r, carpet%design(1, :)))
-         last = range_of_values(study%y(r, carpet%design(carpet%levels(1), :)))
+         first = range_of_values(carpet%value(1, :, r))
+         last = range_of_values(carpet%value(carpet%levels(1), :, r))
       end if
       is_at_begin = first(2) - first(1) > last(2) - last(1)
    end function is_at_begin
 
-   !> The values of factor f at the ends of its lines, and 1 or −1 for above or below: away from where the line comes from.
-   subroutine add_ends(study, carpet, f, r, sheet)
-      type(study_data_t), intent(in) :: study
+   !> The values of factor f at the ends of its lines, and 1 or −1 for above or below: away from the mean of the line. At the
+   !> corner of the carpet where the values of both factors meet, those of factor 2 have 2 or −2: further above or below.
+   subroutine add_ends(carpet, f, r, sheet)
       type(carpet_t), intent(in) :: carpet
       integer, intent(in) :: f, r
       type(sheet_t), intent(inout) :: sheet
-      real(wp) :: at(2), inside(2), value
-      integer :: i, end, next
+      real(wp) :: at(2), side, line(carpet%levels(3 - f))
+      integer :: i, end, corner
 
-      end = merge(1, carpet%levels(3 - f), is_at_begin(study, carpet, f, r))
-      next = merge(2, carpet%levels(3 - f) - 1, is_at_begin(study, carpet, f, r))
+      end = merge(1, carpet%levels(3 - f), is_at_begin(carpet, f, r))
+      corner = 0
+      if (f == 2) corner = merge(1, carpet%levels(2), is_at_begin(carpet, 1, r))
       call begin_data(sheet, 'ends'//str(f)//'_'//str(r))
       do i = 1, carpet%levels(f)
          if (.not. is_drawn(i, carpet%levels(f))) cycle
          if (f == 1) then
-            at = point_of(study, carpet, i, end, r)
-            inside = point_of(study, carpet, i, next, r)
-            value = study%x(1, carpet%design(i, 1))
+            at = point_of(carpet, i, end, r)
+            line = carpet%value(i, :, r)
          else
-            at = point_of(study, carpet, end, i, r)
-            inside = point_of(study, carpet, next, i, r)
-            value = study%x(2, carpet%design(1, i))
+            at = point_of(carpet, end, i, r)
+            line = carpet%value(:, i, r)
          end if
          if (.not. ieee_is_finite(at(2))) cycle
-         if (.not. ieee_is_finite(inside(2))) inside(2) = at(2)
-         call add_numbers(sheet, [at, merge(1.0_wp, -1.0_wp, inside(2) < at(2))], short(value))
+         side = merge(1.0_wp, -1.0_wp, at(2) > sum(line, mask=ieee_is_finite(line))/count(ieee_is_finite(line)))
+         if (i == corner) side = 2.0_wp*side
+         call add_numbers(sheet, [at, side], short(carpet%level(i, f)))
       end do
       call end_data(sheet)
    end subroutine add_ends

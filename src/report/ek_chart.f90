@@ -14,12 +14,13 @@ module ek_chart
    implicit none(type, external)
    private
    public :: chart_t, trace_t, new_chart, add_trace, append_chart, charts_script, add_coordinate, picture_file
-   public :: pictures_of, remove_drawn, range_of, palette, axes_style
+   public :: pictures_of, remove_drawn, range_of, view_of, set_level, rounded, palette, axes_style, cut_of, both_sides
 
    !> Okabe and Ito's colours, distinguishable with colour blindness; without the yellow, too light on white.
    character(7), parameter :: palette(8) = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', &
       '#E69F00', '#56B4E9', '#4D4D4D', '#8C510A']
 
+   character(*), parameter :: both_sides = 'left = right'     !! one curve for the two wheels of an axle
    character(*), parameter :: nl = new_line('a')
    character(*), parameter :: axes_style = "set grid linetype 1 linecolor rgb '#E6E6E6' linewidth 1"//nl// &
       "set xzeroaxis linetype 1 linecolor rgb '#909090' linewidth 1.2"//nl// &
@@ -38,6 +39,8 @@ module ek_chart
       real(wp), allocatable :: mark(:)       !! [x, y] of a ring: the design state
       integer :: colour = 1                  !! index in the palette
       integer :: dash = 0                    !! 0 solid, 1 dashed, 2 dotted, 3 dash-dotted
+      integer :: design = 0                  !! row of the design state where it is not that of the test; 0: as the test
+      integer :: reference = 0               !! the curve of the chart that it is compared with; 0: none
    end type trace_t
 
    type :: chart_t
@@ -49,6 +52,9 @@ module ek_chart
       type(trace_t), allocatable :: traces(:)
       logical :: has_key = .false.           !! the curves are named in the chart
       logical :: has_points = .false.        !! the states are independent: points without a line
+      logical :: is_fixed = .false.          !! the axis ends at `fixed`
+      real(wp) :: fixed(2) = 0.0_wp
+      logical :: is_level = .false.          !! constant to the digits shown: a row of a table, not drawn
       real(wp) :: noise = 0.0_wp             !! a smaller span is drawn flat
       real(wp) :: cap = 0.0_wp               !! values beyond ± this are not drawn; 0: no limit
    end type chart_t
@@ -73,11 +79,20 @@ contains
       chart%traces = [chart%traces, trace]
    end subroutine add_trace
 
-   !> Appends a chart to a list. (In place of the call gfortran 12 warns of uninitialised bounds.)
-   pure subroutine append_chart(charts, chart)
+   !> Appends a chart to the first `used` of a list, whose room doubles when it is exhausted.
+   pure subroutine append_chart(charts, used, chart)
       type(chart_t), allocatable, intent(inout) :: charts(:)
+      integer, intent(inout) :: used
       type(chart_t), intent(in) :: chart
-      charts = [charts, chart]
+      type(chart_t), allocatable :: grown(:)
+
+      if (used == size(charts)) then
+         allocate (grown(2*used + 16))
+         grown(:used) = charts
+         call move_alloc(grown, charts)
+      end if
+      used = used + 1
+      charts(used) = chart
    end subroutine append_chart
 
    !> The file of a chart: its name, reduced to the characters of a file name, as it may come from a foreign table.
@@ -117,7 +132,7 @@ contains
       character(:), allocatable :: line, look, title
       integer :: k, row, keys, across, rows
 
-      if (size(chart%traces) == 0) return
+      if (size(chart%traces) == 0 .or. chart%is_level) return
       call script%line(nl//'$data << EOD')
       do k = 1, size(chart%traces)
          associate (trace => chart%traces(k))
@@ -173,29 +188,113 @@ contains
       end do
    end subroutine add_chart
 
-   !> The range of y: of a span within the noise, and of a constant, the middle; otherwise that of the curves.
+   !> The range of y: of a span within the noise, and of a constant, the middle; otherwise that of the curves. Poles are cut.
    pure function range_of(chart) result(range)
       type(chart_t), intent(in) :: chart
       character(:), allocatable :: range
-      real(wp) :: low, high, margin
-      integer :: k
+      real(wp) :: low, high, margin, cut
 
-      low = huge(1.0_wp)
-      high = -huge(1.0_wp)
-      do k = 1, size(chart%traces)
-         associate (y => chart%traces(k)%y)
-            low = min(low, minval(y, mask=ieee_is_finite(y)))
-            high = max(high, maxval(y, mask=ieee_is_finite(y)))
-         end associate
-      end do
+      range = '['//str(chart%fixed(1), 6)//' : '//str(chart%fixed(2), 6)//']'
+      if (chart%is_fixed) return
+      cut = cut_of(chart)
       range = '[*:*]'
-      if (chart%cap > 0.0_wp) range = '['//str(-chart%cap)//' < * : * < '//str(chart%cap)//']'
+      if (cut > 0.0_wp) range = '['//str(-cut, 6)//' < * : * < '//str(cut, 6)//']'
+      call extremes(chart, huge(1.0_wp), low, high)
       if (low > high) return
       margin = max(abs(low)/10, 1.0e-6_wp)
       if (high - low <= 0.0_wp) range = '['//str(low - margin, 6)//' : '//str(low + margin, 6)//']'
       if (high - low < chart%noise) &
          range = '[* < '//str((low + high)/2 - chart%noise, 6)//' : '//str((low + high)/2 + chart%noise, 6)//' < *]'
    end function range_of
+
+   !> The same range as two numbers, for a page that draws the chart itself; low > high: the chart has no value.
+   pure subroutine view_of(chart, low, high)
+      type(chart_t), intent(in) :: chart
+      real(wp), intent(out) :: low, high
+      real(wp) :: cut, middle, half
+
+      low = chart%fixed(1)
+      high = chart%fixed(2)
+      if (chart%is_fixed) return
+      cut = cut_of(chart)
+      if (.not. cut > 0.0_wp) cut = huge(1.0_wp)
+      call extremes(chart, cut, low, high)
+      if (low > high) return
+      half = chart%noise
+      if (.not. half > 0.0_wp) half = max(abs(low)/10, 1.0e-6_wp)
+      if (high - low >= chart%noise .and. high > low) return
+      middle = (low + high)/2
+      low = middle - half
+      high = middle + half
+   end subroutine view_of
+
+   !> The smallest and largest value of all curves, each moved to within ±cut.
+   pure subroutine extremes(chart, cut, low, high)
+      type(chart_t), intent(in) :: chart
+      real(wp), intent(in) :: cut
+      real(wp), intent(out) :: low, high
+      integer :: k
+
+      low = huge(1.0_wp)
+      high = -huge(1.0_wp)
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            if (.not. any(ieee_is_finite(y))) cycle
+            low = min(low, max(-cut, minval(y, mask=ieee_is_finite(y))))
+            high = max(high, min(cut, maxval(y, mask=ieee_is_finite(y))))
+         end associate
+      end do
+   end subroutine extremes
+
+   !> Where the axis ends on both sides of 0: at the cap of the chart or, of a curve through a pole, at a multiple of what it
+   !> usually is. A pole: between two states the value changes sign and jumps by more than half of the whole span. 0: no limit.
+   pure real(wp) function cut_of(chart) result(cut)
+      type(chart_t), intent(in) :: chart
+      real(wp), parameter :: usual = 8.0_wp      ! times the mean of the magnitudes on a logarithmic scale
+      integer, parameter :: least_states = 12
+      real(wp) :: low, high
+      integer :: k, row
+      logical :: has_pole
+
+      cut = chart%cap
+      call extremes(chart, huge(1.0_wp), low, high)
+      has_pole = .false.
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            if (size(y) < least_states) cycle
+            do row = 2, size(y)
+               if (.not. (ieee_is_finite(y(row)) .and. ieee_is_finite(y(row - 1)))) cycle
+               if (y(row) < 0.0_wp .eqv. y(row - 1) < 0.0_wp) cycle
+               has_pole = has_pole .or. abs(y(row)/2 - y(row - 1)/2) > (high/2 - low/2)/2
+            end do
+         end associate
+      end do
+      if (.not. has_pole) return
+      low = 0.0_wp
+      row = 0
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            low = low + sum(log(max(abs(y), 1.0e-9_wp)), mask=ieee_is_finite(y))
+            row = row + count(ieee_is_finite(y))
+         end associate
+      end do
+      high = usual*exp(low/row)
+      if (.not. cut > 0.0_wp .or. high < cut) cut = high
+   end function cut_of
+
+   !> Finds whether a chart is constant to the digits shown: every curve stays within a hundredth of its least span.
+   elemental subroutine set_level(chart)
+      type(chart_t), intent(inout) :: chart
+      integer :: k
+
+      chart%is_level = chart%noise > 0.0_wp .and. size(chart%traces) > 0
+      do k = 1, size(chart%traces)
+         associate (y => chart%traces(k)%y)
+            if (count(ieee_is_finite(y)) == 0) cycle
+            if (maxval(y, mask=ieee_is_finite(y)) - minval(y, mask=ieee_is_finite(y)) > chart%noise/100) chart%is_level = .false.
+         end associate
+      end do
+   end subroutine set_level
 
    !> x and y with seven digits, more than a picture resolves.
    pure subroutine add_pair(script, x, y)
@@ -214,7 +313,6 @@ contains
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
       character(longest_decimal) :: number
-      real(wp) :: scale
       integer :: used
 
       if (.not. ieee_is_finite(value)) then
@@ -222,29 +320,46 @@ contains
          return
       end if
       used = 0
-      if (abs(value) < 1.0e-12_wp .or. abs(value) > 1.0e12_wp) then
-         call put_decimal(merge(0.0_wp, value, abs(value) < 1.0e-12_wp), number, used)
-      else
-         scale = 10.0_wp**(digits - 1 - floor(log10(abs(value))))
-         call put_decimal(anint(value*scale)/scale, number, used)
-      end if
+      call put_decimal(rounded(value, digits), number, used)
       call script%add(number(:used))
    end subroutine add_coordinate
+
+   !> A number rounded to significant digits; 0 below 1e-12.
+   elemental real(wp) function rounded(value, digits)
+      real(wp), intent(in) :: value
+      integer, intent(in) :: digits
+      real(wp) :: scale
+
+      rounded = value
+      if (.not. ieee_is_finite(value)) return
+      if (abs(value) > 1.0e12_wp) return
+      rounded = 0.0_wp
+      if (abs(value) < 1.0e-12_wp) return
+      scale = 10.0_wp**(digits - 1 - floor(log10(abs(value))))
+      rounded = anint(value*scale)/scale
+   end function rounded
 
    !> The picture files of these charts. A chart without curves is not drawn; every name is listed once.
    subroutine pictures_of(charts, pictures)
       type(chart_t), intent(in) :: charts(:)
       type(message_list_t), intent(inout) :: pictures
       character(:), allocatable :: file
-      integer :: k, n
+      integer, allocatable :: listed(:)         ! the charts of the list
+      integer :: k, n, used
 
+      allocate (listed(size(charts)))
+      used = 0
       do k = 1, size(charts)
-         if (size(charts(k)%traces) == 0) cycle
+         if (size(charts(k)%traces) == 0 .or. charts(k)%is_level) cycle
          file = picture_file(charts(k))
-         do n = 1, pictures%count()
-            if (pictures%line(n) == file) exit
+         do n = 1, used
+            if (len(charts(listed(n))%name) /= len(charts(k)%name)) cycle
+            if (picture_file(charts(listed(n))) == file) exit
          end do
-         if (n > pictures%count()) call pictures%add(file)
+         if (n <= used) cycle
+         used = used + 1
+         listed(used) = k
+         call pictures%add(file)
       end do
    end subroutine pictures_of
 

@@ -1,151 +1,28 @@
-!> The comparison of results, and its page: charts of the curves of all results, and the table of gradients.
+!> The page of a comparison: what was changed, what this did sorted by change, and a chart of every quantity.
 module ek_compare_page
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
-   use ek_text, only: str
+   use ek_text, only: str, plural
    use ek_version, only: version
    use ek_test_result, only: design_row
-   use ek_quantity, only: quantity_t, all_quantities, quantity_named, held_name
-   use ek_gradient, only: gradient_t
-   use ek_test_charts, only: quantity_chart, quantities_of
-   use ek_chart, only: chart_t, add_trace, append_chart
-   use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, &
-      add_cell, add_group, end_table, add_legend, page_text, page_number
-   use ek_report_files, only: results_t
-   use ek_report_page, only: add_charts
+   use ek_chart, only: chart_t, picture_file
+   use ek_svg, only: escape_html
+   use ek_page, only: page_t, begin_page, begin_section, add_warnings, add_facts, begin_table, add_cell, end_table, add_text, &
+      add_legend, add_markup, begin_charts, end_charts, set_data, page_text, page_number
+   use ek_change, only: change_of, verdict_of, has_changed, letter_of
+   use ek_comparison, only: comparison_t, difference_t, difference, largest_change, descending, counted
+   use ek_deck_difference, only: deck_difference_t, step_text
+   use ek_report_data, only: comparison_data
+   use ek_report_page, only: add_pictures, add_constants
    implicit none(type, external)
    private
-   public :: comparison_t, difference_t, compare_gradients, difference, percent, overlay, page_of, test_number, letter_of
+   public :: page_of, verdicts
 
-   !> The gradients of one test, quantity and side.
-   type, extends(gradient_t) :: difference_t
-      real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
-      logical, allocatable :: is_there(:)
-   end type difference_t
-
-   !> Results and what differs between them.
-   type :: comparison_t
-      character(:), allocatable :: folder               !! of the page
-      type(results_t), allocatable :: results(:)        !! the first is the one compared with
-      type(difference_t), allocatable :: rows(:)
-      type(chart_t), allocatable :: charts(:)           !! of the tests of the first
-      type(message_list_t) :: missing                   !! from some results
-      logical :: has_pictures = .false.                 !! those in the folder belong to this comparison
-   end type comparison_t
+   integer, parameter :: principal = 6        !! charts of a test that are not folded
+   integer, parameter :: most_rows = 40       !! of a table, before the others are folded
 
 contains
-
-   !> All gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
-   !> result, followed by gradients of the others only.
-   subroutine compare_gradients(results, rows)
-      type(results_t), intent(in) :: results(:)
-      type(difference_t), allocatable, intent(out) :: rows(:)
-      integer :: s, k, row, used
-
-      allocate (rows(sum([(size(results(s)%gradients), s=1, size(results))])))
-      used = 0
-      do s = 1, size(results)
-         do k = 1, size(results(s)%gradients)
-            associate (g => results(s)%gradients(k))
-               do row = 1, used
-                  if (rows(row)%test == g%test .and. rows(row)%quantity == g%quantity .and. rows(row)%side == g%side) exit
-               end do
-               if (row > used) then
-                  used = row
-                  rows(row)%gradient_t = g
-                  allocate (rows(row)%values(size(results)), rows(row)%is_there(size(results)))
-                  rows(row)%values = ieee_value(1.0_wp, ieee_quiet_nan)
-                  rows(row)%is_there = .false.
-               end if
-               rows(row)%values(s) = g%value
-               rows(row)%is_there(s) = .true.
-               if (rows(row)%window /= g%window) rows(row)%window = 'different windows'
-            end associate
-         end do
-      end do
-      rows = rows(:used)
-   end subroutine compare_gradients
-
-   !> b − a; not a number if one is missing.
-   elemental real(wp) function difference(a, b)
-      real(wp), intent(in) :: a, b
-
-      difference = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
-   end function difference
-
-   !> 100 (b − a)/|a|; not a number if a is zero to rounding.
-   elemental real(wp) function percent(a, b)
-      real(wp), intent(in) :: a, b
-      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
-
-      percent = ieee_value(1.0_wp, ieee_quiet_nan)
-      if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
-      if (abs(a) <= nothing) return
-      if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
-   end function percent
-
-   !> Charts of every test of the first result: one per column that another result also has, with one curve per result.
-   subroutine overlay(results, charts)
-      type(results_t), intent(in) :: results(:)
-      type(chart_t), allocatable, intent(out) :: charts(:)
-      character(48), allocatable :: columns(:)
-      integer :: t, k
-
-      allocate (charts(0))
-      do t = 1, size(results(1)%tests)
-         columns = quantities_of(results(1)%tests(t)%kind)
-         do k = 1, size(columns)
-            call overlay_quantity(results, t, quantity_named(columns(k)), charts)
-         end do
-         do k = 1, size(all_quantities)
-            if (.not. all_quantities(k)%span > 0.0_wp .or. any(columns == held_name(all_quantities(k)%name, 1))) cycle
-            call overlay_quantity(results, t, quantity_named(held_name(all_quantities(k)%name, 1)), charts)
-         end do
-      end do
-   end subroutine overlay
-
-   !> One quantity of a test; separate charts for left and right.
-   subroutine overlay_quantity(results, test, quantity, charts)
-      type(results_t), intent(in) :: results(:)
-      integer, intent(in) :: test
-      type(quantity_t), intent(in) :: quantity
-      type(chart_t), allocatable, intent(inout) :: charts(:)
-      type(chart_t), allocatable :: own(:)
-      type(chart_t) :: chart
-      integer :: r, side, u, k
-
-      if (quantity%name == results(1)%tests(test)%abscissa) return
-      allocate (own(size(results)))
-      own(1) = quantity_chart(results(1)%tests(test), quantity)
-      do r = 2, size(results)
-         u = test_number(results(r), results(1)%tests(test)%name)
-         if (u > 0) own(r) = quantity_chart(results(r)%tests(u), quantity)
-      end do
-      allocate (chart%traces(0))      ! gfortran 12 takes the bounds of an unallocated component for uninitialised
-      do side = 1, size(own(1)%traces)
-         chart = own(1)
-         chart%test = test
-         chart%traces = chart%traces(:0)
-         associate (name => own(1)%traces(side)%title)
-            if (len(name) > 0) then
-               chart%name = chart%name//'_'//name
-               chart%title = chart%title//', '//name
-            end if
-            do r = 1, size(results)
-               if (.not. allocated(own(r)%traces)) cycle
-               do k = 1, size(own(r)%traces)
-                  if (own(r)%traces(k)%title /= name) cycle
-                  own(r)%traces(k)%colour = r
-                  own(r)%traces(k)%dash = merge(0, 1 + modulo(r - 2, 3), r == 1)
-                  call add_trace(chart, own(r)%traces(k))
-               end do
-            end do
-         end associate
-         if (size(chart%traces) > 1) call append_chart(charts, chart)
-      end do
-   end subroutine overlay_quantity
 
    !> compare.html
    function page_of(this, why_none) result(text)
@@ -154,97 +31,339 @@ contains
       character(:), allocatable :: text
       type(page_t) :: page
       type(message_list_t) :: names, values, warnings
-      character(longest_label(this%results)) :: labels(size(this%results))
-      integer :: r, t
+      integer :: r, t, k
 
       do r = 1, size(this%results)
-         labels(r) = this%results(r)%label
          call names%add(letter_of(r))
          call values%add(this%results(r)%path)
       end do
       call names%add('Program')
       call values%add('elastokin '//version)
-      call begin_page(page, 'Comparison', 'Overlaid results; gradients compared with those of A')
+      call begin_page(page, 'Comparison', 'What was changed, and what it did; every result against A')
       call add_facts(page, names, values)
       if (len(why_none) > 0) then
          call warnings%add('The page has no pictures: '//why_none)
          call add_warnings(page, 'Warnings', warnings)
       end if
-      call add_warnings(page, 'Missing from some results', this%missing)
-      if (size(this%rows) > 0) call add_gradients(page, this%results, this%rows, labels)
+      call add_changes(page, this)
+      call add_results(page, this)
       do t = 1, size(this%results(1)%tests)
-         if (.not. any(this%charts%test == t)) cycle
-         call begin_section(page, 'test-'//str(t), this%results(1)%tests(t)%title)
-         call add_legend(page, labels, design_row(this%results(1)%tests(t)%table) > 0, &
-            this%results(1)%tests(t)%kind == 'table')
-         if (this%has_pictures) call add_charts(page, this%charts, t, this%folder)
+         if (any([(this%charts(k)%test == t, k=1, size(this%charts))])) call add_test(page, this, t)
       end do
+      call add_warnings(page, 'Missing from some results', this%missing)
+      if (.not. this%is_static) call set_data(page, comparison_data(this%results(1)%tests, this%charts))
       text = page_text(page)
    end function page_of
 
-   !> The table of gradients.
-   subroutine add_gradients(page, results, rows, labels)
+   !> What was changed: facts of the making, values of the decks.
+   subroutine add_changes(page, this)
       type(page_t), intent(inout) :: page
-      type(results_t), intent(in) :: results(:)
-      type(difference_t), intent(in) :: rows(:)
-      character(*), intent(in) :: labels(:)
-      character(len(labels) + 1) :: heads(3*size(results) + 1)
-      character(:), allocatable :: test
-      integer :: k, r, t
+      type(comparison_t), intent(in) :: this
+      integer :: r
 
-      call begin_section(page, 'gradients', 'Gradients')
-      heads(1) = 'Quantity'
-      heads(2) = '>'//labels(1)
-      do r = 2, size(results)
-         heads(3*r - 3) = '>'//labels(r)
-         heads(3*r - 2) = '>difference'
-         heads(3*r - 1) = '>percent'
-      end do
-      heads(size(heads) - 1) = 'Unit'
-      heads(size(heads)) = 'Window'
-      call begin_table(page, heads)
-      test = ''
-      do k = 1, size(rows)
-         if (rows(k)%test /= test) then
-            test = rows(k)%test
-            t = test_number(results(1), test)
-            if (t > 0) call add_group(page, results(1)%tests(t)%title)
-            if (t == 0) call add_group(page, test)
+      call begin_section(page, 'changed', 'What was changed')
+      if (size(this%facts) + size(this%deck) == 0 .and. all(this%results%deck%is_known)) then
+         call add_text(page, 'p', 'Nothing: the decks have the same values and were run with the same settings.')
+         return
+      end if
+      if (.not. all(this%results%deck%is_known)) then
+         if (.not. any(this%results%is_report)) then
+            call add_text(page, 'p', 'Lone tables do not hold the values of their decks; reports do. What their headers say:')
+         else
+            do r = 1, size(this%results)
+               if (.not. this%results(r)%deck%is_known) call add_text(page, 'p', letter_of(r)// &
+                  ' has no deck.csv: it was written by an earlier version, and the values of its deck are not known.')
+            end do
          end if
-         call add_cell(page, trim(rows(k)%quantity//' '//rows(k)%side))
-         call add_cell(page, page_number(rows(k)%values(1)), 'n')
-         do r = 2, size(results)
-            call add_cell(page, page_number(rows(k)%values(r)), 'n')
-            call add_cell(page, page_number(difference(rows(k)%values(1), rows(k)%values(r))), 'n')
-            call add_cell(page, page_number(percent(rows(k)%values(1), rows(k)%values(r))), 'n')
+      end if
+      if (size(this%deck) > 0) then
+         call add_text(page, 'p', plural(size(this%deck), 'value of the deck differs', 'values of the deck differ')//'.')
+         call add_values(page, this, this%deck, 'Value')
+      else if (all(this%results%deck%is_known)) then
+         call add_text(page, 'p', 'The decks have the same values.')
+      end if
+      if (size(this%facts) > 0) call add_values(page, this, this%facts, 'Made with')
+   end subroutine add_changes
+
+   subroutine add_values(page, this, list, head)
+      type(page_t), intent(inout) :: page
+      type(comparison_t), intent(in) :: this
+      type(deck_difference_t), intent(in) :: list(:)
+      character(*), intent(in) :: head
+      character(12) :: heads(size(this%results) + merge(2, 1, size(this%results) == 2))
+      logical :: has_step
+      integer :: k, r
+
+      has_step = size(this%results) == 2
+      heads(1) = head
+      do r = 1, size(this%results)
+         heads(r + 1) = letter_of(r)
+      end do
+      if (has_step) heads(size(heads)) = '>difference'
+      call begin_rows(page, heads)
+      do k = 1, size(list)
+         if (k == most_rows + 1) call fold_rows(page, heads, size(list) - most_rows, 'more differences')
+         call add_cell(page, trim(list(k)%path//' '//bracketed(list(k)%sides)))
+         do r = 1, size(this%results)
+            if (list(k)%texts%line(r) == '') call add_cell(page, 'not given', 's')
+            if (list(k)%texts%line(r) /= '') call add_cell(page, list(k)%texts%line(r))
          end do
-         call add_cell(page, rows(k)%unit)
-         call add_cell(page, rows(k)%window)
+         if (has_step) call add_cell(page, with_minus(step_text(list(k)%texts%line(1), list(k)%texts%line(2))), 'n')
       end do
       call end_table(page)
-   end subroutine add_gradients
+      if (size(list) > most_rows) call add_markup(page, '</details>')
+   end subroutine add_values
 
-   !> The letter of a result: A is the first.
-   pure character(1) function letter_of(result)
-      integer, intent(in) :: result
-      letter_of = achar(iachar('A') + modulo(result - 1, 26))
-   end function letter_of
+   !> '(both sides)', or nothing.
+   pure function bracketed(words) result(text)
+      character(*), intent(in) :: words
+      character(:), allocatable :: text
 
-   !> Room for every label and for 'difference'.
-   pure integer function longest_label(results) result(longest)
-      type(results_t), intent(in) :: results(:)
-      integer :: r
-      longest = maxval([len('difference'), (len(results(r)%label), r=1, size(results))])
-   end function longest_label
+      text = ''
+      if (words /= '') text = '('//words//')'
+   end function bracketed
 
-   !> The number of the test of this name in a result; 0 if there is none.
-   pure integer function test_number(results, name) result(number)
-      type(results_t), intent(in) :: results
-      character(*), intent(in) :: name
+   !> A number with a minus sign in place of its hyphen.
+   pure function with_minus(number) result(text)
+      character(*), intent(in) :: number
+      character(:), allocatable :: text
 
-      do number = size(results%tests), 1, -1
-         if (results%tests(number)%name == name) return
+      text = number
+      if (index(number, '-') == 1) text = '−'//number(2:)
+   end function with_minus
+
+   !> A table whose rows the filter of the page finds.
+   subroutine begin_rows(page, heads)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: heads(:)
+      call begin_table(page, heads, 'numbers')
+   end subroutine begin_rows
+
+   !> Ends a table and begins a folded one with the same heads.
+   subroutine fold_rows(page, heads, rows, what)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: heads(:), what
+      integer, intent(in) :: rows
+
+      call end_table(page)
+      call add_markup(page, '<details class="more"><summary>'//str(rows)//' '//what//'</summary>')
+      call begin_rows(page, heads)
+   end subroutine fold_rows
+
+   !> How many results changed: a line each of numbers and of charts.
+   subroutine verdicts(this, lines)
+      type(comparison_t), intent(in) :: this
+      type(message_list_t), intent(out) :: lines
+      real(wp) :: changes(size(this%shown))
+      integer :: k, known
+      character(:), allocatable :: what
+
+      what = 'gradients'
+      if (size(this%numbers) > 0) what = 'key numbers and gradients'
+      do k = 1, size(changes)
+         changes(k) = largest_change(this%shown(k))
       end do
-   end function test_number
+      known = count(ieee_is_finite(changes))
+      if (size(changes) > 0) call lines%add(counted(count(has_changed(changes, this%threshold)), known, what, this%threshold)// &
+         others(size(changes) - known))
+      known = count(this%changes%is_known)
+      if (size(this%charts) > 0) call lines%add(counted(count(this%changes%is_changed), known, 'charts', this%threshold)// &
+         others(size(this%charts) - known))
+
+   contains
+
+      function others(number) result(text)
+         integer, intent(in) :: number
+         character(:), allocatable :: text
+
+         text = ''
+         if (number > 0) text = '; '//str(number)//' more cannot be compared: without a value, or in one result alone'
+      end function others
+
+   end subroutine verdicts
+
+   !> The verdicts, the numbers sorted by change, and the charts that changed most.
+   subroutine add_results(page, this)
+      type(page_t), intent(inout) :: page
+      type(comparison_t), intent(in) :: this
+      type(message_list_t) :: lines
+      integer, allocatable :: order(:)
+      integer :: k, shown
+
+      call begin_section(page, 'results', 'What it did')
+      call verdicts(this, lines)
+      do k = 1, lines%count()
+         call add_markup(page, '<p class="verdict"><b>'//escape_html(lines%line(k))//'</b></p>')
+      end do
+      call add_text(page, 'p', 'A change is in percent of A, or of the least span of a chart where A is smaller: '// &
+         'noise is no change.')
+      if (size(this%shown) > 0) call add_numbers(page, this)
+      order = descending(merge(abs(this%changes%change), -1.0_wp, this%changes%is_known))
+      shown = min(most_rows/2, count(this%changes%is_changed))
+      if (shown == 0) return
+      call add_text(page, 'h3', trim(merge('Charts that changed most', 'The chart that changed  ', shown > 1)))
+      call begin_rows(page, [character(20) :: 'Quantity', 'Test', '>largest difference', '>at', '>change %', 'Unit, sign'])
+      do k = 1, shown
+         associate (chart => this%charts(order(k)), change => this%changes(order(k)))
+            if (this%is_static .or. chart%is_level) then
+               call add_cell(page, chart%title)
+            else
+               call add_cell(page, chart%title, link=chart%name)
+            end if
+            call add_cell(page, this%results(1)%tests(chart%test)%title)
+            call add_cell(page, page_number(change%largest), 'n')
+            call add_cell(page, page_number(change%at), 'n')
+            call add_cell(page, page_number(100*change%change), 'n')
+            call add_cell(page, chart%y_label, 's')
+         end associate
+      end do
+      call end_table(page)
+   end subroutine add_results
+
+   !> The table of key numbers and gradients; those that did not change are folded.
+   subroutine add_numbers(page, this)
+      type(page_t), intent(inout) :: page
+      type(comparison_t), intent(in) :: this
+      character(12) :: heads(3*size(this%results) + 1)
+      integer :: k, r, many
+      logical :: is_folded
+
+      heads(1) = 'Quantity'
+      heads(2) = '>A'
+      do r = 2, size(this%results)
+         heads(3*r - 3) = '>'//letter_of(r)
+         heads(3*r - 2) = '>difference'
+         heads(3*r - 1) = '>change %'
+      end do
+      heads(size(heads) - 1) = 'Unit'
+      heads(size(heads)) = 'Where'
+      many = 0
+      do k = 1, size(this%shown)
+         if (has_changed(largest_change(this%shown(k)), this%threshold)) many = many + 1
+      end do
+      is_folded = .false.
+      if (many > 0) call begin_rows(page, heads)
+      if (many > most_rows) then
+         do k = 1, most_rows
+            call add_number(page, this, this%shown(k))
+         end do
+         call fold_rows(page, heads, many - most_rows, 'more that changed')
+         is_folded = .true.
+      end if
+      do k = merge(most_rows + 1, 1, is_folded), many
+         call add_number(page, this, this%shown(k))
+      end do
+      if (many > 0) call end_table(page)
+      if (is_folded) call add_markup(page, '</details>')
+      if (many == size(this%shown)) return
+      call add_markup(page, '<details class="more"><summary>'//str(size(this%shown) - many)// &
+         ' without a change, or not to be compared</summary>')
+      call begin_rows(page, heads)
+      do k = many + 1, size(this%shown)
+         call add_number(page, this, this%shown(k))
+      end do
+      call end_table(page)
+      call add_markup(page, '</details>')
+   end subroutine add_numbers
+
+   subroutine add_number(page, this, row)
+      type(page_t), intent(inout) :: page
+      type(comparison_t), intent(in) :: this
+      type(difference_t), intent(in) :: row
+      character(:), allocatable :: verdict
+      real(wp) :: change
+      integer :: r
+
+      call add_cell(page, trim(row%quantity//' '//row%side))
+      call add_cell(page, page_number(row%values(1)), 'n')
+      do r = 2, size(row%values)
+         change = change_of(row%values(1), row%values(r), row%least)
+         verdict = trim(verdict_of(change, this%threshold, row%is_there(1), row%is_there(r), r))
+         call add_cell(page, page_number(row%values(r)), 'n')
+         call add_cell(page, page_number(difference(row%values(1), row%values(r))), 'n')
+         if (verdict == 'changed' .or. verdict == 'same') verdict = page_number(100*change)
+         call add_cell(page, verdict, 'n')
+      end do
+      call add_cell(page, row%unit)
+      call add_cell(page, row%test//', '//row%window, 's')
+   end subroutine add_number
+
+   !> The charts of a test: the changed ones by the size of the change, the first few open; then, folded, those that did not change.
+   subroutine add_test(page, this, test)
+      type(page_t), intent(inout) :: page
+      type(comparison_t), intent(in) :: this
+      integer, intent(in) :: test
+      integer, allocatable :: order(:)
+      logical :: is_own(size(this%charts)), is_changed(size(this%charts))
+      integer :: k, many
+
+      associate (own => this%results(1)%tests(test))
+         call begin_section(page, 'test-'//own%name, own%title)
+         is_own = this%charts%test == test .and. .not. this%charts%is_level
+         is_changed = is_own .and. this%changes%is_changed
+         many = count(is_changed)
+         call add_text(page, 'p', counted(many, count(is_own), 'charts', this%threshold))
+         if (design_row(own%table) > 0) call add_legend(page, [character(1) ::], .true., .false.)
+         order = descending(merge(abs(this%changes%change), -1.0_wp, is_changed))
+         call add_charts(page, this, order(:min(many, principal)))
+         if (many > principal) then
+            call begin_fold(page, plural(many - principal, 'more chart', 'more charts')//' with a change')
+            call add_charts(page, this, order(principal + 1:many))
+            call add_markup(page, '</details>')
+         end if
+         order = pack([(k, k=1, size(is_own))], is_own .and. .not. is_changed)
+         if (size(order) > 0) then
+            call begin_fold(page, plural(size(order), 'chart', 'charts')//' without a change')
+            call add_charts(page, this, order)
+            call add_markup(page, '</details>')
+         end if
+         call add_constants(page, this%charts, test)
+      end associate
+   end subroutine add_test
+
+   subroutine begin_fold(page, summary)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: summary
+      call add_markup(page, '<details class="more"><summary>'//escape_html(summary)//'</summary>')
+   end subroutine begin_fold
+
+   !> Charts side by side: places that the script of the page fills, or the drawings of gnuplot.
+   subroutine add_charts(page, this, numbers)
+      type(page_t), intent(inout) :: page
+      type(comparison_t), intent(in) :: this
+      integer, intent(in) :: numbers(:)
+      character(:), allocatable :: link
+      integer :: k
+
+      if (size(numbers) == 0) return
+      if (this%is_static) then
+         if (this%has_pictures) call add_pictures(page, this%charts, numbers, this%folder)
+         return
+      end if
+      call begin_charts(page, is_short=.true.)
+      do k = 1, size(numbers)
+         associate (chart => this%charts(numbers(k)), change => this%changes(numbers(k)))
+            link = ''
+            if (this%has_pictures) link = '<noscript><a href="figures/'//escape_html(picture_file(chart))//'">figures/'// &
+               escape_html(picture_file(chart))//'</a></noscript>'
+            call add_markup(page, '<figure class="live" id="'//escape_html(chart%name)//'"><figcaption><b>'// &
+               escape_html(chart%title)//'</b>'//escape_html(chart%y_label)// &
+               step_of(change%is_known, change%largest, change%change)// &
+               '</figcaption>'//link//'</figure>')
+         end associate
+      end do
+      call end_charts(page)
+   end subroutine add_charts
+
+   !> ' <span…>largest difference −0.31 (4.2 %)</span>'
+   function step_of(is_known, largest, change) result(html)
+      logical, intent(in) :: is_known
+      real(wp), intent(in) :: largest, change
+      character(:), allocatable :: html
+
+      html = ''
+      if (is_known) html = ' <span class="effect">largest difference '//page_number(largest)//' ('//page_number(100*abs(change))// &
+         ' %)</span>'
+   end function step_of
 
 end module ek_compare_page

@@ -3,9 +3,9 @@ module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_label_places, only: label_place_t, place_labels
-   use ek_study_data, only: study_data_t, study_axis_t, most_panels, range_of_values, is_geometric, tic_step
-   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues
+   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
+      add_point_names, names_plot
    implicit none(type, external)
    private
    public :: map_script, line_script, tornado_script, sobol_script, morris_script
@@ -179,11 +179,13 @@ contains
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
-      character(:), allocatable :: data
+      character(:), allocatable :: data, way
       integer :: order(min(most_bars, size(study%factors)))
       integer :: r, k
 
-      sheet = new_bars(study, name, 'One factor at a time', subtitle// &
+      way = ''
+      if (study%kind == 'tolerance') way = ', to second order by derivatives'
+      sheet = new_bars(study, name, 'One factor at a time'//way, subtitle// &
          '; blue: the smallest value of the factor, orange: the largest'//cut(study))
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
@@ -222,12 +224,14 @@ contains
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
-      character(:), allocatable :: data
+      character(:), allocatable :: data, way
       integer :: order(min(most_bars, size(study%factors)))
       integer :: r, k
 
+      way = '; lines: 95 % confidence'
+      if (study%kind == 'tolerance') way = '; to second order by derivatives'
       sheet = new_bars(study, name, 'Sobol indices: share of the variance', subtitle// &
-         '; blue: the factor alone, orange: with its interactions; lines: 95 % confidence'//cut(study))
+         '; blue: the factor alone, orange: with its interactions'//way//cut(study))
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
             order(:) = ranked(effect%total, most_bars)
@@ -263,7 +267,7 @@ contains
       character(*), intent(in) :: name, subtitle
       character(:), allocatable :: text
       type(sheet_t) :: sheet
-      character(:), allocatable :: data
+      character(63) :: names(min(named_points, size(study%factors)))
       real(wp) :: range(2), ends(2, most_panels)
       integer :: order(size(study%factors))
       integer :: r, k
@@ -280,53 +284,25 @@ contains
                1.3_wp*maxval(effect%deviation, mask=ieee_is_finite(effect%deviation)), 1.0e-12_wp])]
             call begin_data(sheet, 'points'//str(r))
             do k = 1, size(order)
+               if (k <= size(names)) names(k) = study%factors(order(k))%name
                call add_numbers(sheet, [effect%mean_size(order(k)), effect%deviation(order(k))])
             end do
             call end_data(sheet)
-            call add_names(sheet, r, [(study%factors(order(k)), k=1, min(named_points, size(order)))], &
-               effect%mean_size(order), effect%deviation(order), ends(:, r))
+            call add_point_names(sheet, r, names, effect%mean_size(order), effect%deviation(order), &
+               [0.0_wp, ends(1, r)], [0.0_wp, ends(2, r)])
          end associate
       end do
       call begin_panels(sheet)
       do r = 1, sheet%panels
          call begin_panel(sheet, r, study%responses(r)%label, 'μ*, mean size of the effect', 'σ, spread of the effect')
-         data = '$names'//str(r)
          call sheet%text%line('set ytics '//tic_step([0.0_wp, ends(2, r)])//'; set xtics '//tic_step([0.0_wp, ends(1, r)])// &
             '; set xrange [0:'//str(ends(1, r), 6)//']; set yrange [0:'//str(ends(2, r), 6)//']')
          call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &
-            '     '//data//" using 1:2:3:4 with vectors nohead linewidth 0.8 linecolor rgb '#B0B0B0' notitle, \"//nl// &
             '     $points'//str(r)//" using 1:2 with points pointtype 7 pointsize 1 linecolor rgb '#0072B2' notitle, \"//nl// &
-            '     '//data//' using ($5 > 0 ? NaN : $1 + $3):($2 + $4):6 with labels left offset 0.2, 0 notitle, \'//nl// &
-            '     '//data//' using ($5 > 0 ? $1 + $3 : NaN):($2 + $4):6 with labels right offset -0.2, 0 notitle')
+            '     '//names_plot(r))
       end do
       call sheet%text%line('set xrange [*:*]; set yrange [*:*]; set xtics autofreq; set ytics autofreq')
       text = end_panels(sheet)
    end function morris_script
-
-   !> The data of the names of points: the point, the way to its name, and whether the name ends there.
-   subroutine add_names(sheet, panel, factors, x, y, ends)
-      type(sheet_t), intent(inout) :: sheet
-      integer, intent(in) :: panel
-      type(study_axis_t), intent(in) :: factors(:)   !! of the first points
-      real(wp), intent(in) :: x(:), y(:), ends(2)    !! of all points; ends of the axes
-      type(label_place_t) :: places(size(factors))
-      real(wp) :: widths(size(factors)), cell, to(2)
-      integer :: k, n
-
-      n = size(factors)
-      cell = real(sheet%width, wp)/sheet%columns - sheet%left - sheet%right
-      do k = 1, n
-         widths(k) = 0.64_wp*sheet%letters*len(factors(k)%name)/cell
-      end do
-      call place_labels(x(:n)/ends(1), y(:n)/ends(2), widths, 1.3_wp*sheet%letters/(sheet%height - sheet%top - sheet%bottom), &
-         places)
-      call begin_data(sheet, 'names'//str(panel))
-      do k = 1, n
-         to = [places(k)%x*ends(1), places(k)%y*ends(2)]
-         call add_numbers(sheet, [x(k), y(k), to(1) - x(k), to(2) - y(k), merge(1.0_wp, 0.0_wp, places(k)%is_left)], &
-            factors(k)%name)
-      end do
-      call end_data(sheet)
-   end subroutine add_names
 
 end module ek_effect_figures

@@ -12,14 +12,16 @@ contains
    pure function gnuplot_text(text) result(literal)
       character(*), intent(in) :: text
       character(:), allocatable :: literal
-      integer :: k
+      integer :: k, first
 
       literal = "'"
+      first = 1                                 ! the first character that is not yet copied
       do k = 1, len(text)
-         literal = literal//one_line(text(k:k))
-         if (text(k:k) == "'") literal = literal//"'"
+         if (text(k:k) /= "'") cycle
+         literal = literal//one_line(text(first:k))//"'"
+         first = k + 1
       end do
-      literal = literal//"'"
+      literal = literal//one_line(text(first:))//"'"
    end function gnuplot_text
 
    !> A column name between double quotes; gnuplot accepts no quote and no backslash in it.

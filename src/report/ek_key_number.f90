@@ -36,6 +36,9 @@ module ek_key_number
       character(:), allocatable :: name           !! for programs, without left_ or right_: 'bump_toe', 'toe_deg'
       character(:), allocatable :: condition      !! where it is read: 'parallel_travel, within ±15 mm of design'
       character(:), allocatable :: definition     !! from which columns, and its sign
+      character(48) :: held = ''                  !! what holds the wheels of a loaded axle: 'vertical force held'
+      logical :: has_target = .false.
+      real(wp) :: target(2) = 0.0_wp              !! lower and upper limit that the deck gives, in `unit`
       real(wp) :: left = 0.0_wp, right = 0.0_wp      !! not a number if missing
       logical :: is_of_axle = .false.                !! one number, in `left`
       integer :: how = at_design                     !! one of those above

@@ -10,7 +10,8 @@ module ek_key_numbers
    use ek_gradient_definition, only: fitted
    use ek_key_number, only: key_number_t, key_source_t, nothing, read_source, has_value, at_design, largest, least, slope, &
       in_phase, anti_phase
-   use ek_place_numbers, only: new_number, add_source, append, place_numbers
+   use ek_ratio_numbers, only: ratio_numbers
+   use ek_place_numbers, only: number_list_t, new_number, add_source, append, numbers_of, place_numbers
    implicit none(type, external)
    private
    public :: key_number_t, key_numbers, list_key_numbers, number_heads, wanted_gradients
@@ -126,11 +127,11 @@ contains
       type(key_number_t), allocatable, intent(out) :: numbers(:)
       character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       type(key_number_t) :: number
+      type(number_list_t) :: list
       type(entry_t) :: entry
       logical :: is_steered, is_pair
       integer :: k
 
-      allocate (numbers(0))
       is_steered = any([(column_index(tests(k)%table, 'steering_ratio') > 0, k=1, size(tests))])
       is_pair = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
       do k = 1, size(entries)
@@ -151,21 +152,28 @@ contains
             number%definition = without_phase(number%definition)
             if (index(number%definition//'|', '; |') > 0) number%definition = number%definition(:len(number%definition) - 2)
          end if
-         call append(number, numbers)
+         call append(number, list)
       end do
-      call place_numbers(tests, numbers, wanted)
+      call ratio_numbers(tests, list, wanted)
+      call place_numbers(tests, list, wanted)
+      call numbers_of(list, numbers)
    end subroutine list_key_numbers
 
    !> The gradients among wanted numbers that are read from a kind of test: 'bump toe (fitted)'.
-   subroutine wanted_gradients(kind, wanted, quantities)
+   subroutine wanted_gradients(kind, wanted, quantities, is_gradient)
       character(*), intent(in) :: kind, wanted(:)        !! names without left_ and right_
       character(64), allocatable, intent(out) :: quantities(:)
+      logical, intent(inout) :: is_gradient(:)           !! of each name: set if it is one of these
       integer :: k
 
       allocate (quantities(0))
       do k = 1, size(entries)
          if (entries(k)%how < slope .or. entries(k)%kind /= kind) cycle
-         if (any(wanted == name_of(entries(k)))) quantities = [character(64) :: quantities, trim(entries(k)%name)//fitted]
+         associate (is_this => wanted == name_of(entries(k)))
+            if (.not. any(is_this)) cycle
+            is_gradient = is_gradient .or. is_this
+         end associate
+         quantities = [character(64) :: quantities, trim(entries(k)%name)//fitted]
       end do
    end subroutine wanted_gradients
 
@@ -238,7 +246,9 @@ contains
             number%unit = gradients(k)%unit
             number%sign = gradients(k)%sign//' (over '//gradients(k)%window//')'
             number%is_of_axle = len(gradients(k)%side) == 0 .and. size(tests(t)%prefixes) > 1
+            number%held = tests(t)%held
             number%condition = 'test '//tests(t)%name//', within '//gradients(k)%window//' of design'
+            if (number%held /= '') number%condition = number%condition//', '//trim(number%held)
             number%definition = 'least-squares slope of '//without_side(gradients(k)%column)//' over '// &
                without_side(gradients(k)%over)//sign_of(gradients(k)%sign)
          end do

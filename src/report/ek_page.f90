@@ -1,65 +1,37 @@
 !> A page of results as one self-contained HTML file: headings, tables and embedded pictures.
 !>
-!> No script, font or picture is fetched. The page is laid out for a screen, in one column for a phone (tables scroll in
-!> their own box), and for paper (A4, each section on a new page). Every input text is escaped here.
+!> No script, font or picture is fetched: the page itself forbids it (Content-Security-Policy). It is laid out for a screen, in one
+!> column for a phone (tables scroll in their own box), and for paper (A4). Every input text is escaped here. Style sheet and script
+!> are files of their own in page/, put into ek_page_assets by the build.
 module ek_page
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
    use ek_kinds, only: wp
    use ek_error, only: message_list_t
    use ek_text, only: str
+   use ek_base64, only: base64
    use ek_buffer, only: buffer_t
    use ek_svg, only: embedded_svg, escape_html
    use ek_chart, only: palette
+   use ek_page_assets, only: add_style, add_script, add_live_style, add_live_script, add_turntable_script
    implicit none(type, external)
    private
    public :: page_t, begin_page, begin_section, add_text, add_warnings, add_facts
-   public :: begin_table, add_cell, add_group, end_table
-   public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, page_text, page_number
+   public :: begin_table, add_cell, add_bar, add_group, end_table
+   public :: begin_charts, end_charts, add_picture, add_data_picture, add_legend, add_markup, page_text, page_number, set_data
 
    character(*), parameter :: nl = new_line('a')
-
-   !> The style sheet: screen, dark, phone, paper.
-   character(*), parameter :: style = &
-      ':root{color-scheme:light dark;--ink:#1d2228;--soft:#5b6570;--line:#d9dee4;--paper:#fff;--band:#f4f6f8;'// &
-      '--warn:#fff4e0;--warnline:#e0a030;--link:#0b5cad}'//nl//'@media(prefers-color-scheme:dark){:root{--ink:#e4e8ec;'// &
-      '--soft:#9aa5b1;--line:#38414a;--paper:#15191d;--band:#1f252b;--warn:#3a2d12;--warnline:#b8862d;--link:#7db7f0}}'// &
-      nl//'*{box-sizing:border-box}html{-webkit-text-size-adjust:100%}'//nl//'body{margin:0;background:var(--paper);'// &
-      'color:var(--ink);font:16px/1.5 system-ui,sans-serif}'//nl//'main{max-width:1280px;margin:0 auto;'// &
-      'padding:24px 28px 64px}'//nl//'h1{font-size:1.9rem;line-height:1.2;margin:0 0 4px;overflow-wrap:anywhere}'// &
-      'h2{font-size:1.35rem;margin:48px 0 12px;padding-top:12px;border-top:1px solid var(--line)}h3{font-size:1.02rem;'// &
-      'margin:22px 0 8px}'//nl//'.subtitle{color:var(--soft);margin:0 0 14px}a{color:var(--link)}p{max-width:75ch}'//nl// &
-      'nav ul{list-style:none;display:flex;flex-wrap:wrap;gap:6px 18px;margin:10px 0;padding:0;font-size:.92rem}'//nl// &
-      'dl{display:flex;flex-wrap:wrap;gap:6px 32px;margin:12px 0}dl div{min-width:0}dt{color:var(--soft);font-size:.8rem}'// &
-      'dd{margin:0;overflow-wrap:anywhere}'//nl//'.scroll{overflow-x:auto;margin:10px 0;-webkit-overflow-scrolling:touch}'// &
-      'table{border-collapse:collapse;font-size:.9rem;min-width:100%}pre{overflow-x:auto;background:var(--band);'// &
-      'padding:10px 14px;font-size:.82rem;margin:6px 0 14px}'//nl//'th,td{text-align:left;padding:4px 14px 4px 0;'// &
-      'border-bottom:1px solid var(--line);vertical-align:baseline}thead th{color:var(--soft);font-weight:600;'// &
-      'font-size:.8rem;white-space:nowrap}'//nl//'td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;'// &
-      'white-space:nowrap}td.s{color:var(--soft);font-size:.82rem}tr.group th{padding-top:16px;font-weight:650}'//nl// &
-      '.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(330px,1fr));gap:14px}'//nl//'figure{margin:0;'// &
-      'background:#fff;border:1px solid var(--line);border-radius:6px;padding:4px}figure.wide{margin:14px 0}svg,'// &
-      'img{display:block;width:100%;height:auto}img{max-width:760px;margin:0 auto}figcaption{color:#5b6570;'// &
-      'font-size:.82rem;padding:2px 10px 8px}'//nl//'.legend{display:flex;flex-wrap:wrap;gap:4px 20px;color:var(--soft);'// &
-      'font-size:.88rem;margin:8px 0}.legend span{display:inline-flex;align-items:center;gap:7px}'// &
-      '.legend i{display:inline-block;width:30px;height:0}.legend b{display:inline-block;width:9px;height:9px;'// &
-      'border:2px solid var(--ink);border-radius:50%}'//nl//'.warning{background:var(--warn);'// &
-      'border:1px solid var(--warnline);border-left-width:5px;border-radius:4px;padding:10px 16px;margin:14px 0}'// &
-      '.warning ul{margin:6px 0 0;padding-left:20px}.warning li{overflow-wrap:anywhere}'//nl//'@media(max-width:700px){'// &
-      'main{padding:16px 14px 48px}h1{font-size:1.45rem}h2{margin-top:34px}.charts{grid-template-columns:1fr}'// &
-      'table{font-size:.84rem}td.s{min-width:15em}td:first-child{min-width:9em}}'//nl//'@page{size:A4;margin:14mm}'//nl// &
-      '@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--band:#fff;--warn:#fff;--link:#000}'// &
-      'body{font-size:10pt}main{max-width:none;padding:0}nav{display:none}section{break-before:page}'// &
-      'section:first-of-type{break-before:auto}h2{margin-top:0;border:0}h2,h3,.legend{break-after:avoid}'// &
-      '.charts{grid-template-columns:1fr 1fr;gap:8px}figure,tr{break-inside:avoid}.scroll{overflow:visible}table,td.s,'// &
-      'thead th{font-size:8pt}th,td{padding:2px 10px 2px 0}figure{border-color:#ddd}}'//nl
 
    type :: page_t
       private
       type(buffer_t) :: body, contents
       character(:), allocatable :: title
+      character(:), allocatable :: data     !! JSON from which the script draws; not allocated: a page without script
+      integer :: header = 0                 !! characters of the body before the list of contents
       integer :: pictures = 0, table_columns = 0
       integer :: cells = 0                  !! of the last row, while it has not all
       logical :: has_section = .false.
+      logical :: is_live = .false.          !! its script also changes rates
+      logical :: has_turntable = .false.    !! its script also turns the suspension
    end type page_t
 
 contains
@@ -72,17 +44,44 @@ contains
       page%title = title
       call page%body%line('<header><h1>'//escape_html(title)//'</h1>')
       if (len(subtitle) > 0) call page%body%line('<p class="subtitle">'//escape_html(subtitle)//'</p>')
-      call page%body%line('<!--contents--></header>')
+      call page%body%line('</header>')
+      page%header = page%body%length()
    end subroutine begin_page
 
+   !> The data of a page whose charts are drawn by its script: JSON without '<'.
+   pure subroutine set_data(page, json, is_live, has_turntable)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: json
+      logical, intent(in), optional :: is_live             !! .true.: the data have rates that the reader can change
+      logical, intent(in), optional :: has_turntable       !! .true.: the data have the lines and poses of a suspension
+
+      page%data = json
+      if (present(is_live)) page%is_live = is_live
+      if (present(has_turntable)) page%has_turntable = has_turntable
+   end subroutine set_data
+
+   !> HTML as it is, on a line: every text in it has been escaped by escape_html.
+   pure subroutine add_markup(page, html)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: html
+      if (len(html) > 0) call page%body%line(html)
+   end subroutine add_markup
+
    !> Begins a section and ends the one before; on paper it starts a page. `id` has letters, digits, _ and -.
-   pure subroutine begin_section(page, id, title)
+   pure subroutine begin_section(page, id, title, condition, is_printed)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: id, title
+      character(*), intent(in), optional :: condition      !! behind the title, smaller
+      logical, intent(in), optional :: is_printed          !! .false.: of a live page, on the screen alone
+      character(:), allocatable :: small, look
 
       if (page%has_section) call page%body%line('</section>')
       page%has_section = .true.
-      call page%body%line('<section id="'//escape_html(id)//'"><h2>'//escape_html(title)//'</h2>')
+      small = ''
+      if (present(condition)) small = ' <small>'//escape_html(condition)//'</small>'
+      look = ''
+      if (present(is_printed)) look = trim(merge('                    ', ' class="not-printed"', is_printed))
+      call page%body%line('<section id="'//escape_html(id)//'"'//look//'><h2>'//escape_html(title)//small//'</h2>')
       call page%contents%line('<li><a href="#'//escape_html(id)//'">'//escape_html(title)//'</a></li>')
    end subroutine begin_section
 
@@ -122,13 +121,17 @@ contains
    end subroutine add_facts
 
    !> Begins a table with its column headings; a head that begins with '>' marks a column of numbers, aligned right.
-   pure subroutine begin_table(page, heads)
+   pure subroutine begin_table(page, heads, class)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: heads(:)
+      character(*), intent(in), optional :: class     !! 'numbers': the filter of a live page hides rows
+      character(:), allocatable :: look
       integer :: k, first
 
       page%table_columns = size(heads)
-      call page%body%add('<div class="scroll"><table><thead><tr>')
+      look = ''
+      if (present(class)) look = ' class="'//escape_html(class)//'"'
+      call page%body%add('<div class="scroll"><table'//look//'><thead><tr>')
       do k = 1, size(heads)
          first = merge(2, 1, index(heads(k), '>') == 1)
          call page%body%add('<th scope="col"'//trim(merge(' class="n">', '>          ', first == 2))// &
@@ -146,18 +149,38 @@ contains
    end subroutine add_group
 
    !> The next cell, of text, of a number (kind 'n'), or of small text ('s'); a row has as many as the table has headings.
-   pure subroutine add_cell(page, text, kind)
+   pure subroutine add_cell(page, text, kind, link)
       type(page_t), intent(inout) :: page
       character(*), intent(in) :: text
       character(1), intent(in), optional :: kind
+      character(*), intent(in), optional :: link       !! id of what the text leads to on the page
 
       if (page%cells == 0) call page%body%add('<tr>')
       call page%body%add('<td')
       if (present(kind)) call page%body%add(' class="'//kind//'"')
-      call page%body%add('>'//escape_html(text)//'</td>')
+      if (present(link)) then
+         call page%body%add('><a href="#'//escape_html(link)//'">'//escape_html(text)//'</a></td>')
+      else
+         call page%body%add('>'//escape_html(text)//'</td>')
+      end if
       page%cells = modulo(page%cells + 1, page%table_columns)
       if (page%cells == 0) call page%body%line('</tr>')
    end subroutine add_cell
+
+   !> The next cell: a bar from the middle to the right or, of a negative share, to the left.
+   pure subroutine add_bar(page, share)
+      type(page_t), intent(inout) :: page
+      real(wp), intent(in) :: share              !! of the longest bar, -1 to 1
+      integer :: length
+
+      length = nint(100.0_wp*max(-1.0_wp, min(1.0_wp, share)))
+      if (page%cells == 0) call page%body%add('<tr>')
+      call page%body%add('<td><svg viewBox="0 0 200 10" style="width:200px;height:10px" aria-hidden="true"><rect x="'// &
+         str(100 + min(length, 0))//'" width="'//str(abs(length))//'" height="10" fill="'// &
+         trim(palette(merge(2, 1, length < 0)))//'"/></svg></td>')
+      page%cells = modulo(page%cells + 1, page%table_columns)
+      if (page%cells == 0) call page%body%line('</tr>')
+   end subroutine add_bar
 
    !> Ends a table.
    pure subroutine end_table(page)
@@ -166,9 +189,14 @@ contains
    end subroutine end_table
 
    !> Begins a block of charts side by side, as many as fit.
-   pure subroutine begin_charts(page)
+   pure subroutine begin_charts(page, is_short)
       type(page_t), intent(inout) :: page
-      call page%body%line('<div class="charts">')
+      logical, intent(in), optional :: is_short     !! .true.: of a live page only the first three are printed
+      logical :: is_few
+
+      is_few = .false.
+      if (present(is_short)) is_few = is_short
+      call page%body%line('<div class="charts'//trim(merge(' few">', '">    ', is_few)))
    end subroutine begin_charts
 
    !> Ends a block of charts.
@@ -184,7 +212,7 @@ contains
       character(*), intent(in), optional :: caption
 
       page%pictures = page%pictures + 1
-      call page%body%add(trim(merge('<figure class="wide">', '<figure>             ', present(caption))))
+      call page%body%add(trim(merge('<figure class="drawn wide">', '<figure class="drawn">     ', present(caption))))
       call page%body%add(embedded_svg(svg, 'p'//str(page%pictures), title))
       if (present(caption)) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
       call page%body%line('</figure>')
@@ -198,7 +226,7 @@ contains
       character(*), intent(in) :: title, caption
 
       page%pictures = page%pictures + 1
-      call page%body%add('<figure class="wide"><img alt="'//escape_html(title)//'" src="data:image/'//kind//';base64,')
+      call page%body%add('<figure class="drawn wide"><img alt="'//escape_html(title)//'" src="data:image/'//kind//';base64,')
       call page%body%add(base64(bytes))
       call page%body%add('">')
       if (len(caption) > 0) call page%body%add('<figcaption>'//escape_html(caption)//'</figcaption>')
@@ -235,28 +263,49 @@ contains
    pure function page_text(page) result(text)
       type(page_t), intent(in) :: page
       character(:), allocatable :: text
-      character(*), parameter :: mark = '<!--contents-->'
-      character(:), allocatable :: body
-      type(buffer_t) :: out
-      integer :: at
+      type(buffer_t) :: head, tail
+      character(:), allocatable :: contents
+      integer :: before, behind
 
-      body = page%body%text()
-      at = index(body, mark)
-      call out%line('<!doctype html>')
-      call out%line('<html lang="en"><head><meta charset="utf-8">')
-      call out%line('<meta name="viewport" content="width=device-width, initial-scale=1">')
+      call head%line('<!doctype html>')
+      call head%line('<html lang="en"><head><meta charset="utf-8">')
+      call head%line('<meta name="viewport" content="width=device-width, initial-scale=1">')
+      call head%add('<meta http-equiv="Content-Security-Policy" content="default-src ''none''; img-src data:; style-src '// &
+         '''unsafe-inline''')
+      if (allocated(page%data)) call head%add('; script-src ''unsafe-inline''')
+      call head%line('">')
       ! without an icon in the page a browser requests /favicon.ico
-      call out%line('<link rel="icon" href="data:,">')
-      call out%line('<title>'//escape_html(page%title)//'</title>')
-      call out%line('<style>')
-      call out%add(style)
-      call out%line('</style></head><body><main>')
-      call out%add(body(:at - 1))
-      if (page%contents%length() > 0) call out%add('<nav aria-label="Contents"><ul>'//page%contents%text()//'</ul></nav>')
-      call out%add(body(at + len(mark):))
-      if (page%has_section) call out%line('</section>')
-      call out%line('</main></body></html>')
-      text = out%text()
+      call head%line('<link rel="icon" href="data:,">')
+      call head%line('<title>'//escape_html(page%title)//'</title>')
+      call head%line('<style>')
+      call add_style(head)
+      if (page%is_live) call add_live_style(head)
+      call head%line('</style></head><body'//trim(merge(' class="is-live">', '>                ', allocated(page%data)))//'<main>')
+      contents = ''
+      if (page%contents%length() > 0) contents = '<nav aria-label="Contents"><ul>'//page%contents%text()//'</ul></nav>'
+      if (page%has_section) call tail%line('</section>')
+      call tail%line('</main>')
+      if (allocated(page%data)) then
+         call tail%add('<script type="application/json" id="data">')
+         call tail%add(page%data)
+         call tail%line('</script>')
+         call tail%line('<script type="module">')
+         call add_script(tail)
+         if (page%has_turntable) call add_turntable_script(tail)
+         if (page%is_live) call add_live_script(tail)
+         call tail%line('</script>')
+      end if
+      call tail%line('</body></html>')
+
+      ! the pictures in the body are megabytes: each piece is copied once
+      before = head%length() + page%header
+      behind = before + len(contents) + page%body%length() - page%header
+      allocate (character(behind + tail%length()) :: text)
+      call head%copy(1, text(:head%length()))
+      call page%body%copy(1, text(head%length() + 1:before))
+      text(before + 1:before + len(contents)) = contents
+      call page%body%copy(page%header + 1, text(before + len(contents) + 1:behind))
+      call tail%copy(1, text(behind + 1:))
    end function page_text
 
    !> A number for a table: about four digits, an exponent only from 1e7 on; '–' for a missing value.
@@ -284,27 +333,5 @@ contains
       end if
       if (index(text, '-') == 1) text = '−'//text(2:)
    end function page_number
-
-   !> Base64 encoding, RFC 4648.
-   pure function base64(bytes) result(text)
-      character(*), intent(in) :: bytes
-      character(:), allocatable :: text
-      character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/'
-      integer :: k, l, three, at
-
-      text = repeat('=', 4*((len(bytes) + 2)/3))
-      at = 0
-      do k = 1, len(bytes), 3
-         three = 0
-         do l = k, k + 2
-            three = 256*three
-            if (l <= len(bytes)) three = three + iachar(bytes(l:l))
-         end do
-         do l = 1, min(4, len(bytes) - k + 2)
-            text(at + l:at + l) = letters(ibits(three, 24 - 6*l, 6) + 1:ibits(three, 24 - 6*l, 6) + 1)
-         end do
-         at = at + 4
-      end do
-   end function base64
 
 end module ek_page

@@ -1,23 +1,23 @@
-!> Picture of a suspension at a state: its parts as solids or as thin lines; the ground; names.
+!> Picture of a suspension at a state: its parts as solids or as thin lines; the ground.
 !>
 !> A body has no shape in the model: its skeleton represents it. `plain` selects fewer faces, for animations. All positions are
 !> global [m].
 module ek_picture
    use ek_kinds, only: wp, pi
-   use ek_text, only: spaced
    use ek_block, only: rotated
    use ek_rotation, only: cross
    use ek_measure, only: measure_t, distance
-   use ek_joint, only: joint_table, rod_part, ball_part, hinge_part, slider_part
+   use ek_joint, only: joint_table, rod_part, ball_part, hinge_part, slider_part, guide_part
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
    use ek_suspension, only: suspension_t, wheel_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
    use ek_state, only: state_t
    use ek_scene, only: scene_t, add_run, add_label, add_tube, add_surface, add_coil, add_ball, part_ground, part_tyre, &
-      part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, part_ball, part_mount, line_ground
+      part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, part_ball, part_mount, part_stop, &
+      line_ground
    implicit none(type, external)
    private
-   public :: add_solid, add_ghost, add_ground, add_names, add_elastic
+   public :: add_solid, add_ghost, add_ground, add_elastic
 
    ! Sizes typical of a passenger car [m]
    real(wp), parameter :: arm_radius = 0.011_wp, rod_radius = 0.008_wp, ball_radius = 0.016_wp
@@ -103,65 +103,8 @@ contains
       at = [low(1) + 0.16_wp, middle, z]
       arrow = reshape([-0.12_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.045_wp, 0.0_wp, 0.0_wp, -0.045_wp, 0.0_wp], [3, 3])
       call add_run(scene%faces, part_carrier, arrow + spread(at, 2, 3))
-      call add_label(scene, at + [0.02_wp, 0.0_wp, 0.0_wp], 'front')
+      call add_label(scene, at, 'front')
    end subroutine add_ground
-
-   !> Names of bodies, rods and springs, once for left and right.
-   subroutine add_names(scene, suspension, state)
-      type(scene_t), intent(inout) :: scene
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(in) :: state
-      type(skeleton_t) :: skeleton
-      real(wp) :: a(3), b(3), bar(3, 2), longest, at(3), aside
-      integer :: body, k
-
-      do body = 1, size(suspension%bodies)
-         skeleton = skeleton_of(suspension, body)
-         longest = 0.0_wp
-         if (count(skeleton%nodes(:skeleton%used)%is_held) == 2 .and. skeleton%used > 2) then    ! a wishbone: name in its middle
-            at = 0.0_wp
-            do k = 1, skeleton%used
-               at = at + place_of(state, body, skeleton%nodes(k)%arm)/skeleton%used
-            end do
-            call name_at(suspension%bodies(body)%name)
-            cycle
-         end if
-         do k = 1, skeleton%count
-            bar = bar_of(state, body, skeleton, k)
-            if (norm2(bar(:, 2) - bar(:, 1)) <= longest) cycle
-            longest = norm2(bar(:, 2) - bar(:, 1))
-            at = (bar(:, 1) + bar(:, 2))/2
-         end do
-         if (longest <= 0.0_wp) cycle
-         aside = 0.6_wp
-         if (slides(suspension, body) .and. .not. any(suspension%wheels%body == body)) aside = 5.0_wp    ! beside the coil around it
-         call name_at(suspension%bodies(body)%name, aside)
-      end do
-      do k = 1, size(suspension%joints)
-         if (joint_table(suspension%joints(k)%number)%part /= rod_part) cycle
-         call ends_of(first_measure(suspension, k), state, a, b)
-         at = 0.8_wp*a + 0.2_wp*b      ! away from the name of a wishbone or a carrier beside it
-         call name_at(suspension%joints(k)%name)
-      end do
-      do k = 1, size(suspension%elements)
-         associate (element => suspension%elements(k), shape => element_kinds(suspension%elements(k)%kind)%shape)
-            if (element%measure%kind /= distance .or. shape == stop_shape) cycle
-            call ends_of(element%measure, state, a, b)
-            at = 0.3_wp*a + 0.7_wp*b
-            if (shape == damper_shape) at = b         ! name above the coil around it
-            call name_at(element%name, 5.0_wp)
-         end associate
-      end do
-
-   contains
-
-      subroutine name_at(name, aside)
-         character(*), intent(in) :: name
-         real(wp), intent(in), optional :: aside
-         if (index(name, 'right_') /= 1) call add_label(scene, at, spaced(name(merge(6, 1, index(name, 'left_') == 1):)), aside)
-      end subroutine name_at
-
-   end subroutine add_names
 
    !> Bars along the skeleton of a body; an arm attached at two points gets a plate between them.
    subroutine add_body(scene, suspension, state, body, plain)
@@ -238,6 +181,8 @@ contains
          case (ball_part)
             call add_ball(scene, part_ball, b, ball_radius, merge(4, 8, plain))
             if (measure%body_i*measure%body_j == 0) call add_end(0, b)
+         case (guide_part)                             ! a point that is led along a line or a plane
+            call add_end(measure%body_i*measure%body_j, a)
          case (hinge_part)
             ! rows 4 and 5 keep two directions of body i perpendicular to v, the axis in body j
             measure = suspension%terms(suspension%rows(suspension%joints(k)%first_row + 3)%first)%measure
@@ -309,7 +254,7 @@ contains
          call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
       case (stop_shape)
          if (plain) return
-         call add_tube(scene, part_bushing, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)
+         call add_tube(scene, part_stop, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)
       case (damper_shape)
          call add_tube(scene, part_damper, a, a + 0.58_wp*(b - a), 0.022_wp, merge(5, 10, plain))
          call add_tube(scene, part_damper, a + 0.5_wp*(b - a), b, 0.009_wp, merge(4, 6, plain))

@@ -8,11 +8,22 @@ module ek_place_numbers
    use ek_key_number, only: key_number_t, key_source_t, nothing, at_place, to_contact, largest_of_all
    implicit none(type, external)
    private
-   public :: new_number, add_source, append, place_numbers
+   public :: number_list_t, new_number, add_source, append, numbers_of, place_numbers
 
    real(wp), parameter :: inner_steer = 20.0_wp        !! deg: a tight corner in town, a usual reference for steering
    character(*), parameter :: gap_ending = '_gap_mm', travel = 'wheel_travel_mm', rack_force = 'steering_rack_force_n', &
       rack_name = 'largest_rack_force_n', to_stop = 'travel_to_'
+
+   type :: slot_t
+      type(key_number_t), allocatable :: number
+   end type slot_t
+
+   !> Numbers in order. In slots, as a number with the columns of all tests takes kilobytes: an insertion copies none.
+   type :: number_list_t
+      private
+      type(slot_t), allocatable :: slots(:)
+      integer :: used = 0
+   end type number_list_t
 
 contains
 
@@ -44,7 +55,7 @@ contains
    !> Appends these numbers as far as the tables of the tests have their columns.
    subroutine place_numbers(tests, numbers, wanted)
       type(test_result_t), intent(in) :: tests(:)
-      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(number_list_t), intent(inout) :: numbers
       character(*), intent(in), optional :: wanted(:)    !! names without left_ and right_; absent: all
       integer :: t
 
@@ -67,7 +78,7 @@ contains
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! of the test
       character(*), intent(in) :: column, quantity, name, unit
-      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
       type(key_source_t) :: source
       integer :: k, wheel
@@ -93,7 +104,7 @@ contains
    subroutine add_stops(test, place, numbers)
       type(test_result_t), intent(in) :: test
       integer, intent(in) :: place                 !! of the test
-      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
       type(key_source_t) :: source
       character(:), allocatable :: stop
@@ -148,7 +159,7 @@ contains
    !> The maximum magnitude of the force on the rack over all states of all tests.
    subroutine add_rack_force(tests, numbers)
       type(test_result_t), intent(in) :: tests(:)
-      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(number_list_t), intent(inout) :: numbers
       type(key_number_t) :: number
       type(key_source_t) :: source
       integer :: t
@@ -169,14 +180,41 @@ contains
    end subroutine add_rack_force
 
    !> Inserts a number behind the last of its group.
-   subroutine append(number, numbers)
+   subroutine append(number, list)
       type(key_number_t), intent(in) :: number
-      type(key_number_t), allocatable, intent(inout) :: numbers(:)
+      type(number_list_t), intent(inout) :: list
+      type(slot_t), allocatable :: grown(:)
       integer :: k, at
 
-      at = findloc([(numbers(k)%group == number%group, k=1, size(numbers))], .true., dim=1, back=.true.)
-      if (at == 0) at = size(numbers)
-      numbers = [numbers(:at), number, numbers(at + 1:)]
+      if (.not. allocated(list%slots)) allocate (list%slots(64))
+      if (list%used == size(list%slots)) then
+         allocate (grown(2*list%used))
+         do k = 1, list%used
+            call move_alloc(list%slots(k)%number, grown(k)%number)
+         end do
+         call move_alloc(grown, list%slots)
+      end if
+      do at = list%used, 1, -1
+         if (list%slots(at)%number%group == number%group) exit
+      end do
+      if (at == 0) at = list%used
+      do k = list%used, at + 1, -1
+         call move_alloc(list%slots(k)%number, list%slots(k + 1)%number)
+      end do
+      allocate (list%slots(at + 1)%number, source=number)
+      list%used = list%used + 1
    end subroutine append
+
+   !> The numbers of a list as an array.
+   subroutine numbers_of(list, numbers)
+      type(number_list_t), intent(in) :: list
+      type(key_number_t), allocatable, intent(out) :: numbers(:)
+      integer :: k
+
+      allocate (numbers(list%used))
+      do k = 1, list%used
+         numbers(k) = list%slots(k)%number
+      end do
+   end subroutine numbers_of
 
 end module ek_place_numbers

@@ -4,9 +4,9 @@ module ek_planned_test
    use ek_text, only: spaced
    use ek_suspension, only: suspension_t, load_number
    use ek_case, only: case_t
-   use ek_standard_tests, only: test_title
+   use ek_standard_tests, only: test_title, held_text
    use ek_test_result, only: test_result_t
-   use ek_report_files, only: table_file
+   use ek_report_files, only: table_file, envelope_file
    implicit none(type, external)
    private
    public :: planned_tests, kind_of_case
@@ -32,11 +32,15 @@ contains
                test%kind = case%test
                test%title = test_title(case, size(suspension%wheels))
                test%is_anti = case%is_anti
+               test%held = held_text(case)
             else
                call kind_of_case(suspension, case, test%kind, test%factor_size)
                test%title = title_of(case%name)
             end if
          end associate
+      end do
+      do k = 1, size(cases)
+         tests(k)%envelope = envelope_file(tests, k)
       end do
    end subroutine planned_tests
 

@@ -12,13 +12,14 @@ module ek_report_files
    use ek_test_result, only: test_result_t, find_wheels, choose_abscissa, read_frame_line
    use ek_gradient, only: gradient_t, test_gradients, read_gradients
    use ek_gradient_definition, only: windows_t
+   use ek_deck_file, only: deck_record_t, read_deck_file, facts_of_table
    implicit none(type, external)
    private
-   public :: results_t, read_results, read_test, write_contents, test_line, table_file, contents_file, gradients_file, &
-      compliance_file, numbers_file
+   public :: results_t, read_results, read_test, write_contents, test_line, table_file, envelope_file, contents_file, &
+      gradients_file, compliance_file, numbers_file, deck_file, test_number
 
    character(*), parameter :: contents_file = 'tests.csv', gradients_file = 'gradients.csv', &
-      compliance_file = 'compliance.csv', numbers_file = 'key_numbers.csv'
+      compliance_file = 'compliance.csv', numbers_file = 'key_numbers.csv', deck_file = 'deck.csv'
    character(*), parameter :: mark = 'test ', size_mark = 'factor size ', anti_mark = '(anti phase)'
 
    !> Results to be compared: a report folder or one table.
@@ -27,6 +28,8 @@ module ek_report_files
       logical :: is_report = .false.         !! a report folder; otherwise one table
       type(test_result_t), allocatable :: tests(:)
       type(gradient_t), allocatable :: gradients(:)
+      type(gradient_t), allocatable :: numbers(:)        !! key numbers: test = group, column = name, window = condition
+      type(deck_record_t) :: deck            !! what it was made from, as far as that is known
    end type results_t
 
 contains
@@ -51,9 +54,23 @@ contains
       character(:), allocatable :: file
 
       file = name//'.csv'
-      if (any(lower(file) == [character(15) :: contents_file, gradients_file, compliance_file, numbers_file])) &
+      if (any(lower(file) == [character(15) :: contents_file, gradients_file, compliance_file, numbers_file, deck_file, &
+         'loads.csv'])) &
          file = name//'-case.csv'
    end function table_file
+
+   !> The file of the wheel envelope of a test, different from those of the tables.
+   pure function envelope_file(tests, k) result(file)
+      type(test_result_t), intent(in) :: tests(:)      !! with their files
+      integer, intent(in) :: k
+      character(:), allocatable :: file
+      integer :: j
+
+      file = tests(k)%name//'_envelope.csv'
+      do j = 1, size(tests)
+         if (lower(tests(j)%file) == lower(file)) file = tests(k)%name//'-envelope.csv'
+      end do
+   end function envelope_file
 
    !> tests.csv: the tests of a report and their files.
    subroutine write_contents(tests, path, error)
@@ -88,11 +105,13 @@ contains
       results%path = path
       results%label = label_of(path)
       results%is_report = folder_exists(path)
+      allocate (results%numbers(0))
       if (.not. results%is_report) then
          allocate (results%tests(1))
          call read_test(path, 'results', results%tests(1), error, may_stream=.true.)
          if (allocated(error)) return
          call test_gradients(results%tests(1), windows, results%gradients)
+         call facts_of_table(results%tests(1)%table, results%deck)
          return
       end if
       if (.not. file_exists(join_path(path, contents_file))) then
@@ -114,7 +133,53 @@ contains
          results%tests(k)%title = cell_of(contents, k, 'title')
       end do
       call read_gradients(join_path(path, gradients_file), results%gradients, error)
+      if (.not. allocated(error)) call read_numbers(join_path(path, numbers_file), results%numbers, error)
+      if (.not. allocated(error)) call read_deck_file(join_path(path, deck_file), results%deck, error)
+      if (allocated(error) .or. size(results%tests) == 0) return
+      call facts_of_table(results%tests(1)%table, results%deck)
    end subroutine read_results
+
+   !> Reads key_numbers.csv; none if there is no such file, as in folders of early versions.
+   subroutine read_numbers(path, numbers, error)
+      character(*), intent(in) :: path
+      type(gradient_t), allocatable, intent(out) :: numbers(:)
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
+      type(text_table_t) :: table
+      logical :: is_number
+      integer :: k
+
+      allocate (numbers(0))
+      if (.not. file_exists(path)) return
+      call read_text_table(path, table, error)
+      if (allocated(error)) return
+      deallocate (numbers)
+      allocate (numbers(table%rows))
+      do k = 1, table%rows
+         associate (n => numbers(k))
+            n%test = cell_of(table, k, 'group')
+            n%quantity = cell_of(table, k, 'quantity')
+            n%side = cell_of(table, k, 'side')
+            n%unit = cell_of(table, k, 'unit')
+            n%window = cell_of(table, k, 'condition')
+            n%column = cell_of(table, k, 'name')
+            call get_decimal(cell_of(table, k, 'value'), n%value, is_number)
+            if (is_number) cycle
+            call fail(error, exit_file, path//':'//str(table%lines(k))//': '//quoted(cell_of(table, k, 'value'))// &
+               ' is not a number')
+            return
+         end associate
+      end do
+   end subroutine read_numbers
+
+   !> The number of the test of this name in a result; 0 if there is none.
+   pure integer function test_number(results, name) result(number)
+      type(results_t), intent(in) :: results
+      character(*), intent(in) :: name
+
+      do number = size(results%tests), 1, -1
+         if (results%tests(number)%name == name) return
+      end do
+   end function test_number
 
    !> Whether a name is a plain file name: no folder, not hidden, no control character.
    pure logical function is_file_name(name)

@@ -1,46 +1,35 @@
 !> The page of a report, from its tests, gradients and pictures.
 module ek_report_page
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
-   use ek_text, only: plural
+   use ek_text, only: str, plural
    use ek_file, only: read_whole, join_path, file_exists
-   use ek_path, only: path_t
+   use ek_rig_test, only: is_scattered
    use ek_test_result, only: test_result_t, design_row, converged_rows, wheel_word
    use ek_chart, only: chart_t, picture_file
    use ek_gradient, only: gradient_t
-   use ek_key_numbers, only: key_number_t, key_numbers
-   use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, &
+   use ek_peak_section, only: add_peak_loads
+   use ek_explanation, only: add_explanations
+   use ek_grid_figures, only: carpet_name, envelope_name
+   use ek_report_content, only: report_t
+   use ek_report_data, only: report_data
+   use ek_number_section, only: add_summary, add_other_numbers
+   use ek_svg, only: escape_html
+   use ek_page, only: page_t, begin_page, begin_section, add_text, add_markup, add_warnings, add_facts, set_data, &
       begin_table, add_cell, add_group, end_table, begin_charts, end_charts, &
       add_picture, add_data_picture, add_legend, page_text, page_number
    implicit none(type, external)
    private
-   public :: report_t, add_fact, report_page, add_charts
+   public :: report_page, add_pictures, add_constants
+
+   integer, parameter :: principal = 6        !! charts of a test that are not folded
 
    ! headings of the values, and whether they belong to a table with two sides
    character(6), parameter :: values(3) = [character(6) :: '>Left', '>Right', '>Value']
    logical, parameter :: sides(3) = [.true., .true., .false.]
 
-   !> A report: its tests, and what its page shows besides.
-   type :: report_t
-      character(:), allocatable :: title, folder
-      type(message_list_t) :: names, values            !! facts for the head of the page
-      type(message_list_t) :: warnings                 !! on the model as a whole
-      type(test_result_t), allocatable :: tests(:)
-      type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if it was not run
-      type(chart_t), allocatable :: charts(:)          !! of all tests
-      type(gradient_t), allocatable :: gradients(:)
-      logical :: has_pictures = .false., has_animation = .false.     !! those in the folder belong to this report
-   end type report_t
-
 contains
-
-   !> A fact for the head of the page.
-   subroutine add_fact(report, name, value)
-      type(report_t), intent(inout) :: report
-      character(*), intent(in) :: name, value
-      call report%names%add(name)
-      call report%values%add(value)
-   end subroutine add_fact
 
    !> The text of report.html. Pictures are read from the folder if they belong to this report; missing ones are
    !> omitted.
@@ -49,30 +38,53 @@ contains
       character(:), allocatable :: text
       type(page_t) :: page
       integer :: k
+      logical :: is_live
 
       call begin_page(page, report%title, 'Kinematics and compliance report')
       call add_facts(page, report%names, report%values)
       call add_warnings(page, 'Warnings', report%warnings)
-      if (report%has_pictures) call add_scene(page, report)
-      call add_key_numbers(page, report%tests, report%gradients)
+      call add_summary(page, report)
+      is_live = .false.
+      if (allocated(report%live)) is_live = allocated(report%live%rates)
+      if (is_live) call add_rates(page)
+      call add_scene(page, report)
+      call add_other_numbers(page, report)
+      if (allocated(report%explanations)) call add_explanations(page, report%explanations)
       do k = 1, size(report%tests)
          call add_test(page, report, report%tests(k), k)
       end do
+      if (allocated(report%loads)) call add_peak_loads(page, report%loads)
+      if (.not. report%is_static) call set_data(page, report_data(report), is_live, allocated(report%turntable))
       text = page_text(page)
    end function report_page
 
-   !> The picture in space, and the animation.
+   !> The section in which a reader changes rates; the script fills it.
+   subroutine add_rates(page)
+      type(page_t), intent(inout) :: page
+
+      call begin_section(page, 'what-if', 'What if: other rates', is_printed=.false.)
+      call add_text(page, 'p', 'A slider multiplies a rate of the deck by 0.1 to 10, on both sides of an axle; the number '// &
+         'beside it may be any. Compliances, stiffnesses and their curves follow at once, without a new solution: '// &
+         'exactly, by the formula of Woodbury, for every state as it stands. How far a run of the deck with these rates '// &
+         'gives the same is stated below the sliders.')
+      call add_markup(page, '<div id="rates"><noscript><p>The sliders are made by the script of this page.</p></noscript></div>')
+   end subroutine add_rates
+
+   !> The picture in space, the turntable, the views with hardpoints, and the animation.
    subroutine add_scene(page, report)
       type(page_t), intent(inout) :: page
       type(report_t), intent(in) :: report
       type(error_t), allocatable :: error
       character(:), allocatable :: bytes
-      logical :: has_svg, has_gif
+      logical :: has_svg, has_views, has_gif, has_turntable
 
-      has_svg = file_exists(join_path(report%folder, 'picture.svg'))
-      has_gif = report%has_animation
+      has_svg = report%has_pictures
+      if (has_svg) has_svg = file_exists(join_path(report%folder, 'picture.svg'))
+      has_views = report%has_pictures .and. report%has_views
+      has_gif = report%has_pictures .and. report%has_animation
       if (has_gif) has_gif = file_exists(join_path(report%folder, 'animation.gif'))
-      if (.not. (has_svg .or. has_gif)) return
+      has_turntable = allocated(report%turntable) .and. .not. report%is_static
+      if (.not. (has_svg .or. has_gif .or. has_turntable)) return
       call begin_section(page, 'picture', 'The suspension')
       if (has_svg) then
          call read_whole(join_path(report%folder, 'picture.svg'), bytes, error)
@@ -80,39 +92,18 @@ contains
             'Solid: design. Thin lines: ends of the travel. Bodies have no shape in the model; they are drawn as bars '// &
             'between their attachment points.')
       end if
+      if (has_turntable) call add_markup(page, '<div id="turntable"><noscript><p>The turntable is drawn by the script of '// &
+         'this page.</p></noscript></div>')
+      if (has_views) then
+         call read_whole(join_path(report%folder, 'figures/views.svg'), bytes, error)
+         if (.not. allocated(error)) call add_picture(page, bytes, 'Hardpoints at design from the left, the front and above: '// &
+            report%title, 'Hardpoints at design; of an axle its left half, names without left_.')
+      end if
       if (has_gif) then
          call read_whole(join_path(report%folder, 'animation.gif'), bytes, error)
          if (.not. allocated(error)) call add_data_picture(page, bytes, 'gif', 'The suspension moving: '//report%title, '')
       end if
    end subroutine add_scene
-
-   !> One table of the key numbers.
-   subroutine add_key_numbers(page, tests, gradients)
-      type(page_t), intent(inout) :: page
-      type(test_result_t), intent(in) :: tests(:)
-      type(gradient_t), intent(in) :: gradients(:)
-      type(key_number_t), allocatable :: numbers(:)
-      character(:), allocatable :: group
-      logical :: has_sides
-      integer :: k
-
-      call key_numbers(tests, gradients, numbers)
-      if (size(numbers) == 0) return
-      has_sides = any([(size(tests(k)%prefixes) > 1, k=1, size(tests))])
-      call begin_section(page, 'key-numbers', 'Key numbers')
-      call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Sign'])
-      group = ''
-      do k = 1, size(numbers)
-         if (numbers(k)%group /= group) then
-            group = numbers(k)%group
-            call add_group(page, group)
-         end if
-         call add_values(page, numbers(k)%quantity, has_sides, numbers(k)%is_of_axle, numbers(k)%left, numbers(k)%right)
-         call add_cell(page, numbers(k)%unit)
-         call add_cell(page, numbers(k)%sign, 's')
-      end do
-      call end_table(page)
-   end subroutine add_key_numbers
 
    !> The first cells of a row: a quantity and one or two cells of numbers; a value of the axle is in the first.
    subroutine add_values(page, quantity, has_sides, is_of_axle, left, right)
@@ -137,43 +128,191 @@ contains
       character(16), allocatable :: names(:)
       integer :: k
 
-      call begin_section(page, 'test-'//test%name, test%title)
+      call begin_section(page, 'test-'//test%name, test%title, trim(test%held))
       call add_warnings(page, 'Warnings: states that failed or are doubtful', test%remarks)
       if (test%is_run) then
-         call add_text(page, 'p', plural(count(converged_rows(test%table)), 'state', 'states')//' in equilibrium, '// &
-            'plotted over '//test%label//'. All columns are in '//test%file//'.')
+         call add_markup(page, '<p>'//plural(count(converged_rows(test%table)), 'state', 'states')// &
+            ' in equilibrium, '//escape_html(over_what(test))//'. All columns: <a href="'//escape_html(test%file)//'">'// &
+            escape_html(test%file)//'</a></p>')
          allocate (names(size(test%prefixes)))
          do k = 1, size(names)
             names(k) = wheel_word(test%prefixes(k))
             if (len_trim(names(k)) == 0) names(k) = merge('right wheel', 'left wheel ', test%sides(k) > 0)
          end do
-         call add_legend(page, names, design_row(test%table) > 0, test%kind == 'table')
+         if (report%is_static .and. .not. allocated(test%grid)) call add_legend(page, names, design_row(test%table) > 0, &
+            is_scattered(test%kind))
       end if
-      if (report%has_pictures) call add_charts(page, report%charts, number, report%folder)
+      if (allocated(test%grid) .and. report%has_pictures) then
+         call add_figure(page, report%folder, carpet_name(test), test%title//': toe and camber', &
+            'A line of equal travel meets a line of equal steering at a state; its height is the value there.')
+         call add_figure(page, report%folder, envelope_name(test), test%title//': envelope of the wheels', &
+            'Positions of the wheel centre, and the spin axis outboard of it, in the frame of the deck. As numbers: '// &
+            test%envelope)
+      end if
+      if (report%is_static .and. report%has_pictures) call add_charts(page, report%charts, number, report%folder)
+      if (.not. report%is_static) call add_live_charts(page, report%charts, number, test%held)
+      call add_constants(page, report%charts, number)
       call add_gradients(page, test%name, report%gradients)
    end subroutine add_test
 
-   !> The charts of a test drawn by gnuplot, side by side.
+   !> Over what the states of a test are shown.
+   function over_what(test) result(words)
+      type(test_result_t), intent(in) :: test
+      character(:), allocatable :: words
+
+      words = 'plotted over '//test%label
+      if (allocated(test%grid)) words = 'on a grid of '//plural(size(test%grid%travel), 'value', 'values')// &
+         ' of the wheel travel and '//str(size(test%grid%steer))//' of '//test%grid%driver
+   end function over_what
+
+   !> A figure of the folder of figures, of full width.
+   subroutine add_figure(page, folder, name, title, caption)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: folder, name, title, caption
+      type(error_t), allocatable :: error
+      character(:), allocatable :: path, svg
+
+      path = join_path(folder, 'figures/'//name//'.svg')
+      if (.not. file_exists(path)) return
+      call read_whole(path, svg, error)
+      if (.not. allocated(error)) call add_picture(page, svg, title, caption)
+   end subroutine add_figure
+
+   !> The charts of a test that the script of the page draws: the principal ones, and the others folded. Without a script a chart
+   !> is a link to the picture by gnuplot.
+   subroutine add_live_charts(page, charts, test, held)
+      type(page_t), intent(inout) :: page
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: test
+      character(*), intent(in) :: held
+      character(:), allocatable :: label
+      integer :: k, shown
+
+      shown = 0
+      do k = 1, size(charts)
+         if (charts(k)%test /= test .or. charts(k)%is_level) cycle
+         call begin_more(page, charts, test, shown, principal)
+         shown = shown + 1
+         label = escape_html(charts(k)%y_label)
+         if (held /= '') label = label//', '//escape_html(trim(held))
+         call add_markup(page, '<figure class="live" id="'//escape_html(charts(k)%name)//'"><figcaption><b>'// &
+            escape_html(charts(k)%title)//'</b>'//label//'</figcaption><noscript><a href="figures/'// &
+            escape_html(picture_file(charts(k)))//'">figures/'//escape_html(picture_file(charts(k)))//'</a></noscript></figure>')
+      end do
+      call end_more(page, shown, principal)
+   end subroutine add_live_charts
+
+   !> Before a chart: opens the block of charts, and folds those behind the first `most`.
+   subroutine begin_more(page, charts, test, shown, most)
+      type(page_t), intent(inout) :: page
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: test, shown, most
+      integer :: k, all
+
+      if (shown == 0) call begin_charts(page)
+      if (shown /= most) return
+      all = count([(charts(k)%test == test .and. .not. charts(k)%is_level, k=1, size(charts))])
+      call end_charts(page)
+      call add_markup(page, '<details class="more"><summary>'//plural(all - most, 'more chart', 'more charts')//'</summary>')
+      call begin_charts(page)
+   end subroutine begin_more
+
+   subroutine end_more(page, shown, most)
+      type(page_t), intent(inout) :: page
+      integer, intent(in) :: shown, most
+
+      if (shown > 0) call end_charts(page)
+      if (shown > most) call add_markup(page, '</details>')
+   end subroutine end_more
+
+   !> What does not change over a test, as numbers instead of charts.
+   subroutine add_constants(page, charts, test)
+      type(page_t), intent(inout) :: page
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: test
+      integer :: k, l
+
+      if (.not. any([(charts(k)%test == test .and. charts(k)%is_level, k=1, size(charts))])) return
+      call add_markup(page, '<details class="more"><summary>Constant over the test: '// &
+         plural(count([(charts(k)%test == test .and. charts(k)%is_level, k=1, size(charts))]), 'quantity', 'quantities')// &
+         '</summary>')
+      call begin_table(page, [character(12) :: 'Quantity', 'Curve', '>Value', 'Unit, sign'])
+      do k = 1, size(charts)
+         if (charts(k)%test /= test .or. .not. charts(k)%is_level) cycle
+         do l = 1, size(charts(k)%traces)
+            call add_cell(page, charts(k)%title)
+            call add_cell(page, charts(k)%traces(l)%title)
+            call add_cell(page, page_number(level_of(charts(k)%traces(l)%y, charts(k)%noise)), 'n')
+            call add_cell(page, charts(k)%y_label, 's')
+         end do
+      end do
+      call end_table(page)
+      call add_markup(page, '</details>')
+   end subroutine add_constants
+
+   !> The middle of a constant; what is small against its least span is 0.
+   pure real(wp) function level_of(y, span) result(value)
+      real(wp), intent(in) :: y(:), span
+
+      value = (minval(y, mask=ieee_is_finite(y)) + maxval(y, mask=ieee_is_finite(y)))/2
+      if (abs(value) < 1.0e-4_wp*span) value = 0.0_wp
+   end function level_of
+
+   !> The charts of a test drawn by gnuplot; those behind the first few are folded.
    subroutine add_charts(page, charts, test, folder)
       type(page_t), intent(inout) :: page
       type(chart_t), intent(in) :: charts(:)
       integer, intent(in) :: test
       character(*), intent(in) :: folder
-      type(error_t), allocatable :: error
-      character(:), allocatable :: svg, path
+      integer, allocatable :: own(:)
+      logical :: is_own(size(charts))
       integer :: k
 
-      call begin_charts(page)
+      is_own = charts%test == test .and. .not. charts%is_level
       do k = 1, size(charts)
-         if (charts(k)%test /= test) cycle
-         path = join_path(join_path(folder, 'figures'), picture_file(charts(k)))
-         if (.not. file_exists(path)) cycle
-         call read_whole(path, svg, error)
-         if (allocated(error)) cycle
-         call add_picture(page, svg, charts(k)%title//', '//charts(k)%y_label//', over '//charts(k)%x_label)
+         if (is_own(k)) is_own(k) = file_exists(figure_of(charts(k), folder))
       end do
-      call end_charts(page)
+      own = pack([(k, k=1, size(charts))], is_own)
+      call add_pictures(page, charts, own(:min(size(own), principal)), folder)
+      if (size(own) <= principal) return
+      call add_markup(page, '<details class="more"><summary>'//plural(size(own) - principal, 'more chart', 'more charts')// &
+         '</summary>')
+      call add_pictures(page, charts, own(principal + 1:), folder)
+      call add_markup(page, '</details>')
    end subroutine add_charts
+
+   function figure_of(chart, folder) result(path)
+      type(chart_t), intent(in) :: chart
+      character(*), intent(in) :: folder
+      character(:), allocatable :: path
+      path = join_path(join_path(folder, 'figures'), picture_file(chart))
+   end function figure_of
+
+   !> Charts drawn by gnuplot, side by side.
+   subroutine add_pictures(page, charts, numbers, folder)
+      type(page_t), intent(inout) :: page
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: numbers(:)              !! of those that are shown
+      character(*), intent(in) :: folder
+      type(error_t), allocatable :: error
+      character(:), allocatable :: svg
+      logical :: is_begun
+      integer :: k
+
+      is_begun = .false.
+      do k = 1, size(numbers)
+         associate (chart => charts(numbers(k)))
+            if (chart%is_level) cycle
+            if (.not. file_exists(figure_of(chart, folder))) cycle
+            call read_whole(figure_of(chart, folder), svg, error)
+            if (allocated(error)) cycle
+            if (.not. is_begun) call begin_charts(page)
+            is_begun = .true.
+            call add_picture(page, svg, chart%title//', '//chart%y_label//', over '//chart%x_label)
+         end associate
+      end do
+      if (is_begun) call end_charts(page)
+   end subroutine add_pictures
 
    !> The gradients of a test; left and right in one row.
    subroutine add_gradients(page, test, list)
@@ -189,7 +328,7 @@ contains
       gradients = pack(list, [(list(k)%test == test, k=1, size(list))])
       if (size(gradients) == 0) return
       has_sides = any([(len(gradients(k)%side) > 0, k=1, size(gradients))])
-      call add_text(page, 'h3', 'Gradients: least-squares slopes around design')
+      call add_markup(page, '<details class="more"><summary>Gradients: least-squares slopes around design</summary>')
       call begin_table(page, [character(8) :: 'Quantity', pack(values, sides .eqv. has_sides), 'Unit', 'Window', 'Sign'])
       do k = 1, size(gradients)
          associate (g => gradients(k))
@@ -206,6 +345,7 @@ contains
          end associate
       end do
       call end_table(page)
+      call add_markup(page, '</details>')
       call add_warnings(page, 'Gradients without a value', unknown)
    end subroutine add_gradients
 

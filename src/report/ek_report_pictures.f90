@@ -5,36 +5,41 @@ module ek_report_pictures
    use ek_text, only: str
    use ek_file, only: write_whole, join_path, remove_file
    use ek_suspension, only: suspension_t
-   use ek_state, only: state_t, design_state, unpack_state
-   use ek_path, only: path_t
+   use ek_state, only: state_t, design_state
+   use ek_moving_states, only: moving_test, state_of_path, travel_kinds, steer_kinds
    use ek_chart, only: charts_script, remove_drawn, pictures_of
    use ek_drawing, only: run_gnuplot
    use ek_scene, only: scene_t, line_bump, line_rebound
-   use ek_scene_script, only: camera_t, fit_camera, scene_script, animation_script
-   use ek_report_page, only: report_t
-   use ek_picture, only: add_solid, add_ghost, add_ground, add_names
+   use ek_camera, only: camera_t, fit_camera
+   use ek_scene_script, only: scene_script, animation_script
+   use ek_report_content, only: report_t
+   use ek_picture, only: add_solid, add_ghost, add_ground
+   use ek_views, only: views_script
+   use ek_picture_names, only: add_names, add_axes
+   use ek_grid_figures, only: grid_carpet, carpet_name, envelope_name, envelope_script
    implicit none(type, external)
    private
    public :: draw_pictures
 
    integer, parameter :: max_frames = 40        !! of an animation
 
-   character(16), parameter :: vertical_kinds(3) = [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']
-
 contains
 
-   !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and the charts
-   !> in figures/.
+   !> Draws all pictures of a report into its folder: picture.svg and .png, animation.gif if asked for, and in figures/ the charts
+   !> and the three views.
    subroutine draw_pictures(report, suspension, wants_plots, wants_animation, message, error)
-      type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves
+      type(report_t), intent(inout) :: report                !! has_animation: it was requested, and something moves; has_views
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: wants_plots, wants_animation
       character(:), allocatable, intent(out) :: message      !! why there are no pictures; '' if there are
       type(error_t), allocatable, intent(out) :: error       !! a script cannot be written or gnuplot refuses it
-      character(13), parameter :: in_space(3) = [character(13) :: 'picture.svg', 'picture.png', 'animation.gif']
+      character(17), parameter :: in_space(5) = [character(17) :: 'picture.svg', 'picture.png', 'figures/views.svg', &
+         'figures/views.png', 'animation.gif']
+      character(4), parameter :: endings(2) = ['.svg', '.png']
       type(message_list_t) :: scripts, pictures
       type(camera_t) :: camera
-      integer :: k
+      character(:), allocatable :: views
+      integer :: k, e
 
       message = ''
       if (.not. wants_plots) then
@@ -43,6 +48,13 @@ contains
             call remove_file(join_path(report%folder, trim(in_space(k))))
          end do
          call remove_drawn(report%charts, report%folder)
+         do k = 1, size(report%tests)
+            if (.not. allocated(report%tests(k)%grid)) cycle
+            do e = 1, size(endings)
+               call remove_file(join_path(report%folder, 'figures/'//carpet_name(report%tests(k))//endings(e)))
+               call remove_file(join_path(report%folder, 'figures/'//envelope_name(report%tests(k))//endings(e)))
+            end do
+         end do
          message = 'switched off by --no-plots'
          return
       end if
@@ -53,8 +65,22 @@ contains
       call scripts%add('charts.gp')
       call scripts%add('picture.gp')
       call pictures_of(report%charts, pictures)
+      do k = 1, size(report%tests)
+         if (.not. allocated(report%tests(k)%grid)) cycle
+         call add_sheet(report%folder, carpet_name(report%tests(k)), grid_carpet(report%tests(k), suspension%name), scripts, &
+            pictures, error)
+         if (.not. allocated(error)) call add_sheet(report%folder, envelope_name(report%tests(k)), &
+            envelope_script(report%tests(k), suspension), scripts, pictures, error)
+         if (allocated(error)) return
+      end do
       call pictures%add('../picture.svg')
       call pictures%add('../picture.png')
+      views = views_script(suspension, 'views')
+      report%has_views = len(views) > 0
+      if (report%has_views) then
+         call add_sheet(report%folder, 'views', views, scripts, pictures, error)
+         if (allocated(error)) return
+      end if
       if (wants_animation) then
          call write_animation(report, suspension, camera, error)
          if (allocated(error)) return
@@ -65,6 +91,18 @@ contains
       end if
       call run_gnuplot(scripts, pictures, join_path(report%folder, 'figures'), message, error)
    end subroutine draw_pictures
+
+   !> Writes the script of a figure with its data, which draws <name>.svg and .png.
+   subroutine add_sheet(folder, name, script, scripts, pictures, error)
+      character(*), intent(in) :: folder, name, script
+      type(message_list_t), intent(inout) :: scripts, pictures
+      type(error_t), allocatable, intent(out) :: error
+
+      call write_whole(join_path(folder, 'figures/'//name//'.gp'), script, error, can_be_redrawn=.true.)
+      call scripts%add(name//'.gp')
+      call pictures%add(name//'.svg')
+      call pictures%add(name//'.png')
+   end subroutine add_sheet
 
    !> Design as solid parts, the ends of the travel as lines.
    subroutine write_picture(report, suspension, camera, error)
@@ -81,13 +119,14 @@ contains
       call add_solid(scenes(1), suspension, state, is_plain=.false.)
       call add_ground(scenes(1), suspension, state, is_plain=.false.)
       call add_names(scenes(1), suspension, state)
-      test = moving_test(report, vertical_kinds)
+      call add_axes(scenes(1), suspension, state)
+      test = moving_test(report%tests, report%paths, travel_kinds)
       if (test > 0) then
          associate (path => report%paths(test))
-            call get_state(path, findloc(path%is_reached, .true., dim=1), suspension, state)
+            call state_of_path(path, findloc(path%is_reached, .true., dim=1), suspension, state)
             call add_ghost(scenes(1), suspension, state, line_rebound)
             scenes(1)%rebound = end_name(suspension, state)
-            call get_state(path, findloc(path%is_reached, .true., dim=1, back=.true.), suspension, state)
+            call state_of_path(path, findloc(path%is_reached, .true., dim=1, back=.true.), suspension, state)
             call add_ghost(scenes(1), suspension, state, line_bump)
             scenes(1)%bump = end_name(suspension, state)
          end associate
@@ -109,7 +148,7 @@ contains
       type(state_t) :: state
       integer :: chosen(2), frames, each, k, f, n, at, first, last
 
-      chosen = [moving_test(report, vertical_kinds), moving_test(report, [character(16) :: 'steering'])]
+      chosen = [moving_test(report%tests, report%paths, travel_kinds), moving_test(report%tests, report%paths, steer_kinds)]
       frames = max_frames/max(1, count(chosen > 0))
       allocate (scenes(frames*count(chosen > 0)), captions(frames*count(chosen > 0)))
       report%has_animation = size(scenes) > 0
@@ -123,7 +162,7 @@ contains
             each = frames/2
             do k = 0, frames - 1
                at = first + nint(real(last - first, wp)*(1 - cos(acos(-1.0_wp)*k/each))/2)   ! slow at the ends
-               call get_state(path, at, suspension, state)
+               call state_of_path(path, at, suspension, state)
                n = n + 1
                call add_solid(scenes(n), suspension, state, is_plain=.true.)
                call add_ground(scenes(n), suspension, design_state(suspension), is_plain=.true.)
@@ -136,32 +175,6 @@ contains
       call write_whole(join_path(report%folder, 'figures/animation.gp'), &
          animation_script(scenes, captions, fitted, 'animation', suspension%name), error, can_be_redrawn=.true.)
    end subroutine write_animation
-
-   !> The test of the first of the wanted kinds with more than one state; 0 if there is none.
-   pure integer function moving_test(report, kinds) result(test)
-      type(report_t), intent(in) :: report
-      character(*), intent(in) :: kinds(:)
-      integer :: kind
-
-      do kind = 1, size(kinds)
-         do test = 1, size(report%tests)
-            if (.not. report%tests(test)%is_run .or. report%tests(test)%kind /= kinds(kind)) cycle
-            if (count(report%paths(test)%is_reached) > 1) return
-         end do
-      end do
-      test = 0
-   end function moving_test
-
-   !> State k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
-   subroutine get_state(path, k, suspension, state)
-      type(path_t), intent(in) :: path
-      integer, intent(in) :: k
-      type(suspension_t), intent(in) :: suspension
-      type(state_t), intent(out) :: state
-
-      state = design_state(suspension)
-      call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
-   end subroutine get_state
 
    !> Label of an end of the travel: 'bump, +80 mm', from the height of the first wheel's centre over design.
    function end_name(suspension, state) result(name)

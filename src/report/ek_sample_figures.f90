@@ -4,7 +4,7 @@ module ek_sample_figures
    use ek_kinds, only: wp
    use ek_text, only: str
    use ek_gnuplot_text, only: gnuplot_text
-   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step, has_expected
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, &
       full_height, blues
    implicit none(type, external)
@@ -110,6 +110,7 @@ contains
       if (2*size(study%drawn) <= study%designs) which = str(size(study%drawn))//' of the'
       sheet = new_sheet(name, 'The band of the curves', subtitle// &
          '; line: median, dark: 25 to 75 %, light: 5 to 95 % of '//which//' designs'// &
+         trim(merge('; dashed: 5, 95 % by derivatives', '                                ', has_expected(study)))// &
          cut(min(size(study%columns), most_panels), size(study%columns), 'columns'), min(size(study%columns), most_panels))
       do c = 1, sheet%panels
          call begin_data(sheet, 'band'//str(c))
@@ -117,6 +118,14 @@ contains
             if (.not. ieee_is_finite(study%bands(1, c, j))) cycle
             base = merge(study%bands(3, c, j), 0.0_wp, is_narrow(study, c))
             call add_numbers(sheet, [study%sweep(j), study%bands(:, c, j) - base])
+         end do
+         call end_data(sheet)
+         if (.not. has_expected(study)) cycle
+         call begin_data(sheet, 'expected'//str(c))
+         do j = 1, size(study%sweep)
+            if (.not. ieee_is_finite(study%bands(1, c, j)) .or. .not. ieee_is_finite(study%expected(2, c, j))) cycle
+            base = merge(study%bands(3, c, j), 0.0_wp, is_narrow(study, c))
+            call add_numbers(sheet, [study%sweep(j), study%expected(4:5, c, j) - base])
          end do
          call end_data(sheet)
       end do
@@ -127,9 +136,23 @@ contains
          data = '$band'//str(c)
          call sheet%text%line('plot '//data//" using 1:2:6 with filledcurves fillcolor rgb '#CCE3F0' notitle, \"//nl// &
             '     '//data//" using 1:3:5 with filledcurves fillcolor rgb '#80BAD8' notitle, \"//nl// &
-            '     '//data//" using 1:4 with lines linewidth 2.4 linecolor rgb '#00486F' notitle")
+            '     '//data//" using 1:4 with lines linewidth 2.4 linecolor rgb '#00486F' notitle"//lines_of(c))
       end do
       text = end_panels(sheet)
+
+   contains
+
+      !> Both ends of the band by derivatives.
+      function lines_of(c) result(more)
+         integer, intent(in) :: c
+         character(:), allocatable :: more
+         character(*), parameter :: dashed = " with lines linewidth 1.8 dashtype (6, 5) linecolor rgb '#D55E00' notitle"
+
+         more = ''
+         if (has_expected(study)) more = ', \'//nl//'     $expected'//str(c)//' using 1:2'//dashed//', \'//nl// &
+            '     $expected'//str(c)//' using 1:3'//dashed
+      end function lines_of
+
    end function fan_script
 
    !> Whether the band is too narrow to be seen beside its curve: then the deviation from the median is drawn.
@@ -230,7 +253,9 @@ contains
       integer :: r, k
 
       sheet = new_sheet(name, 'Distribution of the responses', subtitle// &
-         '; lines: 5, 50 and 95 %, dashed: limits'//cut(min(size(study%responses), most_panels), size(study%responses), &
+         '; lines: 5, 50 and 95 %, dashed: limits'// &
+         trim(merge('; orange: by derivatives', '                        ', allocated(study%moments)))// &
+         cut(min(size(study%responses), most_panels), size(study%responses), &
          'responses'), min(size(study%responses), most_panels))
       do r = 1, sheet%panels
          if (maxval([0, study%summaries(r)%counts]) >= 10000) sheet%left = 130
@@ -272,12 +297,32 @@ contains
             if (response%upper > ends(2) .and. response%upper < ends(2) + room) ends(2) = response%upper
             call sheet%text%line('set xrange ['//str(ends(1) - 0.06_wp*room, 9)//':'//str(ends(2) + 0.06_wp*room, 9)// &
                ']; set xtics '//tic_step(ends))
-            call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle")
+            call sheet%text%line('plot $bins'//str(r)//" using 1:2:3 with boxes linecolor rgb '#80BAD8' notitle"// &
+               density_of(study, r))
          end associate
       end do
       call sheet%text%line('unset arrow; set yrange [*:*]; set xrange [*:*]; set xtics autofreq')
       text = end_panels(sheet)
    end function histogram_script
+
+   !> The density by derivatives, normal with skewness (Edgeworth), as it is plotted over the histogram; '' if there is none.
+   function density_of(study, r) result(more)
+      type(study_data_t), intent(in) :: study
+      integer, intent(in) :: r                       !! response
+      character(:), allocatable :: more
+      character(:), allocatable :: z
+      real(wp) :: height
+
+      more = ''
+      if (.not. allocated(study%moments)) return
+      associate (row => study%moments(2, r), summary => study%summaries(r))
+         if (.not. (row%deviation > 0.0_wp .and. summary%highest > summary%lowest)) return
+         height = summary%used*(summary%highest - summary%lowest)/size(summary%counts)/(row%deviation*sqrt(2.0_wp*acos(-1.0_wp)))
+         z = '((x - ('//str(row%mean, 9)//'))/'//str(row%deviation, 9)//')'
+         more = ', \'//nl//'     '//str(height, 7)//'*exp(-0.5*'//z//'**2)*(1 + ('//str(row%skewness/6.0_wp, 7)//')*('// &
+            z//'**3 - 3*'//z//")) with lines linewidth 2 linecolor rgb '#D55E00' notitle"
+      end associate
+   end function density_of
 
    !> The part of the axis that shows a response without scatter.
    pure real(wp) function room_of_constant(value)

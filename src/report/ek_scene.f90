@@ -8,11 +8,11 @@ module ek_scene
    private
    public :: scene_t, run_t, add_run, add_label, add_tube, add_surface, add_coil, add_ball
    public :: part_ground, part_tyre, part_plate, part_carrier, part_arm, part_rod, part_spring, part_damper, part_bushing, &
-      part_ball, part_mount, parts, line_bump, line_rebound, line_ground, line_kinds
+      part_ball, part_mount, part_stop, parts, line_bump, line_rebound, line_ground, line_axes, line_kinds
 
    integer, parameter :: part_ground = 1, part_tyre = 2, part_plate = 3, part_carrier = 4, part_arm = 5, part_rod = 6, &
-      part_spring = 7, part_damper = 8, part_bushing = 9, part_ball = 10, part_mount = 11, parts = 11
-   integer, parameter :: line_bump = 1, line_rebound = 2, line_ground = 3, line_kinds = 3
+      part_spring = 7, part_damper = 8, part_bushing = 9, part_ball = 10, part_mount = 11, part_stop = 12, parts = 12
+   integer, parameter :: line_bump = 1, line_rebound = 2, line_ground = 3, line_axes = 4, line_kinds = 4
 
    !> Faces and lines as runs of vertices.
    type :: run_t
@@ -23,7 +23,6 @@ module ek_scene
 
    type :: label_t
       real(wp) :: at(3) = 0.0_wp
-      real(wp) :: aside = 0.6_wp               !! offset to the right, in characters
       character(:), allocatable :: text
    end type label_t
 
@@ -64,17 +63,15 @@ contains
       list%first(list%runs + 1) = list%used + 1
    end subroutine add_run
 
-   !> A small label at a point.
-   pure subroutine add_label(scene, at, text, aside)
+   !> The name of a point.
+   pure subroutine add_label(scene, at, text)
       type(scene_t), intent(inout) :: scene
       real(wp), intent(in) :: at(3)
       character(*), intent(in) :: text
-      real(wp), intent(in), optional :: aside    !! offset to the right of the point, in characters; absent: 0.6
       type(label_t) :: label
 
       label%at = at
       label%text = text
-      if (present(aside)) label%aside = aside
       if (.not. allocated(scene%labels)) allocate (scene%labels(0))
       scene%labels = [scene%labels, label]
    end subroutine add_label

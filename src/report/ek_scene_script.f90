@@ -1,83 +1,30 @@
 !> A scene in space as a gnuplot script, still or moving.
 !>
-!> gnuplot sorts the faces by depth and shades them. The scene can be rotated with the mouse: `gnuplot -p picture.gp` after
-!> `set terminal qt`. The camera has the two angles [deg] of gnuplot's `set view`: at turn = 0 it looks to the right, from
-!> the left of the car, at 270 rearward from its front.
+!> gnuplot sorts the faces by depth and shades them.
 module ek_scene_script
-   use ek_kinds, only: wp, degree, millimetre
+   use ek_kinds, only: wp, millimetre
    use ek_text, only: str
    use ek_buffer, only: buffer_t
-   use ek_decimal, only: decimal
+   use ek_decimal, only: put_decimal, longest_decimal
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   use ek_camera, only: camera_t
    use ek_scene, only: scene_t, run_t, part_tyre, line_bump, line_rebound, parts, line_kinds
+   use ek_scene_labels, only: placed_label_t, place_in_scene
    implicit none(type, external)
    private
-   public :: camera_t, scene_script, animation_script, fit_camera
+   public :: scene_script, animation_script
 
    character(7), parameter :: part_colours(parts) = ['#E9EEF2', '#4A4A4A', '#3B76B5', '#7C8896', '#3B76B5', '#1B9E8A', &
-      '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B']
+      '#C8442F', '#A9B4C0', '#E8A33D', '#30343B', '#30343B', '#8E6BBE']
    character(22), parameter :: part_fills(parts) = [character(22) :: 'transparent solid 0.35', 'transparent solid 0.16', &
-      'transparent solid 0.22', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid']
+      'transparent solid 0.22', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid', 'solid']
    character(16), parameter :: part_names(parts) = [character(16) :: '', 'wheel', '', 'wheel carrier', 'arms', 'rods', &
-      'springs', 'struts, dampers', 'bushings', 'joints', 'chassis']
-   character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4']
+      'springs', 'struts, dampers', 'bushings', 'joints', 'chassis', 'stops']
+   character(7), parameter :: line_colours(line_kinds) = ['#D55E00', '#009E73', '#C4CCD4', '#30343B']
 
    character(*), parameter :: nl = new_line('a'), default_place = "if (!exists('to')) to = '../'"
 
-   !> Direction of view and scale.
-   type :: camera_t
-      real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! deg
-      real(wp) :: centre(3) = 0.0_wp                    !! m, middle of the picture
-      real(wp) :: span = 1.0_wp                         !! m, edge of the cube of the axis ranges
-      real(wp) :: zoom = 1.0_wp                         !! third number of `set view`
-   end type camera_t
-
 contains
-
-   !> Sets centre, span and zoom so that all faces and lines of some scenes fill a picture of this shape.
-   !>
-   !> gnuplot draws the longest edge of its box as a fixed share of the shorter side of the picture, times the zoom.
-   subroutine fit_camera(camera, scenes, width, height, footer)
-      type(camera_t), intent(inout) :: camera     !! tilt and turn are input
-      type(scene_t), intent(in) :: scenes(:)
-      real(wp), intent(in) :: width, height       !! of the picture, any unit
-      real(wp), intent(in) :: footer              !! share of the height that is kept free below
-      real(wp), parameter :: box_share = 0.507_wp      ! measured with gnuplot 5.4, font sizes 12 to 13
-      real(wp), parameter :: above_middle = 0.014_wp   ! offset of the centre in picture heights; measured likewise
-      real(wp), allocatable :: at(:, :), across(:), upward(:)
-      real(wp) :: right(3), up(3), scale
-      integer :: s, k, n
-
-      right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
-      up = [-sin(camera%turn*degree)*cos(camera%tilt*degree), cos(camera%turn*degree)*cos(camera%tilt*degree), &
-         sin(camera%tilt*degree)]
-      allocate (at(3, sum(scenes%faces%used) + sum(scenes%lines%used)))
-      n = 0
-      do s = 1, size(scenes)
-         call include(scenes(s)%faces)
-         call include(scenes(s)%lines)
-      end do
-      camera%span = 0.1_wp
-      if (n == 0) return
-      across = [(dot_product(right, at(:, k)), k=1, n)]
-      upward = [(dot_product(up, at(:, k)), k=1, n)]
-      scale = 0.95_wp*min(width/max(maxval(across) - minval(across), 1.0e-3_wp), &
-         height*(1 - footer)/max(maxval(upward) - minval(upward), 1.0e-3_wp))
-      camera%centre = right*((minval(across) + maxval(across))/2) + &
-         up*((minval(upward) + maxval(upward))/2 - (footer/2 - above_middle)*height/scale)
-      ! the box must contain every vertex; gnuplot clips at the box
-      camera%span = max(camera%span, 2.1_wp*maxval([(maxval(abs(at(:, k) - camera%centre)), k=1, n)]))
-      camera%zoom = scale*camera%span/(box_share*min(width, height))
-
-   contains
-
-      subroutine include(list)
-         type(run_t), intent(in) :: list
-         if (list%used > 0) at(:, n + 1:n + list%used) = list%at(:, :list%used)
-         n = n + list%used
-      end subroutine include
-
-   end subroutine fit_camera
 
    !> A script that draws one scene as <name>.png and <name>.svg in the folder above its own, unless the variable `to` gives
    !> another folder.
@@ -97,7 +44,7 @@ contains
       call script%line("if (exists('look')) { set terminal qt size 1200, 800; set mouse } "// &
          "else { set terminal svg size 960, 640 dynamic font 'sans-serif,13' noenhanced; set output "// &
          'to.'//gnuplot_text(name//'.svg')//' }')
-      call add_splot(script, scene, .true.)
+      call add_splot(script, scene, camera, .true.)
       call script%line("if (!exists('look')) { set terminal pngcairo size 1440, 960 font 'sans-serif,13' fontscale 1.25 "// &
          'linewidth 1.5 noenhanced; set output to.'//gnuplot_text(name//'.png')//'; replot; unset output }')
       text = script%text()
@@ -121,7 +68,7 @@ contains
       do k = 1, size(scenes)
          call add_blocks(script, scenes(k))
          call script%line('set label 99 '//gnuplot_text(trim(captions(k)))//' at screen 0.03, screen 0.05')
-         call add_splot(script, scenes(k), .false.)
+         call add_splot(script, scenes(k), camera, .false.)
       end do
       call script%line('unset output'//nl//'unset label 99')
       text = script%text()
@@ -174,16 +121,21 @@ contains
       character(*), intent(in) :: name, ending       !! ending: after each face or line
       type(run_t), intent(in) :: list
       integer, intent(in) :: kind
-      real(wp) :: at(3)
-      integer :: k, vertex
+      character(3*(longest_decimal + 1)) :: line
+      integer :: k, vertex, axis, used
 
       if (.not. has_kind(list, kind)) return
       call script%line(name//str(kind)//' << EOD')
       do k = 1, list%runs
          if (list%kind(k) /= kind) cycle
          do vertex = list%first(k), list%first(k + 1) - 1
-            at = anint(list%at(:, vertex)*1.0e4_wp)/10.0_wp
-            call script%line(decimal(at(1))//' '//decimal(at(2))//' '//decimal(at(3)))
+            used = 0
+            do axis = 1, 3
+               call put_decimal(anint(list%at(axis, vertex)*1.0e4_wp)/10.0_wp, line, used)
+               used = used + 1
+               line(used:used) = ' '
+            end do
+            call script%line(line(:used - 1))
          end do
          call script%line(ending)
       end do
@@ -191,22 +143,15 @@ contains
    end subroutine add_block
 
    !> Labels, legend and the splot command.
-   subroutine add_splot(script, scene, has_legend)
+   subroutine add_splot(script, scene, camera, has_legend)
       type(buffer_t), intent(inout) :: script
       type(scene_t), intent(in) :: scene
+      type(camera_t), intent(in) :: camera
       logical, intent(in) :: has_legend
       character(:), allocatable :: line
-      integer :: kind, k
+      integer :: kind
 
-      if (allocated(scene%labels)) then
-         do k = 1, size(scene%labels)
-            associate (label => scene%labels(k))
-               call script%line('set label '//str(100 + k)//' '//gnuplot_text(label%text)//' at '// &
-                  str(label%at(1)/millimetre, 5)//', '//str(label%at(2)/millimetre, 5)//', '//str(label%at(3)/millimetre, 5)// &
-                  " front font ',11' textcolor rgb '#30343B' offset "//str(label%aside, 3)//', 0.5')
-            end associate
-         end do
-      end if
+      call add_labels(script, scene, camera)
       if (has_legend) call add_legend(script, scene)
       line = 'splot '
       do kind = 1, line_kinds
@@ -223,6 +168,34 @@ contains
       end do
       call script%line("      1/0 notitle")
    end subroutine add_splot
+
+   !> The names of points where they cover little, each with a line from its point if it lies apart.
+   subroutine add_labels(script, scene, camera)
+      type(buffer_t), intent(inout) :: script
+      type(scene_t), intent(in) :: scene
+      type(camera_t), intent(in) :: camera
+      type(placed_label_t), allocatable :: placed(:)
+      integer :: k
+
+      if (.not. allocated(scene%labels)) return
+      call place_in_scene(scene, camera, placed)
+      do k = 1, size(placed)
+         associate (label => scene%labels(k), to => placed(k))
+            call script%line('set label '//str(100 + k)//' '//gnuplot_text(label%text)//' at '//on_screen(to%middle)// &
+               " center front font 'sans-serif,11' textcolor rgb '#30343B'")
+            if (to%has_line) call script%line('set arrow '//str(100 + k)//' from '//str(label%at(1)/millimetre, 5)//', '// &
+               str(label%at(2)/millimetre, 5)//', '//str(label%at(3)/millimetre, 5)//' to '//on_screen(to%foot)// &
+               " nohead front linewidth 0.8 linecolor rgb '#7C8896'")
+         end associate
+      end do
+   end subroutine add_labels
+
+   !> A position in the picture, shares of its width and height, as gnuplot takes it.
+   pure function on_screen(at) result(text)
+      real(wp), intent(in) :: at(2)
+      character(:), allocatable :: text
+      text = 'screen '//str(at(1), 4)//', screen '//str(at(2), 4)
+   end function on_screen
 
    !> Swatches and labels below the picture. (gnuplot's own legend loses entries in splot if it has several columns.)
    subroutine add_legend(script, scene)

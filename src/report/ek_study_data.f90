@@ -6,8 +6,8 @@ module ek_study_data
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, percents, most_panels
-   public :: range_of_values, is_geometric, tic_step, has_indices
+   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, most_panels, methods
+   public :: range_of_values, is_geometric, tic_step, has_indices, has_expected
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
    integer, parameter :: most_panels = 9                        !! of one figure; more responses are left out, which it says
@@ -41,7 +41,20 @@ module ek_study_data
       real(wp), allocatable :: mean_size(:), deviation(:)      !! Morris: μ* and σ
       real(wp), allocatable :: correlation(:)                  !! rank correlation with each factor
       integer :: used = 0                                      !! Sobol: rows
+      ! tolerance: derivatives at the centre of each factor
+      real(wp), allocatable :: slope(:)                        !! per unit of the factor
+      real(wp), allocatable :: effect(:)                       !! change per standard deviation of the factor
+      real(wp), allocatable :: curvature(:)                    !! second derivative, per standard deviation squared
    end type effects_t
+
+   !> The scatter of a response as one method has it; in the unit of the response.
+   type :: moment_row_t
+      real(wp) :: mean, deviation, skewness, low, high         !! low, high: percentiles 5 and 95
+      real(wp) :: mean_half, deviation_half                    !! half of the 95 % interval; 0 of what has no error of a sample
+      real(wp) :: within, within_half                          !! share of designs within the limits
+   end type moment_row_t
+
+   character(*), parameter :: methods(3) = [character(12) :: 'first_order', 'second_order', 'monte_carlo']
 
    !> A design to be shown on the page.
    type :: extreme_t
@@ -62,6 +75,11 @@ module ek_study_data
       type(summary_t), allocatable :: summaries(:)     !! of the responses
       type(effects_t), allocatable :: effects(:)       !! on the responses
       type(extreme_t), allocatable :: extremes(:)
+      ! tolerance; not allocated if it was not computed
+      type(moment_row_t), allocatable :: moments(:, :) !! (method, response)
+      real(wp), allocatable :: centers(:), deviations(:)       !! of the factors
+      !> Of the curves: (nominal, mean, deviation, percentiles 5 and 95; column; state).
+      real(wp), allocatable :: expected(:, :, :)
       ! curves of some designs
       character(:), allocatable :: swept               !! label of the swept value
       real(wp), allocatable :: sweep(:)                !! swept value of each state
@@ -79,6 +97,14 @@ contains
       has_indices = .false.
       if (size(study%effects) > 0) has_indices = allocated(study%effects(1)%first)
    end function has_indices
+
+   !> Whether derivatives give the curves of a tolerance study.
+   pure logical function has_expected(study)
+      type(study_data_t), intent(in) :: study
+
+      has_expected = allocated(study%expected)
+      if (has_expected) has_expected = size(study%expected) > 0 .and. size(study%expected, 3) == size(study%sweep)
+   end function has_expected
 
    !> Smallest and largest finite value; 0 and 1 if there is none.
    pure function range_of_values(values) result(range)

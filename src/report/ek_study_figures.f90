@@ -7,7 +7,7 @@ module ek_study_figures
    use ek_sample_figures, only: family_script, fan_script, scatter_script, histogram_script, convergence_script
    use ek_parallel_figure, only: parallel_script
    use ek_effect_figures, only: map_script, line_script, tornado_script, sobol_script, morris_script
-   use ek_carpet_figure, only: carpet_script
+   use ek_carpet_figure, only: carpet_script, study_carpet
    implicit none(type, external)
    private
    public :: figure_rule_t, rules, applies, script_of, figure_name
@@ -23,12 +23,12 @@ module ek_study_figures
       integer :: least_designs
    end type figure_rule_t
 
-   character(*), parameter :: samples = 'monte_carlo latin_hypercube sobol saltelli list'
+   character(*), parameter :: samples = 'monte_carlo latin_hypercube sobol saltelli list tolerance'
    integer, parameter :: no_end = huge(1)
 
    type(figure_rule_t), parameter :: rules(*) = [ &
-      figure_rule_t('tornado', 'Tornado: one factor at a time', 'one_at_a_time', .false., .true., 1, no_end, 2), &
-      figure_rule_t('sobol', 'Sobol indices', 'saltelli list', .false., .true., 1, no_end, 6), &
+      figure_rule_t('tornado', 'Tornado: one factor at a time', 'one_at_a_time tolerance', .false., .true., 1, no_end, 2), &
+      figure_rule_t('sobol', 'Sobol indices', 'saltelli list tolerance', .false., .true., 1, no_end, 6), &
       figure_rule_t('morris', 'Morris'' elementary effects', 'morris', .false., .true., 1, no_end, 4), &
       figure_rule_t('line', 'Responses over the factor', 'grid', .false., .true., 1, 1, 2), &
       figure_rule_t('map', 'Contours over two factors', 'grid', .false., .true., 2, 2, 4), &
@@ -38,7 +38,8 @@ module ek_study_figures
       figure_rule_t('histogram', 'Distribution of the responses', samples, .false., .true., 1, no_end, 10), &
       figure_rule_t('scatter', 'Responses over factors', samples, .false., .true., 1, no_end, 5), &
       figure_rule_t('parallel', 'Parallel coordinates', samples//' grid', .false., .true., 2, no_end, 5), &
-      figure_rule_t('convergence', 'Convergence of the mean', 'monte_carlo latin_hypercube sobol', .false., .true., 1, no_end, 10)]
+      figure_rule_t('convergence', 'Convergence of the mean', 'monte_carlo latin_hypercube sobol tolerance', .false., .true., &
+      1, no_end, 10)]
 
 contains
 
@@ -53,6 +54,7 @@ contains
       applies = applies .and. size(study%factors) >= rule%least_factors .and. size(study%factors) <= rule%most_factors .and. &
          study%designs >= rule%least_designs
       if (applies .and. rule%name == 'sobol') applies = has_indices(study)
+      if (applies .and. rule%name == 'tornado' .and. study%kind == 'tolerance') applies = has_indices(study)
       if (applies .and. any([character(11) :: 'map', 'carpet'] == rule%name)) &
          applies = maxval(study%x(1, :)) > minval(study%x(1, :)) .and. maxval(study%x(2, :)) > minval(study%x(2, :))
    end function applies
@@ -86,7 +88,7 @@ contains
       case ('map')
          text = map_script(study, name, subtitle)
       case ('carpet')
-         text = carpet_script(study, name, subtitle)
+         text = carpet_script(study_carpet(study), name, 'Carpet over two factors', subtitle)
       case ('fan')
          text = fan_script(study, name, subtitle)
       case ('family')

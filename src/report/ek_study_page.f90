@@ -1,17 +1,21 @@
 !> The page of a study: its question, factors, responses with statistics, failures, figures, and the best and worst designs.
 module ek_study_page
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, message_list_t
    use ek_text, only: str, plural
    use ek_version, only: version
    use ek_file, only: join_path, file_exists, read_whole
-   use ek_study_data, only: study_data_t, study_axis_t, percents, range_of_values, has_indices
+   use ek_study_data, only: study_data_t, study_axis_t, percents, methods, range_of_values, has_indices
    use ek_study_figures, only: rules, applies, figure_name
    use ek_page, only: page_t, begin_page, begin_section, add_text, add_warnings, add_facts, begin_table, add_cell, add_group, &
       end_table, add_picture, page_text, page_number
    implicit none(type, external)
    private
    public :: study_page, page_name
+
+   character(*), parameter :: method_words(3) = [character(26) :: 'derivatives, first order', 'derivatives, second order', &
+      'Monte Carlo']
 
 contains
 
@@ -51,6 +55,7 @@ contains
       call add_responses(page, study)
       call add_factors(page, study)
       if (figures /= '') call add_figures(page, study, figures)
+      call add_moments(page, study)
       call add_effects(page, study)
       call add_extremes(page, study)
       text = page_text(page)
@@ -131,6 +136,58 @@ contains
       call end_table(page)
    end subroutine add_responses
 
+   !> The scatter of each response by derivatives and by the designs.
+   subroutine add_moments(page, study)
+      type(page_t), intent(inout) :: page
+      type(study_data_t), intent(in) :: study
+      integer :: m, r
+
+      if (.not. allocated(study%moments)) return
+      call begin_section(page, 'moments', 'Scatter by derivatives and by Monte Carlo')
+      call begin_table(page, [character(16) :: 'Method', '>mean', '>± 95 %', '>deviation', '>± 95 %', '>skewness', '>5 %', &
+         '>95 %', '>within', '>± 95 %'])
+      do r = 1, size(study%responses)
+         call add_group(page, study%responses(r)%label)
+         do m = 1, size(methods)
+            associate (row => study%moments(m, r))
+               call add_cell(page, trim(method_words(m)))
+               call add_number(row%mean)
+               call add_number(merge(row%mean_half, nothing(), m == size(methods)))
+               call add_number(row%deviation)
+               call add_number(merge(row%deviation_half, nothing(), m == size(methods)))
+               call add_number(row%skewness)
+               call add_number(row%low)
+               call add_number(row%high)
+               call add_share(row%within)
+               call add_share(merge(row%within_half, nothing(), m == size(methods)))
+            end associate
+         end do
+      end do
+      call end_table(page)
+
+   contains
+
+      subroutine add_number(value)
+         real(wp), intent(in) :: value
+         if (ieee_is_finite(value)) call add_cell(page, page_number(value), 'n')
+         if (.not. ieee_is_finite(value)) call add_cell(page, '–', 'n')
+      end subroutine add_number
+
+      subroutine add_share(value)
+         real(wp), intent(in) :: value
+         if (limits_text(study%responses(r)) == '' .or. .not. ieee_is_finite(value)) then
+            call add_cell(page, '–', 'n')
+         else
+            call add_cell(page, page_number(100.0_wp*value)//' %', 'n')
+         end if
+      end subroutine add_share
+
+      pure real(wp) function nothing()
+         nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+      end function nothing
+
+   end subroutine add_moments
+
    !> The factors and the ranges that the designs cover.
    subroutine add_factors(page, study)
       type(page_t), intent(inout) :: page
@@ -185,6 +242,11 @@ contains
          if (.not. has_indices(study)) return
          call begin_section(page, 'indices', 'Sobol indices')
          call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %'])
+      case ('tolerance')
+         if (.not. has_indices(study)) return
+         call begin_section(page, 'shares', 'Share of the variance')
+         call begin_table(page, [character(32) :: 'Factor', '>at the centre', '>standard deviation', '>slope', &
+            '>effect of one deviation', '>share', '>with interactions'])
       case ('morris')
          call begin_section(page, 'effects', 'Elementary effects')
          call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ'])
@@ -205,6 +267,13 @@ contains
                   call add_cell(page, page_number(effect%first_error(f)), 'n')
                   call add_cell(page, page_number(effect%total(f)), 'n')
                   call add_cell(page, page_number(effect%total_error(f)), 'n')
+               case ('tolerance')
+                  call add_cell(page, page_number(study%centers(f)), 'n')
+                  call add_cell(page, page_number(study%deviations(f)), 'n')
+                  call add_cell(page, page_number(effect%slope(f)), 'n')
+                  call add_cell(page, page_number(effect%effect(f)), 'n')
+                  call add_cell(page, page_number(100.0_wp*effect%first(f))//' %', 'n')
+                  call add_cell(page, page_number(100.0_wp*effect%total(f))//' %', 'n')
                case ('morris')
                   call add_cell(page, page_number(effect%mean_size(f)), 'n')
                   call add_cell(page, page_number(effect%deviation(f)), 'n')

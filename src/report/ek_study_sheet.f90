@@ -6,10 +6,12 @@ module ek_study_sheet
    use ek_text, only: str
    use ek_buffer, only: buffer_t
    use ek_chart, only: add_coordinate, axes_style
+   use ek_label_places, only: label_place_t, place_labels
    use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
    implicit none(type, external)
    private
-   public :: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height
+   public :: sheet_t, new_sheet, two_lines, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, full_height, &
+      add_point_names, names_plot
    public :: blues
 
    character(*), parameter :: nl = new_line('a')
@@ -95,6 +97,47 @@ contains
       call sheet%text%line('EOD')
    end subroutine end_data
 
+   !> The data of the names of points in a panel: the point, the way to its name, and whether the name ends there. Names lie over no
+   !> other name and over no named point.
+   subroutine add_point_names(sheet, panel, names, x, y, x_range, y_range)
+      type(sheet_t), intent(inout) :: sheet
+      integer, intent(in) :: panel
+      character(*), intent(in) :: names(:)           !! of the first points
+      real(wp), intent(in) :: x(:), y(:)             !! of all points
+      real(wp), intent(in) :: x_range(2), y_range(2) !! of the panel, from left to right and from below upward
+      type(label_place_t) :: places(size(names))
+      real(wp), parameter :: size_in_png = 4.0_wp/3.0_wp     ! pixels per point of a font; 1 in SVG
+      real(wp) :: widths(size(names)), letters, cell, to(2)
+      integer :: k, n
+
+      n = size(names)
+      letters = size_in_png*sheet%letters
+      cell = real(sheet%width, wp)/sheet%columns - sheet%left - sheet%right
+      do k = 1, n
+         widths(k) = 0.64_wp*letters*len_trim(names(k))/cell
+      end do
+      call place_labels((x(:n) - x_range(1))/(x_range(2) - x_range(1)), (y(:n) - y_range(1))/(y_range(2) - y_range(1)), widths, &
+         1.2_wp*letters/(sheet%height - sheet%top - sheet%bottom), places)
+      call begin_data(sheet, 'names'//str(panel))
+      do k = 1, n
+         to = [x_range(1) + places(k)%x*(x_range(2) - x_range(1)), y_range(1) + places(k)%y*(y_range(2) - y_range(1))]
+         call add_numbers(sheet, [x(k), y(k), to(1) - x(k), to(2) - y(k), merge(1.0_wp, 0.0_wp, places(k)%is_left)], &
+            trim(names(k)))
+      end do
+      call end_data(sheet)
+   end subroutine add_point_names
+
+   !> What plots these names, and lines to them: the last parts of a plot command.
+   pure function names_plot(panel) result(parts)
+      integer, intent(in) :: panel
+      character(:), allocatable :: parts, data
+
+      data = '$names'//str(panel)
+      parts = data//" using 1:2:3:4 with vectors nohead linewidth 0.8 linecolor rgb '#B0B0B0' notitle, \"//nl// &
+         '     '//data//' using ($5 > 0 ? NaN : $1 + $3):($2 + $4):6 with labels left offset 0.2, 0 notitle, \'//nl// &
+         '     '//data//' using ($5 > 0 ? $1 + $3 : NaN):($2 + $4):6 with labels right offset -0.2, 0 notitle'
+   end function names_plot
+
    !> Begins the drawing: format, size, title.
    pure subroutine begin_panels(sheet)
       type(sheet_t), intent(inout) :: sheet
@@ -118,7 +161,7 @@ contains
    pure function subtitle_of(sheet) result(expression)
       type(sheet_t), intent(in) :: sheet
       character(:), allocatable :: expression
-      real(wp), parameter :: letter = 9.4_wp         ! width of a letter of size 14, pixels
+      real(wp), parameter :: letter = 11.8_wp        ! width of a letter of size 14 in PNG, pixels
       integer :: most, at
 
       most = int(sheet%width*merge(0.7_wp, 0.96_wp, sheet%has_scale)/letter)

@@ -5,151 +5,239 @@
 module ek_svg
    use ek_letters, only: as_utf8
    use ek_buffer, only: buffer_t
+   use ek_compact_svg, only: compact_svg, next_of
    implicit none(type, external)
    private
    public :: embedded_svg, escape_html
 
+   ! codes of letters
+   integer, parameter :: tab = 9, line_feed = 10, carriage_return = 13, blank = 32, quote = 34, apostrophe = 39, less = 60, &
+      equal = 61, greater = 62
+   integer, parameter :: max_symbols = 32
+
+   !> The point symbols that a picture defines, and the ids that it refers to.
+   type :: symbols_t
+      integer :: count = 0
+      character(24) :: names(max_symbols) = ''
+      integer :: first(max_symbols) = 0, last(max_symbols) = 0    !! letters of the output
+      character(:), allocatable :: used      !! with a blank before and behind each
+   contains
+      procedure :: define, refer
+   end type symbols_t
+
 contains
 
-   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the text has none.
+   !> The <svg> element of a file, with ids `<prefix>_…` and a title; '' if the text has none. One pass over the text: the
+   !> pictures of a page are megabytes.
    pure function embedded_svg(text, prefix, title) result(svg)
       character(*), intent(in) :: text       !! content of the file
       character(*), intent(in) :: prefix     !! unique in the page: letters and digits
       character(*), intent(in) :: title      !! description of the picture, for screen readers
       character(:), allocatable :: svg
       type(buffer_t) :: out
-      character(:), allocatable :: used
+      type(symbols_t) :: symbols
       ! first letters of the elements that are left out, and their ends
       character(4), parameter :: omitted(5) = ['<scr', '<tit', '<des', '<fil', '<!--']
       character(9), parameter :: ends(5) = ['</script>', '</title> ', '</desc>  ', '</filter>', '-->      ']
-      integer :: at, last, finish, k
+      integer :: at, behind, finish, k
 
       svg = ''
       at = index(text, '<svg')
       finish = index(text, '</svg>', back=.true.)
       if (at == 0 .or. finish < at) return
-      last = next_of(text, at, '>') + 1
+      behind = next_of(text, at, '>') + 1
       ! no xmlns: HTML defines svg and xlink
-      call out%add('<svg viewBox="'//attribute(text(at:last - 1), 'viewBox')//'" role="img" aria-label="'//escape_html(title)//'">')
-      used = used_symbols(text)
-      at = last
+      call out%add('<svg viewBox="'//attribute(text(at:behind - 1), 'viewBox')//'" role="img" aria-label="'// &
+         escape_html(title)//'">')
+      at = behind
       do while (at < finish)
-         last = next_of(text, at, '<')
-         call add_words(out, text(at:last - 1))
-         if (last == finish) exit
-         at = last
-         k = findloc(omitted, text(at:at + 3), dim=1)
+         call add_words(out, text(:finish - 1), at)
+         if (at >= finish) exit
+         k = 0
+         select case (text(at + 1:at + 1))
+         case ('s', 't', 'd', 'f', '!')
+            k = findloc(omitted, text(at:at + 3), dim=1)
+         end select
          if (k > 0) then
             at = next_of(text, at, trim(ends(k))) + len_trim(ends(k))
          else
-            last = next_of(text, at, '>') + 1
-            if (text(at:at + 2) == '<g ' .and. text(last:min(last + 4, len(text))) == achar(10)//'</g>') then
-               last = last + 5                           ! gnuplot writes many empty groups
-            else if (.not. is_unused(text(at:last - 1), used)) then
-               call add_tag(out, text(at:last - 1), prefix)
-            end if
-            at = last
+            call add_tag(out, symbols, text(:finish - 1), prefix, at)
          end if
       end do
       call out%add('</svg>')
-      svg = out%text()
+      call take_used(out, symbols, svg)
+      svg = compact_svg(svg)
    end function embedded_svg
 
-   !> The ids that a picture refers to, each as '#id '.
-   pure function used_symbols(text) result(used)
-      character(*), intent(in) :: text
-      character(:), allocatable :: used
-      integer :: at, last
-
-      used = ''
-      at = next_of(text, 1, '#')
-      do while (at < len(text))
-         last = next_of(text, at, "'")
-         if (index(used, text(at:last - 1)//' ') == 0) used = used//text(at:last - 1)//' '
-         at = next_of(text, last, '#')
-      end do
-   end function used_symbols
-
-   !> Whether a tag defines a point symbol that is not used: gnuplot defines all sixteen in every picture.
-   pure logical function is_unused(tag, used)
-      character(*), intent(in) :: tag, used
-      character(:), allocatable :: id
-
-      is_unused = .false.
-      if (tag(len(tag) - 1:) /= '/>') return
-      if (index(tag(:min(len(tag), 40)), " id='gp") == 0) return
-      id = attribute(tag, 'id')
-      is_unused = index(used, '#'//id//' ') == 0
-   end function is_unused
-
-   !> Text between tags; blank text becomes one line end.
-   pure subroutine add_words(out, words)
+   !> Text up to the next tag, which begins at the new `at`; blank text becomes one line end.
+   pure subroutine add_words(out, text, at)
       type(buffer_t), intent(inout) :: out
-      character(*), intent(in) :: words
+      character(*), intent(in) :: text
+      integer, intent(inout) :: at           !! where the text begins
+      logical :: is_blank, has_end
+      integer :: first
 
-      if (verify(words, ' '//achar(9)//achar(10)//achar(13)) > 0) then
-         call out%add(words)
-      else if (index(words, achar(10)) > 0) then
-         call out%add(achar(10))
+      is_blank = .true.
+      has_end = .false.
+      first = at
+      do at = first, len(text)
+         select case (iachar(text(at:at)))
+         case (less)
+            exit
+         case (line_feed)
+            has_end = .true.
+         case (blank, tab, carriage_return)
+         case default
+            is_blank = .false.
+         end select
+      end do
+      if (.not. is_blank) then
+         call out%add(text(first:at - 1))
+      else if (has_end) then
+         call out%add(achar(line_feed))
       end if
    end subroutine add_words
 
-   !> A tag with its ids and references to ids renamed, its mouse events dropped.
-   pure recursive subroutine add_tag(out, tag, prefix)
+   !> A tag with its ids and references to ids renamed, its mouse events and gnuplot's default style dropped; `at` is then behind.
+   !> An empty group is left out with its end: gnuplot writes many.
+   pure subroutine add_tag(out, symbols, text, prefix, at)
       type(buffer_t), intent(inout) :: out
-      character(*), intent(in) :: tag, prefix
-      character(*), parameter :: defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
-      integer :: from, at, equals, first, last, renamed
+      type(symbols_t), intent(inout) :: symbols
+      character(*), intent(in) :: text, prefix
+      integer, intent(inout) :: at           !! where the tag begins
+      character(*), parameter :: empty = achar(line_feed)//'</g>', &
+         defaults = ' stroke-width="1.00" stroke-linecap="butt" stroke-linejoin="miter"'
+      integer :: begin, from, name, first, last, renamed, id(2), code
+      logical :: is_group
 
-      at = 0
-      if (tag(:min(len(tag), 3)) == '<g ') at = index(tag, defaults)
-      if (at > 0) then
-         call add_tag(out, tag(:at - 1)//tag(at + len(defaults):), prefix)
-         return
-      end if
-      from = 1                                           ! the first character that is not yet written
-      at = max(1, index(tag, ' '))
-      do
-         equals = next_of(tag, at, '=')                  ! name="value"
-         first = equals + scan(tag(equals + 1:), '"'//"'")
-         if (first <= equals) exit
-         last = next_of(tag, first + 1, tag(first:first))
-         if (last > len(tag)) exit
-         at = at - 1 + verify(tag(at:equals), ' '//achar(9)//achar(10))
-         renamed = 0                                     ! the character before the id
-         if (tag(at:equals - 1) == 'id') then
-            renamed = first
-         else if (tag(first + 1:first + 1) == '#' .and. index(tag(at:equals), 'href=') > 0) then
-            renamed = first + 1
-         else if (tag(first + 1:min(last, first + 5)) == 'url(#') then
-            renamed = first + 5
-         else if (tag(at:at + 1) == 'on') then           ! onclick="…"
-            call out%add(tag(from:at - 2))
-            from = last + 1
-         else if (tag(max(first, last - 5):last) == ':Bold"') then     ! the form in which gnuplot writes a bold font
-            call out%add(tag(from:last - 6)//'" font-weight="600"')
-            from = last + 1
-         end if
-         if (renamed > 0) then
-            call out%add(tag(from:renamed)//prefix//'_')
-            from = renamed + 1
-         end if
-         at = last + 1
+      begin = out%length()
+      is_group = .false.
+      if (at + 1 < len(text)) is_group = text(at + 1:at + 1) == 'g' .and. text(at + 2:at + 2) == ' '
+      from = at                              ! the first character that is not yet written
+      name = at + 1                          ! where the name of an attribute begins
+      id = 0                                 ! first and last letter
+      do while (at < len(text))
+         at = at + 1
+         code = iachar(text(at:at))
+         if (code > greater) cycle           ! most are the letters of a name
+         select case (code)
+         case (greater)
+            exit
+         case (blank, tab, line_feed)
+            name = at + 1
+            if (.not. is_group .or. text(min(name, len(text)):min(name, len(text))) /= 's') cycle
+            if (text(at:min(at + len(defaults) - 1, len(text))) /= defaults) cycle
+            call out%add(text(from:at - 1))
+            from = at + len(defaults)
+            at = from - 1
+         case (equal)                        ! name="value"
+            first = at + 1
+            if (first > len(text)) exit
+            code = iachar(text(first:first))
+            if (code /= quote .and. code /= apostrophe) cycle
+            do last = first + 1, len(text)
+               if (iachar(text(last:last)) == code) exit
+            end do
+            if (last > len(text)) then
+               at = len(text)
+               exit
+            end if
+            if (is_plain(text(name:last), first - name + 1)) then
+               at = last
+               cycle
+            end if
+            renamed = 0                      ! the character before the id
+            if (text(name:at - 1) == 'id') then
+               renamed = first
+               id = [first + 1, last - 1]
+            else if (text(first + 1:first + 1) == '#' .and. text(max(name, at - 4):at) == 'href=') then
+               renamed = first + 1
+               call symbols%refer(text(first + 2:last - 1))
+            else if (text(first + 1:min(last, first + 5)) == 'url(#') then
+               renamed = first + 5
+            else if (text(name:name + 1) == 'on') then             ! onclick="…"
+               call out%add(text(from:name - 2))
+               from = last + 1
+            else if (text(max(first, last - 5):last) == ':Bold"') then     ! the form in which gnuplot writes a bold font
+               call out%add(text(from:last - 6)//'" font-weight="600"')
+               from = last + 1
+            end if
+            if (renamed > 0) then
+               call out%add(text(from:renamed)//prefix//'_')
+               from = renamed + 1
+            end if
+            at = last
+         end select
       end do
-      call out%add(tag(from:))
+      call out%add(text(from:at))
+      at = at + 1
+      if (is_group .and. text(at:min(at + len(empty) - 1, len(text))) == empty) then
+         call out%clear(behind=begin)
+         at = at + len(empty)
+      else if (id(1) > 0) then
+         if (text(at - 2:at - 2) == '/') call symbols%define(text(id(1):id(2)), begin + 1, out%length())
+      end if
    end subroutine add_tag
 
-   !> The next position of a word, at `at` or behind it; behind the text if there is none.
-   pure integer function next_of(text, at, word) result(place)
-      character(*), intent(in) :: text, word
-      integer, intent(in) :: at
+   !> Whether an attribute name="value" can be kept, by single letters: most can, and the others are looked at closely.
+   pure logical function is_plain(attribute, value)
+      character(*), intent(in) :: attribute
+      integer, intent(in) :: value           !! place of the first quote
+      integer :: last
 
-      do place = at, len(text) - len(word) + 1      ! the library's index is several times slower
-         if (text(place:place) /= word(1:1)) cycle
-         if (text(place:place + len(word) - 1) == word) return
+      last = max(1, len(attribute) - 1)
+      is_plain = attribute(1:1) /= 'i' .and. attribute(1:1) /= 'o' .and. attribute(value + 1:value + 1) /= '#' .and. &
+         attribute(value + 1:value + 1) /= 'u' .and. attribute(last:last) /= 'd'
+   end function is_plain
+
+   !> Keeps where a point symbol is defined.
+   pure subroutine define(self, name, first, last)
+      class(symbols_t), intent(inout) :: self
+      character(*), intent(in) :: name
+      integer, intent(in) :: first, last     !! letters of the output
+
+      if (index(name, 'gp') /= 1 .or. len(name) > len(self%names) .or. self%count == max_symbols) return
+      self%count = self%count + 1
+      self%names(self%count) = name
+      self%first(self%count) = first
+      self%last(self%count) = last
+   end subroutine define
+
+   !> Keeps that an id is referred to.
+   pure subroutine refer(self, name)
+      class(symbols_t), intent(inout) :: self
+      character(*), intent(in) :: name
+
+      if (.not. allocated(self%used)) self%used = ' '
+      if (index(self%used, ' '//name//' ') == 0) self%used = self%used//name//' '
+   end subroutine refer
+
+   !> A picture without the point symbols to which it does not refer: gnuplot defines all sixteen in every picture.
+   pure subroutine take_used(out, symbols, svg)
+      type(buffer_t), intent(in) :: out
+      type(symbols_t), intent(in) :: symbols
+      character(:), allocatable, intent(out) :: svg
+      logical :: is_used(symbols%count)
+      integer :: k, from, used, length
+
+      is_used = .false.
+      do k = 1, symbols%count
+         if (allocated(symbols%used)) is_used(k) = index(symbols%used, ' '//trim(symbols%names(k))//' ') > 0
       end do
-      place = len(text) + 1
-   end function next_of
+      associate (first => symbols%first(:symbols%count), last => symbols%last(:symbols%count))
+         allocate (character(out%length() - sum(last - first + 1, mask=.not. is_used)) :: svg)
+      end associate
+      from = 1
+      used = 0
+      do k = 1, symbols%count
+         if (is_used(k)) cycle
+         length = symbols%first(k) - from
+         call out%copy(from, svg(used + 1:used + length))
+         used = used + length
+         from = symbols%last(k) + 1
+      end do
+      call out%copy(from, svg(used + 1:))
+   end subroutine take_used
 
    !> Value of an attribute, '' if it is missing.
    pure function attribute(tag, name) result(value)

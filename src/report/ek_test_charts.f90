@@ -5,17 +5,18 @@
 module ek_test_charts
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_rig_test, only: rig_test_t, rig_test, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, of_aligning, &
-      of_vertical, of_table
+   use ek_rig_test, only: rig_test_t, rig_test, is_scattered, of_tilt, of_roll, of_steer, of_lateral, of_braking, of_traction, &
+      of_aligning, of_vertical, of_table, of_grid
    use ek_table, only: table_t, name_length, column_index, row_count
    use ek_test_result, only: test_result_t, converged_rows, design_row, wheel_column, has_column, wheel_word
    use ek_quantity, only: quantity_t, quantity_named, label_of, without_phase, unit_of, unit_text
-   use ek_chart, only: chart_t, trace_t, new_chart, add_trace
+   use ek_chart, only: chart_t, trace_t, new_chart, add_trace, set_level, both_sides
    implicit none(type, external)
    private
    public :: test_charts, quantity_chart, ending_chart, bushing_chart, quantities_of
 
    real(wp), parameter :: longest_arm = 20000.0_wp   !! mm; a longer swing arm is not drawn: its length passes through infinity
+   real(wp), parameter :: widest_circle = 60.0_wp    !! m; a turning circle is infinite without steering
    integer, parameter :: max_curves = 8       !! in one chart, for legibility
 
 contains
@@ -38,9 +39,9 @@ contains
          call take(quantity_chart(test, quantity_named(columns(k))))
       end do
       call take(ending_chart(test, 'motion_ratio', '_motion_ratio', 'Motion ratio', &
-         'd(length)/d(wheel travel)    (− shortens in bump)', 1.0e-3_wp))
-      call take(ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', 'force, N    (+ compression)', 1.0_wp))
-      call take(ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 1.0_wp))
+         'd(length)/d(wheel travel)    (− shortens in bump)', 0.02_wp))
+      call take(ending_chart(test, 'force', '_force_n', 'Springs, dampers, stops', 'force, N    (+ compression)', 20.0_wp))
+      call take(ending_chart(test, 'torsion', '_moment_nm', 'Anti-roll bar', 'moment, N m', 2.0_wp))
       call take(bushing_chart(test))
       if (.not. allocated(charts)) allocate (charts(0))
       if (present(number)) drawn%test = number
@@ -55,9 +56,53 @@ contains
          if (size(chart%traces) == 0) return
          used = used + 1
          drawn(used) = chart
+         call join_sides(drawn(used))
+         call set_level(drawn(used))
       end subroutine take
 
    end subroutine test_charts
+
+   !> One line for the two sides where they are the same: within a thousandth of the least span, over the same abscissa.
+   pure subroutine join_sides(chart)
+      type(chart_t), intent(inout) :: chart
+      logical :: is_twin(size(chart%traces))
+      real(wp) :: near
+      integer :: k, l, n
+
+      is_twin = .false.
+      do k = 2, size(chart%traces)
+         do l = 1, k - 1
+            if (is_twin(l) .or. is_twin(k)) cycle
+            associate (left => chart%traces(l), right => chart%traces(k))
+               if (index(left%title, 'left') /= 1 .or. index(right%title, 'right') /= 1) cycle
+               if (left%title(5:) /= right%title(6:)) cycle
+               n = size(right%x)
+               near = 1.0e-6_wp*maxval(abs(left%x), mask=ieee_is_finite(left%x))
+               is_twin(k) = all_same(left%x, right%x, near) .and. all_same(left%y, right%y, 1.0e-3_wp*chart%noise)
+               ! each over its own travel, one up while the other goes down
+               if (.not. is_twin(k)) is_twin(k) = all_same(left%x, right%x(n:1:-1), near) .and. &
+                  all_same(left%y, right%y(n:1:-1), 1.0e-3_wp*chart%noise)
+               if (.not. is_twin(k)) cycle
+               if (left%title == 'left') left%title = both_sides
+               if (index(left%title, 'left_') == 1) left%title = left%title(6:)//' ('//both_sides//')'
+            end associate
+         end do
+      end do
+      if (any(is_twin)) chart%traces = pack(chart%traces, .not. is_twin)
+   end subroutine join_sides
+
+   !> Whether two curves have the same values where they have any, within a tolerance.
+   pure logical function all_same(a, b, tolerance)
+      real(wp), intent(in) :: a(:), b(:), tolerance
+      integer :: k
+
+      all_same = size(a) == size(b)
+      if (.not. all_same) return
+      do k = 1, size(a)
+         if (ieee_is_finite(a(k)) .neqv. ieee_is_finite(b(k))) all_same = .false.
+         if (ieee_is_finite(a(k)) .and. ieee_is_finite(b(k))) all_same = all_same .and. abs(a(k) - b(k)) <= tolerance
+      end do
+   end function all_same
 
    !> The columns drawn for a set of charts, the most important ones first.
    pure function quantities_of(kind) result(columns)
@@ -100,7 +145,7 @@ contains
          if (test%charts == of_tilt) columns = [character(48) :: columns(:13), &
             'suspension_roll_rate_nm_per_deg', 'roll_centre_y_mm']
          if (kind == 'other') columns = [character(48) :: 'steer_deg', columns]
-         if (test%charts == of_table) columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
+         if (any(test%charts == [of_table, of_grid])) columns = [character(48) :: 'wheel_travel_mm', 'steer_deg', columns]
       end select
    end function quantities_of
 
@@ -110,7 +155,7 @@ contains
       character(*), intent(in) :: name, title, label
 
       chart = new_chart(test%name//'_'//name, title, label, test%label)
-      chart%has_points = test%kind == 'table'
+      chart%has_points = is_scattered(test%kind)
    end function chart_of
 
    !> A quantity of every wheel, or of the axle, over the abscissa of the test; without curves if there is no such column.
@@ -134,6 +179,7 @@ contains
       chart = chart_of(test, trim(quantity%name), title, label)
       chart%noise = quantity%span
       if (index(quantity%name, '_arm_length_mm') > 0) chart%cap = longest_arm
+      if (unit_of(trim(quantity%name)) == 'm') chart%cap = widest_circle
       place = column_index(test%table, quantity%name)
       if (place > 0) then
          call add_column(chart, test, 1, place, '', merge(1, 3, size(test%prefixes) < 2), 0)
@@ -190,7 +236,7 @@ contains
 
       chart = chart_of(test, 'bushings', 'Bushings and joints', 'force, magnitude, N')
       chart%has_key = .true.
-      chart%noise = 1.0_wp
+      chart%noise = 20.0_wp
       call largest_forces(test%table, converged_rows(test%table), names, force, elements)
       do k = 1, size(names)
          call add_curve(chart, test, side_of(test, names(k)), '(sqrt(column("'//trim(names(k))//'_fx_n")**2 + column("'// &

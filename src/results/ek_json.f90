@@ -26,7 +26,7 @@ module ek_json
       logical, public :: is_one_line = .false.     !! blanks instead of lines and indents; set before the first item
       logical :: is_empty = .true.     !! the innermost list or object has no item yet
    contains
-      procedure :: open => json_open, close => json_close, item => json_item, text => json_text
+      procedure :: open => json_open, close => json_close, item => json_item, item_of_list => json_item_of_list, text => json_text
    end type json_t
 
 contains
@@ -63,6 +63,15 @@ contains
       call self%buffer%add(literal)
    end subroutine json_item
 
+   !> Add an item of a list.
+   pure subroutine json_item_of_list(self, literal)
+      class(json_t), intent(inout) :: self
+      character(*), intent(in) :: literal
+
+      call begin_item(self)
+      call self%buffer%add(literal)
+   end subroutine json_item_of_list
+
    !> The complete text, with a line end.
    pure function json_text(self) result(text)
       class(json_t), intent(in) :: self
@@ -97,26 +106,28 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: literal
       character(2) :: digits
-      integer :: k, code
+      integer :: k, code, first
 
       literal = '"'
+      first = 1                               ! the first character that is not yet copied
       do k = 1, len(text)
          code = iachar(text(k:k))
          select case (code)
          case (34, 92)                        ! quote, backslash
-            literal = literal//achar(92)//text(k:k)
+            literal = literal//text(first:k - 1)//achar(92)//text(k:k)
          case (10)
-            literal = literal//'\n'
+            literal = literal//text(first:k - 1)//'\n'
          case (9)
-            literal = literal//'\t'
+            literal = literal//text(first:k - 1)//'\t'
          case (0:8, 11:31, 127)
             write (digits, '(z2.2)') code
-            literal = literal//'\u00'//digits
+            literal = literal//text(first:k - 1)//'\u00'//digits
          case default
-            literal = literal//text(k:k)
+            cycle
          end select
+         first = k + 1
       end do
-      literal = literal//'"'
+      literal = literal//text(first:)//'"'
    end function json_string
 
    !> A number, or null if it is not finite.

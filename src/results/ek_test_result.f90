@@ -9,12 +9,22 @@ module ek_test_result
    use ek_table, only: table_t, name_length, column_index, column_range
    implicit none(type, external)
    private
-   public :: test_result_t, frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, unfolded_rows, design_row
+   public :: test_result_t, test_grid_t
+   public :: frame_line, read_frame_line, find_wheels, choose_abscissa, converged_rows, unfolded_rows, design_row
    public :: wheel_column, has_column, travel_column, min_stroke, wheel_word
 
    character(*), parameter :: travel_column = 'wheel_travel_mm'
    character(*), parameter :: axes_mark = 'axes ', iso = 'iso', right_mark = ', a right wheel'
    real(wp), parameter :: min_stroke = 1.0_wp   !! mm; with less travel the abscissa is the load factor
+
+   !> The grid of a test over travel and steering: its levels, ascending, and the row of the table at each pair.
+   type :: test_grid_t
+      real(wp), allocatable :: travel(:)     !! mm
+      real(wp), allocatable :: steer(:)      !! of the driver, in its unit
+      character(:), allocatable :: driver    !! its name
+      character(3) :: unit = 'mm'            !! of its values: mm or deg
+      integer, allocatable :: row(:, :)      !! (travel, steer); 0: the state did not converge
+   end type test_grid_t
 
    type :: test_result_t
       character(:), allocatable :: name      !! name of the case, unique in a report
@@ -26,12 +36,15 @@ module ek_test_result
       character(:), allocatable :: abscissa, label
       real(wp) :: abscissa_size = 1.0_wp
       real(wp) :: factor_size = 1.0_wp       !! load or displacement at `factor` = 1 [N, N m or mm]
+      character(48) :: held = ''             !! what holds the wheels: 'vertical force held'; '': unknown
       logical :: is_anti = .false.           !! the load on the right wheel is opposite to that on the left
       logical :: is_iso = .false.            !! vectors in the table are in ISO 8855 axes (x forward, y left)
       character(name_length), allocatable :: prefixes(:)   !! of the wheels: '', or 'left_' and 'right_'
       integer, allocatable :: sides(:)       !! of the wheels: −1 left, +1 right
       logical :: is_run = .true.             !! false: the model could not be solved, and the table is empty
       type(table_t) :: table
+      type(test_grid_t), allocatable :: grid !! of a test whose states form a grid
+      character(:), allocatable :: envelope  !! file of the wheel envelope of a grid, in the folder of the report
       type(message_list_t) :: remarks        !! messages on failed or doubtful states
    end type test_result_t
 

@@ -120,7 +120,8 @@ contains
       integer :: k, n
 
       n = size(self%status)
-      call begin_file(writer, path, error)
+      ! without waiting for the disk, up to a millisecond of all threads: a chunk that a power cut damages is computed again
+      call begin_file(writer, path, error, can_be_redrawn=.true.)
       if (allocated(error)) return
       call put(mark//line_end//identity//line_end)
       call put(line_of(self)//line_end)

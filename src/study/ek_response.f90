@@ -7,7 +7,7 @@ module ek_response
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_text, only: str, quoted, nearest_name, plural
+   use ek_text, only: str, quoted, nearest_name, suggestion, plural
    use ek_quantity, only: slope_unit, unit_of, head_with_unit
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_test_result, only: test_result_t
@@ -15,10 +15,10 @@ module ek_response
    use ek_gradient, only: gradient_t, test_gradients, noise_of
    use ek_study, only: response_t, of_names
    use ek_response_value, only: reading_t, read_response, is_slope, find_window, rounded, place_of_column, an_rms, a_gradient, &
-      no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states
+      a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states
    implicit none(type, external)
    private
-   public :: needed_columns, no_column, prepare_reading, fault_text
+   public :: needed_columns, no_column, prepare_reading, prepare_difference, fault_text
 
    character(*), parameter :: travel = 'wheel_travel_mm'
 
@@ -32,6 +32,7 @@ contains
       type(definition_t), allocatable :: list(:)
       integer :: mark, k
 
+      if (asked%of == 'difference') return
       if (asked%of == 'gradient') then
          list = definitions_of(kind)
          do k = 1, size(list)
@@ -110,6 +111,22 @@ contains
       end if
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
+
+   !> The reading of a difference, after those of its two responses.
+   subroutine prepare_difference(asked, first, second, reading, message)
+      type(response_t), intent(in) :: asked
+      type(reading_t), intent(in) :: first, second
+      type(reading_t), intent(out) :: reading
+      character(:), allocatable, intent(out) :: message
+
+      reading%asked = asked
+      reading%of = a_difference
+      reading%over = ''
+      reading%head = head_with_unit(asked%name, unit_of(first%head))
+      message = ''
+      if (unit_of(first%head) /= unit_of(second%head)) message = asked%where//': response '//quoted(asked%name)//': '// &
+         quoted(first%head)//' and '//quoted(second%head)//' have different units'
+   end subroutine prepare_difference
 
    !> The columns, the window and the sign of a gradient of the report.
    subroutine find_gradient(test, reading, message)
@@ -250,9 +267,7 @@ contains
       character(*), intent(in) :: name, heads(:)
       character(:), allocatable :: words
 
-      words = nearest_name(name, heads)
-      if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
-      words = 'the results have no column '//quoted(name)//words
+      words = 'the results have no column '//quoted(name)//suggestion(name, heads)
    end function no_column
 
 end module ek_response

@@ -8,7 +8,7 @@ module ek_response_value
    use ek_study, only: response_t
    implicit none(type, external)
    private
-   public :: reading_t, read_response, is_slope, find_window, rounded, place_of_column
+   public :: reading_t, read_response, is_difference, is_slope, find_window, rounded, place_of_column
 
    !> A response, prepared for tables with given columns.
    type :: reading_t
@@ -23,7 +23,8 @@ module ek_response_value
    end type reading_t
 
    ! what is read: numbers of of_names
-   integer, parameter, public :: a_value = 1, a_slope = 2, a_span = 3, a_least = 4, a_most = 5, an_rms = 6, a_gradient = 7
+   integer, parameter, public :: a_value = 1, a_slope = 2, a_span = 3, a_least = 4, a_most = 5, an_rms = 6, a_gradient = 7, &
+      a_difference = 8
 
    ! why it cannot be read
    integer, parameter, public :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, &
@@ -38,7 +39,7 @@ contains
       type(table_t), intent(in) :: table
       real(wp), intent(out) :: value             !! nan if there is none
       integer, intent(out) :: fault              !! 0, or for fault_text
-      real(wp) :: at, centre, mean_x, mean_y, spread
+      real(wp) :: at, centre, spread, low, high
       integer :: points
       real(wp) :: x(size(table%values, 2)), y(size(table%values, 2))
       logical :: is_near(size(table%values, 2))
@@ -75,8 +76,9 @@ contains
          end do
          if (fault == no_fault) value = sqrt(spread/size(reading%curve, 2))
       case default
-         at = rounded(reading%asked%at, x)
-         if (.not. (at >= minval(x) .and. at <= maxval(x))) then
+         call find_ends(x, low, high)
+         at = nearest_end(reading%asked%at, low, high)
+         if (.not. (at >= low .and. at <= high)) then
             fault = is_outside
             return
          end if
@@ -91,16 +93,49 @@ contains
             fault = has_no_slope
             return
          end if
-         mean_x = sum(x, mask=is_near)/count(is_near)
-         mean_y = sum(y, mask=is_near)/count(is_near)
-         spread = sum((x - mean_x)**2, mask=is_near)
+         call fit_line(x, y, is_near, value, spread)
          if (spread > 0.0_wp) then
-            value = reading%size*sum((x - mean_x)*(y - mean_y), mask=is_near)/spread
+            value = reading%size*value/spread
          else
+            value = ieee_value(1.0_wp, ieee_quiet_nan)
             fault = is_flat
          end if
       end select
    end subroutine read_response
+
+   !> Whether a response is the difference of two others and is read from no table.
+   pure logical function is_difference(reading)
+      type(reading_t), intent(in) :: reading
+      is_difference = reading%of == a_difference
+   end function is_difference
+
+   !> Sums of the least-squares line through some points: its slope is along/spread.
+   pure subroutine fit_line(x, y, is_near, along, spread)
+      real(wp), contiguous, intent(in) :: x(:), y(:)
+      logical, contiguous, intent(in) :: is_near(:)      !! which points
+      real(wp), intent(out) :: along, spread             !! Σ (x − mean x)(y − mean y), Σ (x − mean x)²
+      real(wp) :: mean_x, mean_y
+      integer :: k, points
+
+      points = 0
+      mean_x = 0.0_wp
+      mean_y = 0.0_wp
+      do k = 1, size(x)
+         if (.not. is_near(k)) cycle
+         points = points + 1
+         mean_x = mean_x + x(k)
+         mean_y = mean_y + y(k)
+      end do
+      mean_x = mean_x/points
+      mean_y = mean_y/points
+      along = 0.0_wp
+      spread = 0.0_wp
+      do k = 1, size(x)
+         if (.not. is_near(k)) cycle
+         spread = spread + (x(k) - mean_x)**2
+         along = along + (x(k) - mean_x)*(y(k) - mean_y)
+      end do
+   end subroutine fit_line
 
    pure logical function is_slope(reading)
       type(reading_t), intent(in) :: reading
@@ -116,31 +151,63 @@ contains
       real(wp), intent(out) :: centre            !! of the window
       logical, intent(out) :: is_near(:)
       real(wp), parameter :: rounding = 1.0e-9_wp
+      real(wp) :: x(size(table%values, 2))
+      integer :: k
 
-      centre = between(table%values(2, :), table%values(over, :), at)
-      is_near = ieee_is_finite(table%values(over, :))
-      where (is_near) is_near = abs(table%values(over, :) - centre) <= reading%asked%window*(1.0_wp + rounding)
+      x = table%values(over, :)
+      centre = between(table%values(2, :), x, at)
+      do k = 1, size(x)
+         is_near(k) = ieee_is_finite(x(k))
+         if (is_near(k)) is_near(k) = abs(x(k) - centre) <= reading%asked%window*(1.0_wp + rounding)
+      end do
    end subroutine find_window
 
    !> A swept value that differs from an end of the range by rounding only is that end.
    pure real(wp) function rounded(at, x)
       real(wp), intent(in) :: at, x(:)
+      real(wp) :: low, high
+
+      call find_ends(x, low, high)
+      rounded = nearest_end(at, low, high)
+   end function rounded
+
+   !> The least and the largest of some swept values.
+   pure subroutine find_ends(x, low, high)
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(out) :: low, high
+      integer :: k
+
+      low = huge(low)
+      high = -huge(high)
+      do k = 1, size(x)
+         low = min(low, x(k))
+         high = max(high, x(k))
+      end do
+   end subroutine find_ends
+
+   !> The same with the ends.
+   pure real(wp) function nearest_end(at, low, high) result(rounded)
+      real(wp), intent(in) :: at, low, high
       real(wp), parameter :: rounding = 1.0e-9_wp      ! of the range of a case, after conversion to SI
 
       rounded = at
-      if (abs(at - minval(x)) <= rounding*(maxval(x) - minval(x))) rounded = minval(x)
-      if (abs(at - maxval(x)) <= rounding*(maxval(x) - minval(x))) rounded = maxval(x)
-   end function rounded
+      if (abs(at - low) <= rounding*(high - low)) rounded = low
+      if (abs(at - high) <= rounding*(high - low)) rounded = high
+   end function nearest_end
 
    !> The place of a column: usually that in the table of the first design.
    pure integer function place_of_column(table, name, usual) result(place)
       type(table_t), intent(in) :: table
       character(*), intent(in) :: name
       integer, intent(in) :: usual
+      integer :: letters
 
       place = usual
       if (place >= 1 .and. place <= size(table%columns)) then
-         if (table%columns(place) == name) return
+         letters = len_trim(name)                ! a comparison of texts of one length is much the fastest
+         if (len_trim(table%columns(place)) == letters) then
+            if (table%columns(place)(:letters) == name(:letters)) return
+         end if
       end if
       place = column_index(table, name)
    end function place_of_column

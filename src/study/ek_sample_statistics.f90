@@ -3,7 +3,8 @@ module ek_sample_statistics
    use ek_kinds, only: wp
    implicit none(type, external)
    private
-   public :: mean_and_deviation, ascending_order, percentile, percentile_interval, linear_correlation, rank_correlation, ranks
+   public :: mean_and_deviation, error_of_deviation, ascending_order, percentile, percentile_interval, linear_correlation, &
+      rank_correlation, ranks
 
 contains
 
@@ -21,6 +22,17 @@ contains
       end do
       deviation = sqrt(deviation/max(1, n - 1))
    end subroutine mean_and_deviation
+
+   !> Standard error of the standard deviation s of a sample of n, by its fourth moment κ s⁴: s √((κ − 1)/4n).
+   pure real(wp) function error_of_deviation(values) result(error)
+      real(wp), intent(in) :: values(:)            !! not all equal
+      real(wp) :: mean, deviation
+      integer :: n
+
+      n = size(values)
+      call mean_and_deviation(values, mean, deviation)
+      error = deviation*sqrt(max(0.0_wp, sum((values - mean)**4)/n/deviation**4 - 1.0_wp)/(4.0_wp*n))
+   end function error_of_deviation
 
    !> The order in which values ascend: values(order(1)) is the smallest. Equal values keep their order (merge sort).
    pure subroutine ascending_order(values, order)

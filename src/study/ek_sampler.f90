@@ -13,6 +13,7 @@
 !> | saltelli | n (k + 2) | A, AB₁ … AB_k, B from Sobol' points of 2k coordinates, for sensitivity indices (ek_sensitivity) |
 !> | monte_carlo | n | u independent |
 !> | morris | n (k + 1) | n trajectories, on which each factor changes once by p/2 of its p levels (Morris 1991) |
+!> | tolerance | n | those of monte_carlo, beside the moments by derivatives (ek_tolerance) |
 !>
 !> A factor with `values` takes these only: as levels, or at random each with the same probability. Correlations (ek_copula) apply
 !> to latin_hypercube (whose intervals are then filled exactly by the first factor of each group only), sobol and monte_carlo.

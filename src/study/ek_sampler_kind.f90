@@ -4,10 +4,10 @@ module ek_sampler_kind
    private
    public :: sampler_kind_t, sampler_kinds
    public :: grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, sobol_kind, saltelli_kind, monte_carlo_kind
-   public :: morris_kind
+   public :: morris_kind, tolerance_kind
 
    integer, parameter :: grid_kind = 1, one_at_a_time_kind = 2, list_kind = 3, latin_hypercube_kind = 4, sobol_kind = 5, &
-      saltelli_kind = 6, monte_carlo_kind = 7, morris_kind = 8
+      saltelli_kind = 6, monte_carlo_kind = 7, morris_kind = 8, tolerance_kind = 9
 
    !> What a deck may give for a kind.
    type :: sampler_kind_t
@@ -18,7 +18,7 @@ module ek_sampler_kind
       logical :: has_correlations
    end type sampler_kind_t
 
-   type(sampler_kind_t), parameter :: sampler_kinds(8) = [ &
+   type(sampler_kind_t), parameter :: sampler_kinds(9) = [ &
       sampler_kind_t('grid', .false., .true., .false., .false.), &
       sampler_kind_t('one_at_a_time', .false., .true., .false., .false.), &
       sampler_kind_t('list', .false., .false., .false., .false.), &
@@ -26,6 +26,7 @@ module ek_sampler_kind
       sampler_kind_t('sobol', .true., .false., .true., .true.), &
       sampler_kind_t('saltelli', .true., .false., .true., .false.), &
       sampler_kind_t('monte_carlo', .true., .false., .true., .true.), &
-      sampler_kind_t('morris', .true., .true., .true., .false.)]
+      sampler_kind_t('morris', .true., .true., .true., .false.), &
+      sampler_kind_t('tolerance', .true., .false., .true., .false.)]
 
 end module ek_sampler_kind

@@ -293,6 +293,8 @@ contains
       case ('gradient')
          text = 'Gradient '//response%column
          if (response%side /= '') text = text//', '//response%side//' wheel'
+      case ('difference')
+         text = 'Difference of '//trim(response%names(1))//' and '//trim(response%names(2))
       case default
          text = text//', '//response%of
       end select

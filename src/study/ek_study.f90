@@ -50,11 +50,14 @@ module ek_study
       real(wp) :: window = 15.0_wp                !! half width of the slope's window, unit of `over`; gradient: 0 for its own
       character(:), allocatable :: file           !! rms: CSV of the curve from which the column deviates
       real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)      !! limits that a good design keeps
+      character(word_length) :: names(2) = ''     !! difference: two responses before it, first minus second
+      integer :: less(2) = 0                      !! their numbers
       character(:), allocatable :: where          !! 'file:line', for messages
    end type response_t
 
    !> What a response reads of a case.
-   character(*), parameter, public :: of_names(7) = [character(8) :: 'value', 'slope', 'span', 'min', 'max', 'rms', 'gradient']
+   character(*), parameter, public :: of_names(8) = [character(10) :: 'value', 'slope', 'span', 'min', 'max', 'rms', &
+      'gradient', 'difference']
 
    !> A study.
    type :: study_t

@@ -9,25 +9,26 @@ module ek_study_design
    use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
    use ek_text, only: str, quoted, replace
    use ek_deck, only: deck_t, set_value
-   use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of, test_of
    use ek_sweep_table, only: sweep_columns
-   use ek_test_result, only: test_result_t, find_wheels
    use ek_table, only: table_t, column_index, name_length
    use ek_quantity, only: head_with_unit
    use ek_study, only: study_t, not_given
-   use ek_response, only: needed_columns, no_column, prepare_reading, fault_text
-   use ek_response_value, only: reading_t, read_response
+   use ek_response, only: needed_columns, no_column, prepare_reading, prepare_difference, fault_text
+   use ek_response_value, only: reading_t, read_response, is_difference
+   use ek_study_pack, only: pack_space_t, begin_packs, walk_case, lanes
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
    use ek_factor_unit, only: factor_unit, unit_ending
    use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest
    use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
    implicit none(type, external)
    private
-   public :: designer_t, begin_designer, new_designer, solve_design
+   public :: designer_t, begin_designer, new_designer, solve_designs
 
    !> What one thread keeps from design to design.
    type :: designer_t
-      type(worker_t) :: worker
+      class(worker_t), allocatable :: worker               !! allocated by begin_designer; a class as in worker_case_t
+      class(pack_space_t), allocatable :: packs                       !! for designs that are solved together
       type(factor_paths_t), allocatable :: paths(:)        !! of the factors
       character(name_length), allocatable :: case_names(:) !! of the cases that are solved; '': the first of the deck
       type(solve_options_t), allocatable :: options(:)     !! of each case: its columns
@@ -53,6 +54,7 @@ contains
       call check_paths(study, deck, error)
       if (allocated(error)) return
       if (allocated(study%increments)) designer%increments = sum(study%increments)       ! one or none
+      allocate (designer%worker)
       call make_worker(deck, designer%case_names, designer%worker, error, designer%increments)
       if (allocated(error)) return
       allocate (designer%paths(size(study%factors)), designer%units(size(study%factors)), designer%heads(size(study%factors)))
@@ -85,6 +87,8 @@ contains
          end associate
          if (allocated(error)) return
       end do
+      allocate (designer%packs)
+      call begin_packs(designer%worker, designer%packs)
       designer%states = size(designer%worker%cases(1)%result%table%values, 2)
       call check_columns(study, home, designer, error)
    end subroutine new_designer
@@ -106,20 +110,6 @@ contains
       end do
    end subroutine list_cases
 
-   !> The case of a result as a test of the report.
-   function test_of(result) result(test)
-      type(case_result_t), intent(in) :: result
-      type(test_result_t) :: test
-
-      test%name = result%case%name
-      test%kind = result%case%test
-      test%is_anti = result%case%is_anti
-      test%is_iso = result%suspension%is_iso
-      test%table = result%table
-      allocate (test%prefixes(0), test%sides(0))
-      if (size(result%suspension%wheels) > 0) call find_wheels(test, result%suspension%wheels(1)%side)
-   end function test_of
-
    !> The columns that are computed of a case.
    subroutine list_columns(study, designer, case)
       type(study_t), intent(in) :: study
@@ -135,6 +125,7 @@ contains
             designer%worker%cases(case)%case%test, wanted)
       end do
       designer%options(case)%columns = wanted
+      designer%options(case)%has_violation = any(wanted == 'constraint_error')
    end subroutine list_columns
 
    !> Checks that all columns named by the study are in the tables of the first design and that its responses can be read.
@@ -157,10 +148,14 @@ contains
       end associate
       allocate (designer%readings(size(study%responses)))
       do k = 1, size(study%responses)
-         associate (result => designer%worker%cases(designer%case_of(k))%result, readings => designer%readings)
+         associate (result => designer%worker%cases(designer%case_of(k))%result, readings => designer%readings, &
+            asked => study%responses(k))
             call sweep_columns(result%suspension, result%case, heads)
-            call prepare_reading(study%responses(k), result%table, result%case%unit_name, readings(k), message, heads, home, &
-               test_of(result))
+            if (asked%of == 'difference') then
+               call prepare_difference(asked, readings(asked%less(1)), readings(asked%less(2)), readings(k), message)
+            else
+               call prepare_reading(asked, result%table, result%case%unit_name, readings(k), message, heads, home, test_of(result))
+            end if
             if (message /= '') call mistakes%add(message)
          end associate
       end do
@@ -203,35 +198,66 @@ contains
 
    end subroutine check_heads
 
-   !> Solves design k of a chunk, whose factors the chunk has, and fills its row.
-   subroutine solve_design(study, deck, designer, k, chunk)
+   !> Solves some designs of a chunk, at most `lanes`, whose factors the chunk has, and fills their rows.
+   subroutine solve_designs(study, deck, designer, first, last, chunk)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       type(designer_t), intent(inout) :: designer
-      integer, intent(in) :: k
+      integer, intent(in) :: first, last
       type(chunk_t), intent(inout) :: chunk
-      logical :: is_done
-      integer :: faults(size(designer%readings)), case
+      logical :: is_done(lanes), is_walked(lanes, size(designer%options))
+      integer :: k, l, c
+
+      is_done = .false.
+      do k = first, last
+         l = k - first + 1
+         if (l == 1) then
+            call change_design(designer%paths, chunk%factors(:, k), designer%worker, is_done(l))
+         else
+            call change_design(designer%paths, chunk%factors(:, k), designer%packs%workers(l - 1), is_done(l))
+         end if
+      end do
+      is_walked = .false.
+      do c = 1, size(designer%options)
+         if (any(is_done)) call walk_case(c, designer%worker, is_done, designer%packs, is_walked(:, c))
+      end do
+      do k = first, last
+         l = k - first + 1
+         if (.not. is_done(l)) then
+            chunk%responses(:, k) = not_given()
+            !$omp critical (ek_words)
+            call solve_from_text(study, deck, designer, k, chunk)
+            !$omp end critical (ek_words)
+         else if (l == 1) then
+            call finish_design(study, designer, is_walked(l, :), k, designer%worker, chunk)
+         else
+            call finish_design(study, designer, is_walked(l, :), k, designer%packs%workers(l - 1), chunk)
+         end if
+      end do
+   end subroutine solve_designs
+
+   !> Solves the cases of a design whose paths were not walked in a pack, and fills its row.
+   subroutine finish_design(study, designer, is_walked, k, worker, chunk)
+      type(study_t), intent(in) :: study
+      type(designer_t), intent(in) :: designer
+      logical, intent(in) :: is_walked(:)         !! of each case
+      integer, intent(in) :: k
+      type(worker_t), intent(inout) :: worker     !! with the numbers of the design
+      type(chunk_t), intent(inout) :: chunk
+      integer :: faults(size(designer%readings)), c
 
       chunk%responses(:, k) = not_given()
-      call change_design(designer%paths, chunk%factors(:, k), designer%worker, is_done)
-      if (.not. is_done) then
-         !$omp critical (ek_words)
-         call solve_from_text(study, deck, designer, k, chunk)
-         !$omp end critical (ek_words)
-         return
-      end if
-      do case = 1, size(designer%options)
-         associate (this => designer%worker%cases(case))
-            call solve_mounted(designer%options(case), this%result, observer=this%observer)
+      do c = 1, size(worker%cases)
+         associate (this => worker%cases(c))
+            call solve_mounted(designer%options(c), this%result, observer=this%observer, is_walked=is_walked(c))
          end associate
       end do
-      call take_row(study, designer, designer%worker, k, chunk, faults)
+      call take_row(study, designer, worker, k, chunk, faults)
       if (chunk%status(k) == design_solved) return
       !$omp critical (ek_words)
-      call explain(designer, designer%worker, k, faults, chunk)
+      call explain(designer, worker, k, faults, chunk)
       !$omp end critical (ek_words)
-   end subroutine solve_design
+   end subroutine finish_design
 
    !> Solves a design that is read from the deck with its factors as settings, with a worker of its own.
    subroutine solve_from_text(study, deck, designer, k, chunk)
@@ -291,9 +317,12 @@ contains
       end do
       faults = 0
       do j = 1, size(designer%readings)
-         associate (result => worker%cases(designer%case_of(j))%result)
-            if (.not. is_whole(result)) cycle
-            call read_response(designer%readings(j), result%table, chunk%responses(j, k), faults(j))
+         associate (result => worker%cases(designer%case_of(j))%result, less => designer%readings(j)%asked%less)
+            if (is_difference(designer%readings(j))) then
+               chunk%responses(j, k) = chunk%responses(less(1), k) - chunk%responses(less(2), k)
+            else if (is_whole(result)) then
+               call read_response(designer%readings(j), result%table, chunk%responses(j, k), faults(j))
+            end if
             if (.not. ieee_is_finite(chunk%responses(j, k))) chunk%status(k) = design_incomplete
          end associate
       end do

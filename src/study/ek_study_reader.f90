@@ -5,11 +5,11 @@
 module ek_study_reader
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck
-   use ek_text, only: str, lower, quoted
+   use ek_text, only: str, lower, quoted, did_you_mean
    use ek_case, only: method_names, max_increments
    use ek_record, only: element, place_of
-   use ek_group, only: group_number, study_group, factor_group, response_group, correlation_group, record_head, word_length, &
-      max_values, max_paths, did_you_mean, is_deck_group, names_of_groups
+   use ek_group, only: group_number, study_groups, study_group, factor_group, response_group, correlation_group, record_head, &
+      word_length, max_values, max_paths, is_deck_group, names_of_groups
    use ek_namelist, only: check_record, is_legal_name
    use ek_deck, only: deck_t, read_deck, include_records
    use ek_deck_reading, only: deck_reading_t, complain, complain_of_all, refuse, choice, choose, has_key, where_of, line_of, &
@@ -57,7 +57,7 @@ contains
          reading%k = k
          associate (card => reading%cards(k), record => reading%records(k))
             card%group = group_number(record%group)
-            if (card%group == 0 .or. is_deck_group(card%group)) then
+            if (.not. any(study_groups == card%group)) then
                call reading%deck_errors%add(place_of(record, 0), 'there is no group &'//record%group//' in a study'// &
                   did_you_mean(record%group, names_of_groups(of_deck=.false.)))
                card%group = 0
@@ -226,6 +226,7 @@ contains
       this%tolerance = number_of(reading, 'tolerance', not_given())
       this%deviation = number_of(reading, 'deviation', not_given())
       this%where = where_of(reading)
+      call refuse(reading, ['weights'], 'only the factors of a fit have weights')
       if (has_key(reading, 'values')) then
          this%values = numbers_of(reading, 'values', value_count(reading, 'values'))
          call refuse(reading, [character(5) :: 'from', 'to', 'count'], 'give values, or from, to and count, not both')
@@ -352,8 +353,34 @@ contains
          'of = ''rms'' and file, a CSV of the curve from which the column deviates, belong together')
       if (this%lower > this%upper) &
          call complain(reading, 'upper', 'the limits leave no value: lower is above upper')
+      call take_difference(reading, study, this)
       study%responses = [study%responses, this]
    end subroutine take_response
+
+   !> The two responses of a difference; any other response has a column.
+   subroutine take_difference(reading, study, this)
+      type(deck_reading_t), intent(inout) :: reading
+      type(study_t), intent(in) :: study                   !! with the responses before this one
+      type(response_t), intent(inout) :: this
+      character(*), parameter :: others(7) = [character(6) :: 'column', 'case', 'side', 'at', 'over', 'window', 'file']
+      integer :: j, k
+
+      if (this%of /= 'difference') then
+         call refuse(reading, ['responses'], 'only of = ''difference'' has two responses')
+         if (.not. has_key(reading, 'column')) call complain(reading, '', '''column'' is missing')
+         return
+      end if
+      call refuse(reading, others, 'a difference has what its two responses have')
+      this%names = texts_of(reading, 'responses', 2)
+      if (.not. has_key(reading, 'responses')) call complain(reading, '', 'of = ''difference'' needs responses, the names of two')
+      do k = 1, 2
+         do j = 1, size(study%responses)
+            if (study%responses(j)%name == this%names(k)) this%less(k) = j
+         end do
+         if (this%less(k) == 0 .and. this%names(k) /= '') call complain(reading, 'responses', 'there is no response '// &
+            quoted(trim(this%names(k)))//' before this one')
+      end do
+   end subroutine take_difference
 
    !> Checks that the parts of a study are consistent.
    subroutine check_whole(reading, study)

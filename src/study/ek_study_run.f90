@@ -16,7 +16,7 @@ module ek_study_run
       renew_scratch, end_scratch
    use ek_deck, only: deck_t
    use ek_study, only: study_t
-   use ek_study_design, only: designer_t, solve_design
+   use ek_study_design, only: designer_t, solve_designs
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
@@ -253,8 +253,8 @@ contains
          begun = seconds()
          call begin_chunk(plan, number, chunk)
          is_whole = .true.
-         do k = 1, size(chunk%status)
-            call solve_design(study, deck, mine, k, chunk)
+         do k = 1, size(chunk%status), size(mine%packs%workers) + 1
+            call solve_designs(study, deck, mine, k, min(k + size(mine%packs%workers), size(chunk%status)), chunk)
             is_whole = .not. is_stop_asked()
             if (.not. is_whole) exit
             if (ranks%count == 1) cycle

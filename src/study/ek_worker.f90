@@ -6,17 +6,18 @@
 module ek_worker
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_model
-   use ek_text, only: quoted
-   use ek_group, only: did_you_mean, word_length
+   use ek_text, only: quoted, did_you_mean
+   use ek_group, only: word_length
    use ek_deck, only: deck_t
    use ek_reader, only: design_t, read_design, realise_deck
    use ek_parameter, only: choice_t, in_range
    use ek_realise, only: realise, realise_cases
    use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, is_mountable
+   use ek_case, only: case_t, copy_case_numbers, is_mountable, prefer_plan
    use ek_balance, only: balance
+   use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
-   use ek_rig, only: mount_case
+   use ek_rig, only: mount_again, take_off
    use ek_standard_tests, only: standard_tests, cover_rack_travel
    use ek_sweep_table, only: observer_t
    use ek_case_result, only: case_result_t
@@ -39,7 +40,9 @@ module ek_worker
       integer :: number = 0                       !! in the deck; 0: a standard test
       type(known_case_t) :: known                 !! what the first design has proved about the others
       type(observer_t), allocatable :: observer   !! of the columns of its results, for solve_case
-      type(case_result_t) :: result               !! of the present design; change_design puts the case on the rig
+      class(case_result_t), allocatable :: result !! of the present design; change_design puts the case on the rig. A class:
+                                                  !! gfortran copies a type that holds one by calling a procedure; otherwise it
+                                                  !! writes out the copy at each use, and the program grows
    end type worker_case_t
 
    !> One design after the other of a deck.
@@ -48,6 +51,7 @@ module ek_worker
       type(worker_case_t), allocatable :: cases(:)
       type(design_t) :: design
       real(wp), allocatable :: x(:)               !! of the present design
+      type(preload_problem_t), private :: space   !! of balance
    end type worker_t
 
 contains
@@ -73,6 +77,7 @@ contains
       if (present(increments)) then
          if (increments > 0) worker%design%cases%increments = increments
       end if
+      call prefer_plan(worker%design%cases)
       call realise_deck(deck%file, worker%design, worker%suspension, error)
       if (allocated(error)) return
       worker%x = worker%design%parameters%x
@@ -84,7 +89,9 @@ contains
          end if
       end do
       do k = 1, size(worker%cases)
-         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known)
+         ! on the rig from now on: the order of elimination of all designs is that of this one
+         call examine_case(worker%suspension, worker%cases(k)%case, diagnosis, worker%cases(k)%known, &
+            worker%cases(k)%result%mounted_case_t)
          if (diagnosis%is_solvable()) cycle
          call fail(error, exit_model, deck%file//': the model cannot be solved'//new_line('a')//diagnosis%words())
          return
@@ -105,6 +112,8 @@ contains
 
       if (allocated(found%observer)) deallocate (found%observer)
       allocate (found%observer)
+      if (.not. allocated(found%result)) allocate (found%result)
+      call take_off(found%result%mounted_case_t)
       do k = 1, size(cases)
          if (len(name) == 0 .or. cases(k)%name == name) exit
       end do
@@ -123,6 +132,7 @@ contains
          end if
          found%number = 0
          found%case = tests(j)
+         call prefer_plan(found%case)
          return
       end if
       if (cases(k)%follows_arc) then
@@ -159,11 +169,11 @@ contains
          call examine_design(worker%suspension, worker%design, worker%cases(k), is_done)
          if (.not. is_done) return
       end do
-      call balance(worker%suspension, worker%cases(1)%case%tolerance, error, is_terse=.true.)
+      call balance(worker%suspension, worker%cases(1)%case%tolerance, error, is_terse=.true., space=worker%space)
       is_done = .not. allocated(error)
       if (.not. is_done .or. worker%suspension%balance == 'none') return
       do k = 1, size(worker%cases)      ! they were examined without the preloads of balance
-         call mount_case(worker%suspension, worker%cases(k)%case, worker%cases(k)%result%mounted_case_t)
+         call mount_again(worker%suspension, worker%cases(k)%case, worker%cases(k)%result%mounted_case_t)
       end do
    end subroutine change_design
 
@@ -180,6 +190,7 @@ contains
       call refresh_case(suspension, design, this)
       is_sound = is_mountable(this%case)
       if (.not. is_sound) return
+      if (.not. allocated(this%result)) allocate (this%result)
       call examine_case(suspension, this%case, diagnosis, this%known, this%result%mounted_case_t, is_in_doubt)
       is_sound = .not. is_in_doubt
    end subroutine examine_design
@@ -191,7 +202,7 @@ contains
       type(worker_case_t), intent(inout) :: this
 
       if (this%number > 0) then
-         this%case = design%cases(this%number)
+         call copy_case_numbers(design%cases(this%number), this%case)
       else
          call cover_rack_travel(suspension, this%case)
       end if
@@ -234,7 +245,10 @@ contains
             this = factor%found(j)%sign*worker%design%parameters%x(number)/worker%design%parameters%list(number)%unit
          end associate
          if (j == 1) value = this
-         if (abs(this - value) > 1.0e-12_wp*abs(value)) value = not_given()
+         if (abs(this - value) > 1.0e-12_wp*abs(value)) then
+            value = not_given()
+            exit
+         end if
       end do
    end function deck_value
 

@@ -44,7 +44,7 @@ for deck, path, value, case in JOBS:
         assert tuple(names) == result.columns, (other, deck)
         for state, (theirs, ours) in enumerate(zip(table, result.values, strict=True)):
             assert bits(theirs) == bits(ours), (other, deck, case, state)
-    names, table = rows(output(program, 'run', deck, '--quiet', '--case', case, '--set', f'{path}={value!r}', '--out', '-'))
+    names, table = rows(output(program, 'run', deck, '--quiet', '--solver', 'plan', '--case', case, '--set', f'{path}={value!r}', '--out', '-'))
     assert set(names) <= set(result.columns), (deck, set(names) - set(result.columns))     # a case that is no test has fewer columns in the program
     where = [result.columns.index(name) for name in names]
     for state, (theirs, ours) in enumerate(zip(table, result.values[:, where], strict=True)):
@@ -52,7 +52,7 @@ for deck, path, value, case in JOBS:
     compared += result.values.size
 
 with tempfile.NamedTemporaryFile() as results, elastokin.Model.from_file(JOBS[0][0]) as model:
-    output(program, 'run', JOBS[0][0], '--quiet', '--responses', ','.join(NUMBERS), '--results', results.name)
+    output(program, 'run', JOBS[0][0], '--quiet', '--solver', 'plan', '--responses', ','.join(NUMBERS), '--results', results.name)
     ours = {name: float(f'{value:.15g}') for name, value in model.numbers(*NUMBERS).items()}
     theirs = {name: float(value) for value, name in (line.split() for line in open(results.name))}
     assert ours == theirs, (ours, theirs)

@@ -15,7 +15,8 @@ program readers
    use ek_foreign_deck, only: import_text, kind_of_text
    use ek_property, only: property_t, parse_property
    use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints
-   use ek_kin, only: kin_t, parse_kin
+   use ek_kin, only: kin_t
+   use ek_kin_reader, only: parse_kin
    use ek_lcf, only: lcf_t, parse_lcf
    use ek_deck, only: deck_t, parse_deck
    implicit none(type, external)

@@ -61,28 +61,47 @@ munged --force --key-file="$work/key" --socket="$work/munge.socket" --pid-file="
 for ((k = 0; k < 20; k++)); do sinfo -h -o %t 2>/dev/null | grep -q idle && break; sleep 1; done
 sinfo || { echo 'remark: left out, Slurm does not start here'; exit 0; }
 
-"$program" study study.nml --out "$work/wanted" --jobs 1 --no-plots --quiet >/dev/null || complain 'one process'
+# the study of the folder with so many designs that a task can be met while it runs, and its table as text in any build
+sed "s|samples = 5000|samples = 16000, format = 'csv'|; s|'../../|'$PWD/../../|" study.nml >"$work/study.nml"
+grep -q 'samples = 16000' "$work/study.nml" || { complain 'study.nml has other words than this script looks for'; exit 1; }
+study=$work/study.nml
+"$program" study "$study" --out "$work/wanted" --jobs 1 --no-plots --quiet >/dev/null || complain 'one process'
 
+# A task of the array that has finished a chunk and goes on; at most 30 s are waited for one
+running_task() {
+  local deadline=$((SECONDS + 30)) pid
+  while [ $SECONDS -lt $deadline ]; do
+    if pid=$(pgrep -f -o -- "^$program study $study --out $work/out --shard") &&
+      [ -n "$(find "$work/out" -name 'chunk_*.bin' -print -quit 2>/dev/null)" ]; then
+      echo "$pid"
+      return 0
+    fi
+    sleep 0.02
+  done
+  return 1
+}
 # submit: the array, then the merging job after it; waits for both
 submit() {
-  local array
-  array=$(sbatch --parsable --output="$work/logs/%A_%a.log" --array=1-4 array.sbatch study.nml --out "$work/out")
-  [ "$1" = kill ] && sleep 1.5 && kill -KILL "$(pgrep -f -o -- "$program study study.nml --out $work/out --shard")"
-  sbatch --wait --kill-on-invalid-dep=yes --output="$work/logs/merge_%j.log" --dependency="afterok:$array" merge.sbatch study.nml --out "$work/out" \
+  local array task
+  array=$(sbatch --parsable --output="$work/logs/%A_%a.log" --array=1-4 array.sbatch "$study" --out "$work/out")
+  if [ "$1" = kill ]; then
+    if task=$(running_task); then kill -KILL "$task"; else complain 'no task was met while it ran'; fi
+  fi
+  sbatch --wait --kill-on-invalid-dep=yes --output="$work/logs/merge_%j.log" --dependency="afterok:$array" merge.sbatch "$study" --out "$work/out" \
     >"$work/logs/submitted" 2>&1
 }
 submit kill
 for ((k = 0; k < 60; k++)); do [ -z "$(squeue -h)" ] && break; sleep 1; done
 [ -e "$work/out/bushing_scatter_responses.csv" ] && complain 'the merging job ran though a task was killed'
-"$program" study study.nml --out "$work/out" --status
+"$program" study "$study" --out "$work/out" --status
 submit again || complain "the array, again: $(cat "$work"/logs/*)"
 cmp "$work/wanted/bushing_scatter_responses.csv" "$work/out/bushing_scatter_responses.csv" || complain 'the array: not the same bytes'
 [ -z "$(find "$work/out" -name '*.parts' -o -name '.elastokin-*')" ] || complain "left behind: $(ls -A "$work/out")"
 [ -s "$work/out/bushing_scatter.html" ] || complain 'the merging job wrote no page'
 grep -h 'were done before' "$work"/logs/* || complain 'the second array began anew'
 
-if srun --mpi=list 2>&1 | grep -qw pmix && ! OMPI_COMM_WORLD_SIZE=2 "$program" study study.nml --status 2>&1 | grep -q 'without MPI'; then
-  srun --mpi=pmix --overcommit --ntasks=3 "$program" study study.nml --out "$work/ranks" --no-plots --quiet >"$work/said" 2>&1 || complain "srun: $(cat "$work/said")"
+if srun --mpi=list 2>&1 | grep -qw pmix && ! OMPI_COMM_WORLD_SIZE=2 "$program" study "$study" --status 2>&1 | grep -q 'without MPI'; then
+  srun --mpi=pmix --overcommit --ntasks=3 "$program" study "$study" --out "$work/ranks" --no-plots --quiet >"$work/said" 2>&1 || complain "srun: $(cat "$work/said")"
   cmp "$work/wanted/bushing_scatter_responses.csv" "$work/ranks/bushing_scatter_responses.csv" || complain 'srun: not the same bytes'
 else
   echo 'remark: srun left out, no pmix or no MPI'

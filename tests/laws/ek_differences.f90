@@ -11,7 +11,7 @@ module ek_differences
    implicit none(type, external)
    private
    public :: pair_function_t, difference_gradient, difference_hessian, measure_gradient, moved_pose, rigidly_moved, &
-      symmetric_of_lower
+      symmetric_of_lower, symmetric_of_blocks, blocks_at
 
    integer, parameter :: place(4) = [-2, -1, 1, 2]
    real(wp), parameter :: weight(4) = [1.0_wp, -8.0_wp, 8.0_wp, -1.0_wp]/12.0_wp
@@ -111,6 +111,26 @@ contains
          end do
       end do
    end function difference_hessian
+
+   !> The whole matrix of two bodies from its blocks: those of the bodies, and their coupling.
+   pure function symmetric_of_blocks(blocks) result(whole)
+      real(wp), intent(in) :: blocks(6, 6, 3)
+      real(wp) :: whole(12, 12)
+      whole = 0.0_wp
+      whole(1:6, 1:6) = blocks(:, :, 1)
+      whole(7:12, 7:12) = blocks(:, :, 2)
+      whole(7:12, 1:6) = blocks(:, :, 3)
+      whole = symmetric_of_lower(whole)
+   end function symmetric_of_blocks
+
+   !> The blocks of two bodies, of which one has the unknowns 1 to 6 (at = 0) and the other 7 to 12 (at = 6), see ek_block; at < 0: the
+   !> chassis.
+   pure function blocks_at(at_i, at_j) result(at)
+      integer, intent(in) :: at_i, at_j
+      integer :: at(3)
+      at = [max(at_i/6 + 1, 0), max(at_j/6 + 1, 0), 0]
+      if (at(1) > 0 .and. at(2) > 0) at(3) = merge(3, -3, at_j > at_i)
+   end function blocks_at
 
    !> The whole of a symmetric matrix of which the lower triangle is kept.
    pure function symmetric_of_lower(lower) result(whole)

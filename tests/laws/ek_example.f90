@@ -10,6 +10,7 @@ module ek_example
    use ek_rotation, only: identity3
    use ek_suspension, only: suspension_t, load_t, wheel_t
    use ek_rig, only: rig_t, new_rig, add_height, put_on
+   use ek_rig_numbers, only: set_rig_numbers
    use ek_parts, only: add_body, add_joint, add_bushing, add_spring, add_load, add_wheel
    implicit none(type, external)
    private
@@ -28,10 +29,12 @@ contains
       integer, intent(in) :: wheel
       type(suspension_t) :: base
       type(rig_t) :: rig
+      type(case_t) :: none
 
       base = suspension
       rig = new_rig()
       call add_height(rig, base, name, base%wheels(wheel)%where, [wheel], [1.0_wp], control)
+      call set_rig_numbers(base, none, rig)
       call put_on(rig, base, suspension)
    end subroutine hold_height
 

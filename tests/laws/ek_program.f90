@@ -11,7 +11,7 @@ module ek_program
    use ek_scratch, only: scratch, shell_quoted
    implicit none(type, external)
    private
-   public :: outcome_t, elastokin, content, holds, has_store, listing, values_in
+   public :: outcome_t, elastokin, content, holds, count_of, has_store, listing, values_in
    public :: done, usage, bad_deck, bad_model, not_found, bad_file
 
    integer, parameter :: done = 0, usage = 1, bad_deck = 2, bad_model = 3, not_found = 4, bad_file = 5
@@ -59,6 +59,21 @@ contains
       character(*), intent(in) :: text, part
       holds = index(text, part) > 0
    end function holds
+
+   !> How often a part stands in a text.
+   pure integer function count_of(text, part)
+      character(*), intent(in) :: text, part
+      integer :: at, step
+
+      count_of = 0
+      at = 1
+      do
+         step = index(text(at:), part)
+         if (step == 0) return
+         count_of = count_of + 1
+         at = at + step
+      end do
+   end function count_of
 
    !> Whether elastokin-netcdf was compiled and ncdump is there.
    logical function has_store()

@@ -4,6 +4,7 @@
 !> its states without asking the code under test: the elastic energy, and what the chassis bears.
 module ek_trial
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_deck, exit_file
    use ek_file, only: read_whole
@@ -27,7 +28,7 @@ module ek_trial
    use ek_attitude, only: vertical_force
    implicit none(type, external)
    private
-   public :: trial_t, try, go_through, put_on_rig, values, elastic_energy, chassis_lift, wheel_force
+   public :: trial_t, try, go_through, put_on_rig, values, elastic_energy, chassis_lift, wheel_force, differs
 
    type :: trial_t
       type(suspension_t) :: suspension      !! on the rig
@@ -216,5 +217,16 @@ contains
          force(s) = vertical_force(trial%suspension, state_of(trial%suspension, trial%path, s), inputs, wheel)
       end do
    end function wheel_force
+
+   !> Whether two numbers differ; two that are not numbers do not. Debug builds trap other comparisons of them.
+   elemental logical function differs(a, b)
+      real(wp), intent(in) :: a, b
+
+      if (ieee_is_nan(a) .or. ieee_is_nan(b)) then
+         differs = ieee_is_nan(a) .neqv. ieee_is_nan(b)
+      else
+         differs = abs(a - b) > 0.0_wp
+      end if
+   end function differs
 
 end module ek_trial

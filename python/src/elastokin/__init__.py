@@ -16,11 +16,12 @@ from .errors import (
     ElastokinError,
     FileError,
     ModelError,
+    ModelWarning,
     UsageError,
 )
 from .model import Model
 from .parameters import Parameter, Parameters
-from .result import Remark, Result
+from .result import Derivatives, Remark, Result
 
 __version__: str = _text_of(_lib.ek_version())
 
@@ -28,10 +29,12 @@ __all__ = [
     "ConvergenceError",
     "ConvergenceWarning",
     "DeckError",
+    "Derivatives",
     "ElastokinError",
     "FileError",
     "Model",
     "ModelError",
+    "ModelWarning",
     "Parameter",
     "Parameters",
     "Remark",

@@ -42,7 +42,12 @@ class FileError(ElastokinError, OSError):
 
 
 class ConvergenceWarning(UserWarning):
-    """Some states did not converge. Their rows hold NaN and `converged` = 0; the other rows are good."""
+    """Some states did not converge. Their rows hold NaN and `converged` = 0, and key numbers that need them are NaN; the others are good."""
+
+
+class ModelWarning(UserWarning):
+    """A deck was read whose model may be wrong: no spring, a contact point that is not on the ground, implausible values, or a model that
+    cannot be solved. The message has all of `Model.remarks`."""
 
 
 _CLASSES: dict[int, type[ElastokinError]] = {

@@ -36,20 +36,27 @@ class Model:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Model:
-        """Reads a deck from a file. Raises FileError, DeckError, ModelError."""
+        """Reads a deck from a file. Raises FileError, DeckError, ModelError. Issues one ModelWarning if there are `remarks`."""
         name = os.fspath(path)
         handle = c_void_p()
         model = cls._opened(handle, lib.ek_open_file(os.fsencode(name), byref(handle)), os.path.abspath(name), "")
         with open(name, encoding="utf-8", errors="surrogateescape", newline="") as file:
             model._text = file.read()
+        model._warn()
         return model
 
     @classmethod
     def from_text(cls, text: str, name: str = "deck.nml") -> Model:
         """Reads a deck from a text. `name` stands for its file in messages; files that it includes are sought beside that.
 
-        Raises FileError, DeckError, ModelError.
+        Raises FileError, DeckError, ModelError. Issues one ModelWarning if there are `remarks`.
         """
+        model = cls._from_text(text, name)
+        model._warn()
+        return model
+
+    @classmethod
+    def _from_text(cls, text: str, name: str) -> Model:
         handle = c_void_p()
         return cls._opened(handle, lib.ek_open_text(text.encode("utf-8", "surrogateescape"), os.fsencode(name), byref(handle)), name, text)
 
@@ -116,6 +123,16 @@ class Model:
         handle = self._open
         return tuple([function(handle, k).decode() for k in range(n)])
 
+    def _warn(self) -> None:
+        """Issues a warning if there are remarks; called by the function that opened the model for its caller."""
+        try:
+            remarks = self.remarks
+        except BaseException:
+            self.close()
+            raise
+        if remarks:
+            warnings.warn("\n".join(remarks), errors.ModelWarning, stacklevel=3)
+
     # ---- description ----
 
     @property
@@ -147,6 +164,20 @@ class Model:
         """Names of the cases of the deck alone."""
         with self._lock:
             return tuple([name for k, name in enumerate(self.cases) if lib.ek_case_is_of_deck(self._open, k)])
+
+    @property
+    def remarks(self) -> list[str]:
+        """What the command line warns of before it solves a case, at the present numbers: no spring, a contact point that is not where the
+        wheel touches the ground, what balance left out, implausible values ("plausible? …"), or why no case can be solved.
+
+        Empty if there is nothing to say. The remarks on a solution are `Result.remarks`.
+        """
+        count = ctypes.c_int()
+        with self._lock:
+            self._check(lib.ek_model_remarks(self._open, byref(count)))
+            severities = self._texts(lib.ek_model_remark_severity, count.value)
+            texts = self._texts(lib.ek_model_remark_text, count.value)
+        return [text for text, severity in zip(texts, severities) if severity != "note"]
 
     def __repr__(self) -> str:
         if self._handle is None:
@@ -325,13 +356,28 @@ class Model:
             self._check(lib.ek_compliance(self._open, row, n * n, matrix.ctypes.data))
         return matrix
 
+    def _derivatives(self, serial: int, row: int, columns: list[str], numbers: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        slopes = np.empty((len(columns), len(numbers)))
+        doubts = np.empty_like(slopes)
+        with self._lock:
+            if serial != self._serial:
+                raise errors.UsageError("the model has solved another case since; solve again before derivatives are read")
+            self._check(
+                lib.ek_derivatives(
+                    self._open, row, len(columns), texts_for(columns), len(numbers), texts_for(numbers), slopes.ctypes.data,
+                    doubts.ctypes.data
+                )
+            )
+        return slopes, doubts
+
     # ---- key numbers ----
 
     def numbers(self, *names: str) -> dict[str, float]:
         """Key numbers with these names, as in key_numbers.csv of the report: only the tests that they need are solved.
 
-        On an axle a name begins with `left_` or `right_`, unless the number is one of the axle. NaN: without value here; if
-        states did not converge, a ConvergenceWarning is issued.
+        On an axle a name begins with `left_` or `right_`, unless the number is one of the axle. A number is NaN if it needs a state
+        that did not converge (states outside the window of a slope do not matter), or if the model does not define it; a
+        ConvergenceWarning then names all such numbers. The others are good.
         """
         values = np.empty(len(names))
         with self._lock:
@@ -385,7 +431,7 @@ class Model:
 
 
 def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
-    model = Model.from_text(text, name)
+    model = Model._from_text(text, name)
     model._make(changes)
     model._changes = changes
     return model

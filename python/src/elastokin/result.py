@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -22,6 +23,15 @@ class Remark(NamedTuple):
     severity: str
     """"note", "warning" or "failure"."""
     text: str
+
+
+class Derivatives(NamedTuple):
+    """Derivatives at a state, columns x numbers."""
+
+    values: NDArray[np.float64]
+    """Unit of the column per unit of the number. NaN: the state did not converge, the column has no value, or the number cannot move."""
+    errors: NDArray[np.float64]
+    """Estimates of their errors; large where the column has a corner (a stop at contact, a point of a curve)."""
 
 
 class Result:
@@ -104,6 +114,20 @@ class Result:
                                         "solve with compliance=True")
             self._matrices[k] = self._model._compliance(self._serial, k)
         return self._matrices[k]
+
+    def derivatives(self, columns: Sequence[str], numbers: Sequence[str], row: int) -> Derivatives:
+        """Exact derivatives of columns with respect to numbers of the deck at a state; nothing is solved again.
+
+        `columns`: of the case, or entries of its compliance matrix (as `elastokin run --compliance` names them). `numbers`: paths, each of
+        one number or of both sides of a mirrored axle. The motion of the state, settling and balance are included. Available until the
+        model solves its next case. Raises UsageError, also for a case whose method is not "equilibrium".
+        """
+        if self._model is None:
+            raise errors.UsageError("a copied result has no derivatives; solve with a model")
+        wanted = [columns] if isinstance(columns, str) else list(columns)
+        paths = [numbers] if isinstance(numbers, str) else list(numbers)
+        k = range(len(self.values))[row]
+        return Derivatives(*self._model._derivatives(self._serial, k, wanted, paths))
 
     # ---- tables of other packages ----
 

@@ -5,27 +5,28 @@
 !> time make texts (solve_case_fully), and solve_case_again makes none.
 module ek_design_solver
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_model, exit_file
+   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_file
    use ek_text, only: quoted
    use ek_deck, only: deck_t
    use ek_parameter, only: all_in_range
    use ek_reader, only: design_t, read_design, realise_deck
    use ek_realise, only: realise, realise_cases
-   use ek_suspension, only: suspension_t
-   use ek_case, only: case_t, is_mountable, default_tolerance
+   use ek_suspension, only: suspension_t, copy_numbers
+   use ek_case, only: case_t, is_mountable, prefer_plan, default_tolerance
    use ek_balance, only: balance
+   use ek_preload_problem, only: preload_problem_t
    use ek_diagnosis, only: diagnosis_t
-   use ek_rig, only: mount, mount_case
+   use ek_rig, only: mount, mount_again, take_off
    use ek_standard_tests, only: standard_tests
    use ek_case_result, only: solve_options_t, solve_case, solve_mounted
-   use ek_examination, only: check_inputs, examine_case
+   use ek_examination, only: check_inputs, examine_case, add_distinct
    use ek_sweep_table, only: sweep_columns
    use ek_table, only: name_length
    use ek_worker, only: worker_case_t, examine_design, refresh_case
    implicit none(type, external)
    private
-   public :: design_solver_t, begin_design_solver, read_checked, put_numbers, solve_case_fully, solve_case_again, &
-      settle_fully, settle_again, report_cases, heads_of_case, case_number
+   public :: design_solver_t, begin_design_solver, read_checked, put_numbers, mount_numbers, solve_case_fully, solve_case_again, &
+      settle_fully, settle_again, settle_model, report_cases, restrict_cases, heads_of_case, case_number
 
    !> A deck, its present numbers, and the last solution of each case.
    type :: design_solver_t
@@ -38,6 +39,7 @@ module ek_design_solver
       logical, private :: is_realised = .false.         !! raw has these numbers
       logical, private :: is_balanced = .false.         !! so has suspension, with this tolerance [m]
       real(wp), private :: tolerance = 0.0_wp
+      type(preload_problem_t), private :: space         !! of balance
       integer, allocatable :: report_order(:)           !! the cases in the order of the report
    end type design_solver_t
 
@@ -48,30 +50,30 @@ contains
       type(deck_t), intent(in) :: deck
       type(design_solver_t), intent(out) :: solver
       type(error_t), allocatable, intent(out) :: error       !! exit_deck
-      type(case_t), allocatable :: tests(:)
+      type(case_t), allocatable :: tests(:), all(:)         ! of the report; with those on request
       integer :: own, k
 
       call read_checked(deck, solver%design, solver%raw, error)
       if (allocated(error)) return
       solver%x = solver%design%parameters%x(:solver%design%parameters%used)
       solver%design%cases%has_all = .true.
+      call prefer_plan(solver%design%cases)
       solver%is_realised = .true.
-      allocate (tests(0))
+      allocate (tests(0), all(0))
       if (size(solver%raw%wheels) > 0) call standard_tests(solver%raw, solver%design%cases, tests)
+      if (size(solver%raw%wheels) > 0) call standard_tests(solver%raw, solver%design%cases, all, '*')
       own = size(solver%design%cases)
-      allocate (solver%cases(own + count([(is_standard(tests(k)), k=1, size(tests))])))
+      allocate (solver%cases(own + count([(is_standard(all(k)), k=1, size(all))])))
       allocate (solver%is_sound(size(solver%cases)), source=.false.)
       do k = 1, own
          solver%cases(k)%number = k
          solver%cases(k)%case = solver%design%cases(k)
       end do
-      do k = 1, size(tests)
-         if (.not. is_standard(tests(k))) cycle
+      do k = 1, size(all)
+         if (.not. is_standard(all(k))) cycle
          own = own + 1
-         solver%cases(own)%case = tests(k)
-      end do
-      do k = 1, size(solver%cases)
-         allocate (solver%cases(k)%observer)
+         solver%cases(own)%case = all(k)
+         call prefer_plan(solver%cases(own)%case)
       end do
       solver%report_order = [(case_number(tests(k)%name, solver), k=1, size(tests))]
 
@@ -140,6 +142,7 @@ contains
       associate (this => solver%cases(k))
          call refresh_case(solver%raw, solver%design, this)
          if (.not. is_mountable(this%case)) then           ! the result gives the reason
+            call make_room(this)
             call solve_case(solver%raw, this%case, options, this%result)
             return
          end if
@@ -172,6 +175,23 @@ contains
       is_done = .not. allocated(error)
    end subroutine solve_case_again
 
+   !> Puts a case on the rig with the present numbers, balanced, and solves nothing. No text is made, and the numbers are not examined:
+   !> they are close to those of a design that was. is_done is .false. if they are outside the range of the blueprint.
+   subroutine mount_numbers(k, tolerance, solver, is_done)
+      integer, intent(in) :: k
+      real(wp), intent(in) :: tolerance                    !! of balance [m]
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_done
+      type(error_t), allocatable :: error
+
+      call take_numbers(solver, is_done)
+      if (.not. is_done) return
+      call refresh_case(solver%raw, solver%design, solver%cases(k))
+      call balance_once(tolerance, .true., solver, error)
+      is_done = .not. allocated(error)
+      if (is_done) call mount_again(solver%suspension, solver%cases(k)%case, solver%cases(k)%result%mounted_case_t)
+   end subroutine mount_numbers
+
    !> Realises the suspension and the cases with the present numbers, unless this was done.
    subroutine take_numbers(solver, is_done)
       type(design_solver_t), intent(inout) :: solver
@@ -185,6 +205,13 @@ contains
       solver%is_realised = is_done
    end subroutine take_numbers
 
+   !> The work space of a case that is solved for the first time.
+   subroutine make_room(this)
+      type(worker_case_t), intent(inout) :: this
+      if (.not. allocated(this%result)) allocate (this%result)
+      if (.not. allocated(this%observer)) allocate (this%observer)
+   end subroutine make_room
+
    !> Mounts and solves a case of a design that was examined.
    subroutine solve_balanced(k, options, is_terse, solver, error)
       integer, intent(in) :: k
@@ -196,7 +223,8 @@ contains
       call balance_once(solver%cases(k)%case%tolerance, is_terse, solver, error)
       if (allocated(error)) return
       associate (this => solver%cases(k))
-         call mount_case(solver%suspension, this%case, this%result%mounted_case_t)
+         call make_room(this)
+         call mount_again(solver%suspension, this%case, this%result%mounted_case_t)
          call solve_mounted(options, this%result, observer=this%observer)
       end associate
    end subroutine solve_balanced
@@ -209,43 +237,64 @@ contains
       type(error_t), allocatable, intent(out) :: error
 
       if (solver%is_balanced .and. abs(tolerance - solver%tolerance) <= 0.0_wp) return
-      solver%suspension = solver%raw
-      call balance(solver%suspension, tolerance, error, is_terse)
+      if (allocated(solver%suspension%bodies)) then
+         call copy_numbers(solver%raw, solver%suspension)
+      else
+         solver%suspension = solver%raw
+      end if
+      call balance(solver%suspension, tolerance, error, is_terse, solver%space)
       solver%is_balanced = .not. allocated(error)
       solver%tolerance = tolerance
    end subroutine balance_once
 
    !> Examines the needed cases of the report at the present numbers and balances the suspension as the report does; with messages.
-   subroutine settle_fully(is_needed, solver, is_solvable, is_done, error)
+   subroutine settle_fully(is_needed, solver, is_solvable, defects, is_done, error)
       logical, intent(in) :: is_needed(:)                  !! in the order of the report
       type(design_solver_t), intent(inout) :: solver
       logical, intent(out) :: is_solvable(:)
+      type(message_list_t), intent(out) :: defects         !! of the others, each once
       logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
       type(error_t), allocatable, intent(out) :: error     !! exit_model: no case can be solved
-      type(diagnosis_t) :: diagnosis
+      character(:), allocatable :: name
       integer :: j, k
 
       is_solvable = .true.
+      name = ''
       call take_numbers(solver, is_done)
       if (.not. is_done) return
       do j = 1, size(is_needed)
          k = solver%report_order(j)
-         associate (this => solver%cases(k))
-            call refresh_case(solver%raw, solver%design, this)
-            if (.not. is_needed(j) .or. .not. is_mountable(this%case)) cycle
-            call examine_case(solver%raw, this%case, diagnosis, this%known)
-            is_solvable(j) = diagnosis%is_solvable()
-            solver%is_sound(k) = is_solvable(j)
-            if (is_solvable(j) .or. any(is_solvable(:j) .and. is_needed(:j)) .or. allocated(error)) cycle
-            call fail(error, exit_model, 'case '//quoted(this%case%name)//': the model cannot be solved'//new_line('a')// &
-               diagnosis%words())
-         end associate
+         call refresh_case(solver%raw, solver%design, solver%cases(k))
+         if (.not. is_needed(j) .or. .not. is_mountable(solver%cases(k)%case)) cycle
+         call examine_fully(k, solver, defects)
+         is_solvable(j) = solver%is_sound(k)
+         name = solver%cases(k)%case%name
       end do
-      if (any(is_solvable .and. is_needed) .or. .not. any(is_needed)) then
-         if (allocated(error)) deallocate (error)
+      if (any(is_needed) .and. .not. any(is_solvable .and. is_needed)) then
+         call fail_unsolvable(defects, error)
+         if (count(is_needed) == 1) error%message = 'case '//quoted(name)//': '//error%message
+      else
          call balance_once(default_tolerance, .false., solver, error)
       end if
    end subroutine settle_fully
+
+   !> Examines a case, and adds its defects to those of others.
+   subroutine examine_fully(k, solver, defects)
+      integer, intent(in) :: k
+      type(design_solver_t), intent(inout) :: solver
+      type(message_list_t), intent(inout) :: defects
+      type(diagnosis_t) :: diagnosis
+
+      call examine_case(solver%raw, solver%cases(k)%case, diagnosis, solver%cases(k)%known)
+      solver%is_sound(k) = diagnosis%is_solvable()
+      if (.not. solver%is_sound(k)) call add_distinct(defects, diagnosis%words())
+   end subroutine examine_fully
+
+   pure subroutine fail_unsolvable(defects, error)
+      type(message_list_t), intent(in) :: defects
+      type(error_t), allocatable, intent(out) :: error
+      call fail(error, exit_model, 'the model cannot be solved'//new_line('a')//defects%text())
+   end subroutine fail_unsolvable
 
    !> As settle_fully, for cases that were solved before: no text is made. is_done is .false. if there is a doubt.
    subroutine settle_again(is_needed, solver, is_done)
@@ -270,6 +319,32 @@ contains
       is_done = is_done .and. .not. allocated(error)
    end subroutine settle_again
 
+   !> Balances the model at the present numbers as the report does, if a case can be solved; with messages.
+   subroutine settle_model(solver, is_balanced, is_done, error)
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_balanced
+      logical, intent(out) :: is_done                      !! .false.: the design must be read from the text
+      type(error_t), allocatable, intent(out) :: error     !! exit_model, exit_convergence: why no case can be solved
+      type(message_list_t) :: defects
+      integer :: k
+
+      is_balanced = .false.
+      call take_numbers(solver, is_done)
+      if (.not. is_done) return
+      do k = 1, merge(0, size(solver%cases), any(solver%is_sound))
+         call refresh_case(solver%raw, solver%design, solver%cases(k))
+         if (.not. is_mountable(solver%cases(k)%case)) cycle
+         call examine_fully(k, solver, defects)
+         if (solver%is_sound(k)) exit
+      end do
+      if (defects%count() > 0 .and. .not. any(solver%is_sound)) then
+         call fail_unsolvable(defects, error)
+         return
+      end if
+      call balance_once(default_tolerance, .false., solver, error)
+      is_balanced = .not. allocated(error)
+   end subroutine settle_model
+
    !> The cases in the order of the report, with the present numbers.
    subroutine report_cases(solver, cases)
       type(design_solver_t), intent(in) :: solver
@@ -281,6 +356,21 @@ contains
          cases(j) = solver%cases(solver%report_order(j))%case
       end do
    end subroutine report_cases
+
+   !> Lets the report have these of its cases only, with their method and their increments.
+   subroutine restrict_cases(chosen, solver)
+      type(case_t), intent(in) :: chosen(:)
+      type(design_solver_t), intent(inout) :: solver
+      integer :: j, k
+
+      solver%report_order = [(case_number(chosen(j)%name, solver), j=1, size(chosen))]
+      do j = 1, size(chosen)
+         k = solver%report_order(j)
+         solver%cases(k)%case = chosen(j)
+         if (allocated(solver%cases(k)%result)) call take_off(solver%cases(k)%result%mounted_case_t)
+         if (solver%cases(k)%number > 0) solver%design%cases(solver%cases(k)%number) = chosen(j)
+      end do
+   end subroutine restrict_cases
 
    !> All columns that the table of a case has.
    subroutine heads_of_case(k, solver, heads)

@@ -1,0 +1,75 @@
+!> What a user should know of a model before its cases are solved. The commands print this list, and a program that calls elastokin
+!> reads it (ek_session_remarks).
+module ek_model_remark
+   use ek_error, only: message_list_t
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_balance, only: balance_remarks
+   use ek_plausibility, only: doubt
+   use ek_remark, only: patch_remarks, spring_remarks, preload_remarks
+   implicit none(type, external)
+   private
+   public :: model_remarks_t, find_model_remarks, read_model_remark, doubt_mark
+
+   character(*), parameter :: doubt_mark = 'plausible? '      !! begins the text of a doubt
+
+   !> The remarks on a model, in the order in which they are printed.
+   type :: model_remarks_t
+      type(message_list_t) :: notes        !! preloads found by balance
+      type(message_list_t) :: warnings     !! contact points, springs, what balance left out
+      type(message_list_t) :: doubts       !! implausible values: file:line: item: finding
+      type(message_list_t) :: faults       !! why no case can be solved; the commands stop with them
+   contains
+      procedure :: count => count_remarks
+   end type model_remarks_t
+
+contains
+
+   !> Finds the remarks on a model. One thread at a time.
+   subroutine find_model_remarks(suspension, cases, chosen, is_balanced, remarks)
+      type(suspension_t), intent(in) :: suspension      !! balanced if possible; on no rig
+      type(case_t), intent(in) :: cases(:), chosen(:)   !! all of the deck; those to be run
+      logical, intent(in) :: is_balanced                !! if not, there is nothing to say about balance
+      type(model_remarks_t), intent(out) :: remarks
+
+      if (is_balanced) call preload_remarks(suspension, remarks%notes)
+      call patch_remarks(suspension, remarks%warnings)
+      call spring_remarks(suspension, chosen, remarks%warnings)
+      if (is_balanced) call balance_remarks(suspension, remarks%warnings)
+      call doubt(suspension, cases, remarks%doubts)
+   end subroutine find_model_remarks
+
+   pure integer function count_remarks(self)
+      class(model_remarks_t), intent(in) :: self
+      count_remarks = self%faults%count() + self%notes%count() + self%warnings%count() + self%doubts%count()
+   end function count_remarks
+
+   !> Remark k: its text, and 'failure', 'note' or 'warning'. Failures come first.
+   subroutine read_model_remark(remarks, k, text, severity)
+      type(model_remarks_t), intent(in) :: remarks
+      integer, intent(in) :: k
+      character(:), allocatable, intent(out) :: text, severity
+      integer :: place
+
+      severity = 'failure'
+      place = k
+      if (place <= remarks%faults%count()) then
+         text = remarks%faults%line(place)
+         return
+      end if
+      place = place - remarks%faults%count()
+      severity = 'note'
+      if (place <= remarks%notes%count()) then
+         text = remarks%notes%line(place)
+         return
+      end if
+      place = place - remarks%notes%count()
+      severity = 'warning'
+      if (place <= remarks%warnings%count()) then
+         text = remarks%warnings%line(place)
+      else
+         text = doubt_mark//remarks%doubts%line(place - remarks%warnings%count())
+      end if
+   end subroutine read_model_remark
+
+end module ek_model_remark

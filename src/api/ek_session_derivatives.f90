@@ -1,0 +1,162 @@
+!> A deck opened for a program that calls elastokin: derivatives of the last solution. Part of the Fortran interface (ek_api).
+module ek_session_derivatives
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_usage
+   use ek_text, only: quoted, str
+   use ek_case_result, only: case_result_t
+   use ek_response, only: no_column
+   use ek_table, only: name_length
+   use ek_direction, only: direction_t, find_directions
+   use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
+   use ek_design_solver, only: design_solver_t, heads_of_case
+   use ek_session, only: session_t, derived_t
+   use ek_session_solution, only: result_of, state_of_row, refuse_other_numbers
+   implicit none(type, external)
+   private
+   public :: find_slopes
+
+contains
+
+   !> The derivatives of columns in one row of the last solution with respect to numbers of the deck, and estimates of their errors
+   !> [unit of the column per unit of the number]. No solution is repeated (ek_derivatives). Not a number: the state did not converge,
+   !> the column has no value there, or the number cannot move.
+   subroutine find_slopes(session, row, columns, paths, slopes, errors, error)
+      type(session_t), intent(inout), target :: session
+      integer, intent(in) :: row                               !! of the table of the last solution
+      character(*), intent(in) :: columns(:)                   !! of the case (asked in the solution or not), or of its compliance matrix
+      character(*), intent(in) :: paths(:)                     !! as in set_number, each of one number, or of both sides of an axle
+      real(wp), intent(out) :: slopes(:, :), errors(:, :)      !! (column, path)
+      type(error_t), allocatable, intent(out) :: error         !! exit_usage: every wrong column and path; the case has no derivatives
+      type(case_result_t), pointer :: result
+      logical :: is_ready
+
+      slopes = ieee_value(1.0_wp, ieee_quiet_nan)
+      errors = slopes
+      result => result_of(session)
+      if (.not. associated(result)) then
+         call fail(error, exit_usage, 'there is no solution')
+         return
+      end if
+      call refuse_other_numbers(session, error)
+      if (allocated(error)) return
+      is_ready = is_prepared(session, columns, paths)
+      if (.not. is_ready) then
+         !$omp critical (ek_words)
+         call prepare(session, columns, paths, error)
+         !$omp end critical (ek_words)
+         if (allocated(error)) return
+      end if
+      if (allocated(session%other)) then
+         call find(session%other, session%derived)
+      else
+         call find(session%solver, session%derived)
+      end if
+
+   contains
+
+      subroutine find(solver, derived)
+         class(design_solver_t), intent(inout) :: solver
+         class(derived_t), intent(inout) :: derived
+         integer :: c, p
+
+         call find_derivatives(solver, [state_of_row(result, row)], derived%derivatives)
+         do p = 1, size(paths)
+            do c = 1, size(columns)
+               slopes(c, p) = derived%derivatives%slopes(derived%column(c), derived%direction(p), 1)
+               errors(c, p) = derived%derivatives%errors(derived%column(c), derived%direction(p), 1)
+            end do
+         end do
+      end subroutine find
+
+   end subroutine find_slopes
+
+   !> Whether the same columns and numbers were asked last, of the same case of the same solver.
+   pure logical function is_prepared(session, columns, paths)
+      type(session_t), intent(in) :: session
+      character(*), intent(in) :: columns(:), paths(:)
+
+      is_prepared = .false.
+      if (.not. allocated(session%derived) .or. allocated(session%other)) return
+      associate (derived => session%derived)
+         if (derived%derivatives%case /= session%solved .or. size(columns) /= size(derived%columns)) return
+         if (size(paths) /= size(derived%paths)) return
+         is_prepared = all(columns == derived%columns) .and. all(paths == derived%paths)
+      end associate
+   end function is_prepared
+
+   !> Directions, columns and work space. Makes texts.
+   subroutine prepare(session, columns, paths, error)
+      type(session_t), intent(inout), target :: session
+      character(*), intent(in) :: columns(:), paths(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(direction_t), allocatable :: directions(:)
+      type(message_list_t) :: mistakes
+      class(design_solver_t), pointer :: solver
+      character(name_length), allocatable :: heads(:)
+      integer :: c
+
+      solver => session%solver
+      if (allocated(session%other)) solver => session%other
+      call refuse_case(solver%cases(session%solved)%case, error)
+      if (allocated(error)) return
+      if (.not. allocated(session%derived)) allocate (session%derived)
+      associate (derived => session%derived)
+         call place_paths(solver, session, paths, directions, derived%direction, mistakes)
+         if (mistakes%count() == 0) call begin_derivatives(solver, session%solved, columns, directions, derived%derivatives)
+         derived%column = spread(0, 1, size(columns))
+         do c = 1, size(columns)
+            if (mistakes%count() > 0) exit
+            derived%column(c) = findloc(derived%derivatives%columns == columns(c), .true., dim=1)
+         end do
+         if (mistakes%count() == 0 .and. any(derived%column == 0)) then
+            call heads_of_case(session%solved, solver, heads)
+            do c = 1, size(columns)
+               if (derived%column(c) > 0) cycle
+               if (any(heads == columns(c))) then
+                  call mistakes%add(quoted(trim(columns(c)))//' describes the solution and has no derivative')
+               else
+                  call mistakes%add(no_column(trim(columns(c)), heads))
+               end if
+            end do
+         end if
+         derived%columns = columns
+         derived%paths = paths
+      end associate
+      if (mistakes%count() == 0) return
+      call fail(error, exit_usage, mistakes%text())
+      session%derived%derivatives%case = 0        ! kept as room; is_prepared knows that it is no answer
+   end subroutine prepare
+
+   !> The direction of each path; a path that leads to several is a mistake.
+   subroutine place_paths(solver, session, paths, directions, place, mistakes)
+      class(design_solver_t), intent(in) :: solver
+      type(session_t), intent(in) :: session
+      character(*), intent(in) :: paths(:)
+      type(direction_t), allocatable, intent(out) :: directions(:)
+      integer, allocatable, intent(out) :: place(:)            !! in directions, of each path
+      type(message_list_t), intent(inout) :: mistakes
+      type(direction_t), allocatable :: these(:)
+      type(message_list_t) :: one
+      type(error_t), allocatable :: error
+      integer :: p
+
+      allocate (directions(0))
+      allocate (place(size(paths)), source=0)
+      do p = 1, size(paths)
+         one = message_list_t()
+         call one%add(trim(paths(p)))
+         call find_directions(solver%design, session%deck, one, these, error)
+         if (allocated(error)) then
+            call mistakes%add(error%message)
+         else if (size(these) /= 1) then
+            call mistakes%add(quoted(trim(paths(p)))//' leads to '//str(size(these))//' numbers; expected a path of one, or of '// &
+               'both sides of an axle')
+         else
+            directions = [directions, these(1)]
+            place(p) = size(directions)
+         end if
+      end do
+   end subroutine place_paths
+
+end module ek_session_derivatives

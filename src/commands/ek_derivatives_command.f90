@@ -1,0 +1,330 @@
+!> elastokin derivatives: how every column of a case changes with the numbers of the deck.
+module ek_derivatives_command
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_model
+   use ek_text, only: str, quoted, plural, suggestion
+   use ek_buffer, only: buffer_t
+   use ek_decimal, only: decimal, get_decimal
+   use ek_file, only: make_folder, join_path, write_whole, write_standard_output
+   use ek_case, only: case_t
+   use ek_case_result, only: solve_options_t, failure_of
+   use ek_path_states, only: nearest_state
+   use ek_compliance_table, only: compliance_columns
+   use ek_table, only: name_length
+   use ek_design_solver, only: design_solver_t, solve_case_fully
+   use ek_session, only: session_t
+   use ek_direction, only: direction_t, all_directions, find_directions
+   use ek_derivatives, only: derivatives_t, begin_derivatives, find_derivatives, refuse_case
+   use ek_command_line, only: command_line_t
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_session
+   use ek_run_columns, only: choose_columns
+   use ek_console, only: print_note, print_path, print_remarks, print_text
+   implicit none(type, external)
+   private
+   public :: derive
+
+   character(*), parameter :: nl = new_line('a')
+   integer, parameter :: max_listed = 10      !! numbers listed for each column
+   integer, parameter :: max_columns = 8      !! columns listed on standard output
+
+contains
+
+   !> Solves a case and writes the derivatives of its columns at some of its states.
+   subroutine derive(line, error)
+      type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      type(deck_settings_t) :: settings
+      type(session_t) :: session
+      type(direction_t), allocatable :: directions(:)
+      type(derivatives_t) :: derivatives
+      type(error_t), allocatable :: unreached
+      character(name_length), allocatable :: columns(:)
+      integer, allocatable :: states(:)
+      integer :: k
+
+      call read_deck_settings(line, settings)
+      call load_session(settings, session, error)
+      if (allocated(error)) return
+      associate (solver => session%solver)
+         call choose_case(settings, solver, k, error)
+         if (allocated(error)) return
+         call choose_numbers(line, session, directions, error)
+         if (.not. allocated(error)) call choose_quantities(line, solver, k, columns, error)
+         if (.not. allocated(error)) call solve(settings, k, solver, unreached, error)
+         if (.not. allocated(error)) call choose_states(line, solver, k, states, error)
+         if (allocated(error)) return
+         call begin_derivatives(solver, k, columns, directions, derivatives)
+         call find_derivatives(solver, states, derivatives)
+         call write_results(line, settings, solver, derivatives, error)
+         call warn(settings, solver, derivatives)
+      end associate
+      if (.not. allocated(error)) call move_alloc(unreached, error)
+   end subroutine derive
+
+   !> The case of --case, or the first.
+   subroutine choose_case(settings, solver, k, error)
+      type(deck_settings_t), intent(in) :: settings
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(out) :: k
+      type(error_t), allocatable, intent(out) :: error
+      character(name_length) :: names(size(solver%cases))
+      integer :: j
+
+      do k = 1, size(solver%cases)
+         if (settings%case == '' .or. solver%cases(k)%case%name == settings%case) exit
+      end do
+      if (k <= size(solver%cases)) then
+         call refuse_case(solver%cases(k)%case, error)
+         return
+      end if
+      do j = 1, size(names)
+         names(j) = solver%cases(j)%case%name
+      end do
+      if (size(names) == 0) then
+         call fail(error, exit_usage, settings%file//': no &case group and no wheel, so there is no case to run')
+      else
+         call fail(error, exit_usage, '--case: no case '//quoted(settings%case)//' in '//settings%file// &
+            ', and no standard test of this name'//suggestion(settings%case, names))
+      end if
+   end subroutine choose_case
+
+   !> The numbers of --with, or all that the deck gives.
+   subroutine choose_numbers(line, session, directions, error)
+      type(command_line_t), intent(in) :: line
+      type(session_t), intent(in) :: session
+      type(direction_t), allocatable, intent(out) :: directions(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(message_list_t) :: given, paths
+      integer :: k
+
+      if (.not. line%has('--with')) then
+         call all_directions(session%solver%design, directions)
+         return
+      end if
+      given = line%values('--with')
+      do k = 1, given%count()
+         call split(given%line(k), paths)
+      end do
+      call find_directions(session%solver%design, session%deck, paths, directions, error)
+      if (allocated(error)) error%message = '--with: '//error%message
+   end subroutine choose_numbers
+
+   !> Adds the items of a list with commas.
+   subroutine split(list, items)
+      character(*), intent(in) :: list
+      type(message_list_t), intent(inout) :: items
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(list))
+         last = first + index(list(first:)//',', ',') - 2
+         if (list(first:last) /= '') call items%add(trim(adjustl(list(first:last))))
+         first = last + 2
+      end do
+   end subroutine split
+
+   !> The columns of --of, or all quantities of the case.
+   subroutine choose_quantities(line, solver, k, columns, error)
+      type(command_line_t), intent(in) :: line
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(in) :: k
+      character(name_length), allocatable, intent(out) :: columns(:)
+      type(error_t), allocatable, intent(out) :: error
+      character(*), parameter :: no_quantities(*) = [character(16) :: 'state', 'factor', 'converged', 'stable', 'near_singular', &
+         'iterations', 'constraint_error']
+      character(name_length), allocatable :: entries(:)
+      type(case_t) :: case(1)
+      integer :: c
+
+      case(1) = solver%cases(k)%case
+      if (.not. line%has('--of')) then
+         call choose_columns('*', solver%raw, case, columns, error)
+         return
+      end if
+      call compliance_columns(solver%raw, entries)
+      call choose_columns(line%value('--of'), solver%raw, case, columns, error, '--of', entries)
+      if (allocated(error)) return
+      do c = 1, size(columns)
+         if (any(no_quantities == columns(c)) .and. .not. allocated(error)) call fail(error, exit_usage, '--of: '// &
+            quoted(trim(columns(c)))//' describes the solution and has no derivative; only quantities of the suspension have one')
+      end do
+   end subroutine choose_quantities
+
+   !> Solves the case. What did not converge is reported, and the states that did are used.
+   subroutine solve(settings, k, solver, unreached, error)
+      type(deck_settings_t), intent(in) :: settings
+      integer, intent(in) :: k
+      type(design_solver_t), intent(inout) :: solver
+      type(error_t), allocatable, intent(out) :: unreached     !! some states were not reached
+      type(error_t), allocatable, intent(out) :: error         !! nothing was solved
+      type(solve_options_t) :: options
+      logical :: is_done
+
+      allocate (options%columns(0))
+      call solve_case_fully(k, options, solver, is_done, error)
+      if (allocated(error)) return
+      if (.not. is_done) then
+         call fail(error, exit_model, settings%file//': its numbers give no model')
+         return
+      end if
+      associate (result => solver%cases(k)%result)
+         call print_remarks(settings%is_quiet, result%remarks)
+         call failure_of(result, unreached)
+         if (.not. result%is_run()) call move_alloc(unreached, error)
+      end associate
+   end subroutine solve
+
+   !> The states of --at: the nearest to each swept value, or all; otherwise that nearest to design.
+   subroutine choose_states(line, solver, k, states, error)
+      type(command_line_t), intent(in) :: line
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(in) :: k
+      integer, allocatable, intent(out) :: states(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(message_list_t) :: words
+      real(wp) :: place, low, high, half
+      logical :: is_number
+      integer :: j
+
+      associate (path => solver%cases(k)%result%path, case => solver%cases(k)%result%case)
+         if (line%value('--at') == 'all') then
+            states = [(j, j=1, path%states)]
+            return
+         end if
+         allocate (states(0))
+         call split(line%value('--at', '0'), words)
+         low = minval(path%value)
+         high = maxval(path%value)
+         half = 0.5_wp*(high - low)/max(1, path%states - 1)
+         do j = 1, words%count()
+            call get_decimal(words%line(j), place, is_number)
+            place = place*case%unit
+            if (.not. is_number) then
+               call fail(error, exit_usage, '--at: expected swept values or all, found '//quoted(words%line(j)))
+            else if (line%has('--at') .and. (place < low - half .or. place > high + half)) then
+               call fail(error, exit_usage, '--at: case '//quoted(case%name)//' goes from '//str(case%from/case%unit, 6)//' to '// &
+                  str(case%to/case%unit, 6)//' '//case%unit_name//', found '//words%line(j))
+            end if
+            if (allocated(error)) return
+            if (.not. any(states == nearest_state(path, place))) states = [states, nearest_state(path, place)]
+         end do
+      end associate
+      if (size(states) == 0) call fail(error, exit_usage, '--at: no swept value is given')
+   end subroutine choose_states
+
+   !> Writes the table, and what has the most effect on the asked columns.
+   subroutine write_results(line, settings, solver, found, error)
+      type(command_line_t), intent(in) :: line
+      type(deck_settings_t), intent(in) :: settings
+      type(design_solver_t), intent(in) :: solver
+      type(derivatives_t), intent(in) :: found
+      type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: unprinted
+      type(buffer_t) :: csv, list
+      character(:), allocatable :: path
+      integer :: c, s
+
+      call add_csv(found, csv)
+      if (settings%out == '-') then
+         call write_standard_output(csv%text(), error)
+         return
+      end if
+      associate (result => solver%cases(found%case)%result)
+         path = join_path(settings%out, result%suspension%name//'_'//result%case%name//'_derivatives.csv')
+         call make_folder(settings%out, error)
+         if (.not. allocated(error)) call write_whole(path, csv%text(), error)
+         if (allocated(error)) return
+         call print_path(path, unprinted)
+         if (allocated(unprinted)) call move_alloc(unprinted, error)
+         if (allocated(error) .or. .not. line%has('--of') .or. size(found%columns) > max_columns) return
+         do s = 1, size(found%states)
+            do c = 1, size(found%columns)
+               call add_list(found, c, s, result%case, list)
+            end do
+         end do
+      end associate
+      call print_text(list%text(), error)
+   end subroutine write_results
+
+   !> One row per state, column and number.
+   subroutine add_csv(found, csv)
+      type(derivatives_t), intent(in) :: found
+      type(buffer_t), intent(inout) :: csv
+      integer :: c, p, s
+
+      call csv%line('state,factor,column,value,number,unit,at,derivative,error')
+      do s = 1, size(found%states)
+         do c = 1, size(found%columns)
+            do p = 1, size(found%directions)
+               call csv%add(str(found%states(s) - 1))
+               call csv%add(',')
+               call csv%add(decimal(found%factor(s)))
+               call csv%add(',')
+               call csv%add(trim(found%columns(c)))
+               call csv%add(',')
+               call csv%add(decimal(found%values(c, s)))
+               call csv%add(',')
+               call csv%add(found%directions(p)%path)
+               call csv%add(',')
+               call csv%add(found%directions(p)%unit)
+               call csv%add(',')
+               call csv%add(decimal(found%directions(p)%value))
+               call csv%add(',')
+               call csv%add(decimal(found%slopes(c, p, s)))
+               call csv%add(',')
+               call csv%add(decimal(found%errors(c, p, s)))
+               call csv%add(nl)
+            end do
+         end do
+      end do
+   end subroutine add_csv
+
+   !> The numbers with the largest effect on a column: of 1 mm, of 0.06 deg, of 1 % of a rate or a force (steps of ek_direction).
+   subroutine add_list(found, c, s, case, list)
+      type(derivatives_t), intent(in) :: found
+      integer, intent(in) :: c, s
+      type(case_t), intent(in) :: case
+      type(buffer_t), intent(inout) :: list
+      real(wp) :: effect(size(found%directions))
+      character(:), allocatable :: unit
+      integer :: j, p
+
+      do p = 1, size(effect)
+         effect(p) = -1.0_wp
+         if (.not. ieee_is_nan(found%slopes(c, p, s))) effect(p) = abs(found%slopes(c, p, s))*found%directions(p)%step
+      end do
+      call list%line(trim(found%columns(c))//' = '//str(found%values(c, s), 7)//' at '//case%place_name//' = '// &
+         str(found%factor(s), 7)//' '//case%unit_name)
+      do j = 1, min(max_listed, size(effect))
+         p = maxloc(effect, dim=1)
+         if (effect(p) <= 0.0_wp) exit
+         unit = found%directions(p)%unit
+         if (unit /= '') unit = ' per '//unit
+         call list%line('  '//found%directions(p)%path//repeat(' ', max(1, 40 - len(found%directions(p)%path)))// &
+            str(found%slopes(c, p, s), 7)//unit)
+         effect(p) = -1.0_wp
+      end do
+   end subroutine add_list
+
+   !> What has no derivative, and why.
+   subroutine warn(settings, solver, found)
+      type(deck_settings_t), intent(in) :: settings
+      type(design_solver_t), intent(in) :: solver
+      type(derivatives_t), intent(in) :: found
+      type(buffer_t) :: names
+      integer :: p, s, lost
+
+      lost = 0
+      do s = 1, size(found%states)
+         if (.not. solver%cases(found%case)%result%path%is_reached(found%states(s))) lost = lost + 1
+      end do
+      if (lost > 0) call print_note(settings%is_quiet, plural(lost, 'state', 'states')//' did not converge: no derivatives there')
+      do p = 1, size(found%directions)
+         if (.not. found%can_move(p)) call names%add(found%directions(p)%path//' ')
+      end do
+      if (names%length() > 0) call print_note(settings%is_quiet, 'no derivative, because a change either way gives another '// &
+         'model, or a case with other states: '//names%text())
+   end subroutine warn
+
+end module ek_derivatives_command

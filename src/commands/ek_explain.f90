@@ -1,0 +1,250 @@
+!> elastokin explain: which element, joint or load makes how much of each compliance, state by state.
+module ek_explain
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_convergence
+   use ek_text, only: str, quoted, suggestion, is_like, plural
+   use ek_decimal, only: get_decimal
+   use ek_buffer, only: buffer_t
+   use ek_file, only: make_folder, join_path, write_whole
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_balance, only: balance
+   use ek_examination, only: examination_t
+   use ek_schedule, only: new_schedule
+   use ek_path_states, only: nearest_reached
+   use ek_case_result, only: case_result_t, solve_options_t, solve_case, failure_of
+   use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
+      key_compliances
+   use ek_explain_files, only: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, &
+      begin_explain_case, end_explain_case, end_explain_json
+   use ek_explain_text, only: add_largest, add_rigid, add_scan
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
+   use ek_command_line, only: command_line_t
+   use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases, examine_chosen
+   use ek_run_numbers, only: split_names
+   use ek_table, only: name_length
+   use ek_version, only: version
+   use ek_console, only: print_text, print_path, print_error, print_model_remarks, print_remarks, show_progress
+   implicit none(type, external)
+   private
+   public :: explain
+
+   type, extends(deck_settings_t) :: settings_t
+      character(name_length), allocatable :: columns(:)     !! names or patterns
+      type(message_list_t) :: rigid                         !! names of elements, or element.part
+      logical :: has_scan = .false., has_json = .false., has_place = .false.
+      real(wp) :: place = 0.0_wp                            !! swept value that is printed, in its unit
+   end type settings_t
+
+contains
+
+   !> Explains the chosen cases of a deck. The error at the end is that of the last case that failed.
+   subroutine explain(line, error)
+      type(command_line_t), intent(in) :: line
+      type(error_t), allocatable, intent(out) :: error
+      type(settings_t) :: settings
+      type(suspension_t) :: suspension
+      type(case_t), allocatable :: cases(:), chosen(:)
+      type(examination_t) :: found
+      type(model_remarks_t) :: remarks
+      type(explain_files_t) :: files
+      type(error_t), allocatable :: trouble, unprinted
+      character(:), allocatable :: checksum, path
+      integer :: k
+
+      call read_settings(line, settings, error)
+      if (.not. allocated(error)) call load_deck(settings, suspension, cases, checksum, error)
+      if (.not. allocated(error)) call chosen_cases(settings, cases, chosen, error)
+      if (.not. allocated(error)) call examine_chosen(settings%file, suspension, chosen, found, error)
+      if (.not. allocated(error)) call make_folder(settings%out, error)
+      if (.not. allocated(error)) call balance(suspension, chosen(1)%tolerance, error)
+      if (allocated(error)) return
+      call find_model_remarks(suspension, cases, chosen, .true., remarks)
+      call print_model_remarks(settings%is_quiet, remarks)
+      files%has_json = settings%has_json
+      if (files%has_json) call begin_explain_json(suspension%name, checksum, files%json)
+      do k = 1, size(chosen)
+         call explain_case(settings, suspension, chosen(k), found%faults%line(k), checksum, files, unprinted, trouble)
+         if (.not. allocated(trouble)) cycle
+         if (allocated(error)) call print_error(error%message)
+         call move_alloc(trouble, error)
+         if (error%code == exit_usage) return
+      end do
+      if (files%has_json) then
+         call end_explain_json(files%json)
+         path = join_path(settings%out, suspension%name//'_contributions.json')
+         call write_whole(path, files%json%text(), trouble)
+         if (.not. allocated(trouble)) call print_path(path, unprinted)
+         if (allocated(trouble) .and. .not. allocated(error)) call move_alloc(trouble, error)
+      end if
+      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+   end subroutine explain
+
+   subroutine read_settings(line, settings, error)
+      type(command_line_t), intent(in) :: line
+      type(settings_t), intent(out) :: settings
+      type(error_t), allocatable, intent(out) :: error
+      character(:), allocatable :: place
+
+      call read_deck_settings(line, settings)
+      if (line%has('--of')) then
+         call split_names(line%value('--of'), settings%columns)
+      else
+         settings%columns = key_compliances
+      end if
+      settings%rigid = line%values('--rigid')
+      settings%has_scan = line%has('--scan')
+      settings%has_json = line%has('--json')
+      settings%has_place = line%has('--at')
+      if (settings%out == '-') call fail(error, exit_usage, 'explain writes several files and cannot be used with --out -')
+      if (.not. settings%has_place .or. allocated(error)) return
+      place = line%value('--at')
+      call get_decimal(place, settings%place, settings%has_place)
+      if (.not. settings%has_place) call fail(error, exit_usage, '--at: expected a swept value, found '//quoted(place))
+   end subroutine read_settings
+
+   !> One case: solve, split, write, print.
+   subroutine explain_case(settings, base, wanted, fault, checksum, files, unprinted, error)
+      type(settings_t), intent(in) :: settings
+      type(suspension_t), intent(in) :: base
+      type(case_t), intent(in) :: wanted
+      character(*), intent(in) :: fault, checksum
+      type(explain_files_t), intent(inout) :: files
+      type(error_t), allocatable, intent(inout) :: unprinted
+      type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: trouble
+      type(solve_options_t) :: options
+      type(case_result_t) :: result
+      type(contribution_table_t) :: table
+      integer, allocatable :: laws(:)
+      character(:), allocatable :: name
+      integer :: k, printed
+
+      options%fault = fault
+      allocate (options%columns(0))
+      call solve_case(base, wanted, options, result, show_progress)
+      call print_remarks(settings%is_quiet, result%remarks)
+      call failure_of(result, error)
+      if (.not. result%is_run()) return
+      associate (suspension => result%suspension, case => result%case, path => result%path)
+         call start_contributions(suspension, table)
+         call take_columns(settings%columns, table, trouble)
+         printed = nearest_reached(path, settings%place*case%unit)
+         do k = 1, settings%rigid%count()
+            if (.not. allocated(trouble)) call find_laws(settings%rigid%line(k), table, laws, trouble)
+         end do
+         if (.not. allocated(trouble) .and. settings%has_place) call refuse_outside(settings%place, case, trouble)
+         name = join_path(settings%out, suspension%name//'_'//wanted%name)
+         if (.not. allocated(trouble)) call begin_explain_files(name, wanted%name, 'model '//suspension%name//', case '// &
+            wanted%name//', elastokin '//version//', deck checksum '//checksum, files, trouble)
+         if (.not. allocated(trouble)) then
+            if (files%has_json) call begin_explain_case(wanted%name, case%unit_name, table, files%json)
+            do k = 1, path%states
+               if (.not. path%is_reached(k) .or. (settings%has_place .and. k /= printed)) cycle
+               call find_contributions(suspension, new_schedule(suspension, case), path, k, result%kkt, table)
+               if (table%is_known) call add_explain_state(suspension, k - 1, path%value(k)/case%unit, table, files)
+            end do
+            if (files%has_json) call end_explain_case(files%json)
+            call end_explain_files(files, trouble)
+         end if
+         if (.not. allocated(trouble)) call print_path(name//'_contributions.csv', unprinted)
+         if (.not. allocated(trouble)) call print_path(name//'_load_paths.csv', unprinted)
+         if (.not. allocated(trouble) .and. printed > 0) call print_state(settings, result, printed, table, trouble)
+      end associate
+      if (allocated(trouble)) call move_alloc(trouble, error)
+   end subroutine explain_case
+
+   !> Restricts the table to the columns that names or patterns mean.
+   subroutine take_columns(names, table, error)
+      character(name_length), intent(in) :: names(:)
+      type(contribution_table_t), intent(inout) :: table
+      type(error_t), allocatable, intent(out) :: error       !! exit_usage: all names that mean no column
+      logical, allocatable :: is_wanted(:), is_this(:)
+      type(message_list_t) :: mistakes
+      integer :: k, j
+
+      allocate (is_wanted(table%columns%used), is_this(table%columns%used), source=.false.)
+      do k = 1, size(names)
+         do j = 1, size(is_this)
+            is_this(j) = is_like(trim(table%columns%names(j)), trim(names(k)))
+         end do
+         is_wanted = is_wanted .or. is_this
+         if (any(is_this) .or. any(key_compliances == names(k))) cycle
+         call mistakes%add('--of: no column that is linear in the compliance matrix is called '//quoted(trim(names(k)))// &
+            suggestion(trim(names(k)), table%columns%names))
+      end do
+      if (mistakes%count() == 0 .and. .not. any(is_wanted)) call mistakes%add('--of: the model has none of these columns')
+      if (mistakes%count() > 0) then
+         call fail(error, exit_usage, mistakes%text())
+      else
+         call choose_contributions(is_wanted, table)
+      end if
+   end subroutine take_columns
+
+   !> Refuses a swept value outside the range of a case.
+   subroutine refuse_outside(place, case, error)
+      real(wp), intent(in) :: place
+      type(case_t), intent(in) :: case
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: low, high
+
+      low = min(case%from, case%to)/case%unit
+      high = max(case%from, case%to)/case%unit
+      if (place < low - 1.0e-9_wp*(high - low) .or. place > high + 1.0e-9_wp*(high - low)) call fail(error, exit_usage, &
+         '--at: case '//quoted(case%name)//' goes from '//str(low)//' to '//str(high)//' '//case%unit_name//', found '//str(place))
+   end subroutine refuse_outside
+
+   !> Prints one state: the largest contributions, and the answers to --rigid and --scan.
+   subroutine print_state(settings, result, k, table, error)
+      type(settings_t), intent(in) :: settings
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: k
+      type(contribution_table_t), intent(inout) :: table
+      type(error_t), allocatable, intent(out) :: error
+      type(buffer_t) :: text
+      integer, allocatable :: laws(:)
+      integer :: r
+
+      associate (suspension => result%suspension, case => result%case, path => result%path)
+         call find_contributions(suspension, new_schedule(suspension, case), path, k, result%kkt, table)
+         call text%line('case '//quoted(case%name)//', '//case%place_name//' = '//str(path%value(k)/case%unit, 9)//' '// &
+            case%unit_name//':')
+         if (table%is_known) then
+            call add_largest(table, text)
+            do r = 1, settings%rigid%count()
+               call find_laws(settings%rigid%line(r), table, laws, error)
+               if (allocated(error)) return
+               call add_rigid(suspension, settings%rigid%line(r), laws, result%kkt, table, text)
+            end do
+            if (settings%has_scan) call add_scan(suspension, result%kkt, table, text)
+         else
+            call text%line('  the compliance matrix is singular at this state')
+         end if
+      end associate
+      call print_text(text%text(), error)
+   end subroutine print_state
+
+   !> The laws of an element, or the one of `element.part`.
+   subroutine find_laws(name, table, laws, error)
+      character(*), intent(in) :: name
+      type(contribution_table_t), intent(in) :: table
+      integer, allocatable, intent(out) :: laws(:)
+      type(error_t), allocatable, intent(out) :: error       !! exit_usage
+      character(name_length), allocatable :: known(:)
+      logical, allocatable :: is_this(:)
+      integer :: k
+
+      allocate (is_this(size(table%shares%law)), known(size(table%shares%law)))
+      do k = 1, size(is_this)
+         associate (row => table%row(table%shares%law(k)))
+            known(k) = row%row
+            is_this(k) = row%row == name .or. trim(row%row)//'.'//trim(row%part) == name
+         end associate
+      end do
+      laws = pack([(k, k=1, size(is_this))], is_this)
+      if (size(laws) > 0) return
+      call fail(error, exit_usage, '--rigid: expected an element, or one axis of a bushing (element.x to element.rz), found '// &
+         quoted(name)//suggestion(name, known))
+   end subroutine find_laws
+
+end module ek_explain

@@ -1,0 +1,216 @@
+!> The files of elastokin explain: contributions and load paths of all states as long tables, and as JSON.
+module ek_explain_files
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_text, only: str
+   use ek_decimal, only: decimal
+   use ek_buffer, only: buffer_t
+   use ek_json, only: json_t, json_string, json_number, json_numbers
+   use ek_quantity, only: unit_of, unit_text
+   use ek_suspension, only: suspension_t
+   use ek_element, only: element_kinds
+   use ek_writer, only: writer_t, begin_file
+   use ek_contribution, only: of_element, of_joint
+   use ek_contribution_table, only: contribution_table_t
+   use ek_wheel_side, only: prefix_of, deck_frame
+   use ek_version, only: version
+   implicit none(type, external)
+   private
+   public :: explain_files_t, begin_explain_files, add_explain_state, end_explain_files, begin_explain_json, begin_explain_case, &
+      end_explain_case, end_explain_json
+
+   character(*), parameter :: nl = new_line('a')
+   character(1), parameter :: axes(3) = ['x', 'y', 'z']
+
+   type :: explain_files_t
+      type(writer_t) :: shares, paths
+      character(:), allocatable :: case
+      logical :: has_json = .false.
+      type(json_t) :: json                   !! of all cases
+   end type explain_files_t
+
+contains
+
+   !> Begins both tables of a case.
+   subroutine begin_explain_files(name, case, header, self, error)
+      character(*), intent(in) :: name                 !! path without its ending
+      character(*), intent(in) :: case, header         !! its line: program, model, deck
+      type(explain_files_t), intent(inout) :: self
+      type(error_t), allocatable, intent(out) :: error
+
+      self%case = case
+      call begin_file(self%shares, name//'_contributions.csv', error)
+      if (allocated(error)) return
+      call begin_file(self%paths, name//'_load_paths.csv', error)
+      if (allocated(error)) return
+      call self%shares%add('# '//header//nl// &
+         '# the values of a column and state add up to column_value; rows of 0 are left out'//nl// &
+         'case,state,factor,column,column_value,row,kind,part,value,unit,share'//nl)
+      call self%paths%add('# '//header//nl// &
+         '# per newton at a contact point: on the second body, at its point, frame of the deck'//nl// &
+         'case,state,factor,load,row,kind,fx_n_per_n,fy_n_per_n,fz_n_per_n,mx_nm_per_n,my_nm_per_n,mz_nm_per_n,'// &
+         'energy_share'//nl)
+   end subroutine begin_explain_files
+
+   !> Adds a state to the tables, and to the JSON object.
+   subroutine add_explain_state(suspension, state, factor, table, self)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: state                     !! its number, the first is 0
+      real(wp), intent(in) :: factor                   !! swept value in its unit
+      type(contribution_table_t), intent(in) :: table
+      type(explain_files_t), intent(inout) :: self
+      type(buffer_t) :: lines
+      character(:), allocatable :: place, head, unit
+      integer :: c, e
+
+      place = self%case//','//str(state)//','//decimal(factor)//','
+      do c = 1, size(table%values)
+         head = trim(table%columns%names(table%columns%asked(c)))
+         unit = unit_text(unit_of(head))
+         head = place//head//','//decimal(table%values(c))//','
+         do e = 1, size(table%row)
+            if (.not. abs(table%parts(c, e)) > 0.0_wp) cycle
+            call lines%add(head)
+            call lines%add(trim(table%row(e)%row)//','//trim(table%row(e)%kind)//','//trim(table%row(e)%part)//',')
+            call lines%add(decimal(table%parts(c, e)))
+            call lines%add(','//unit//',')
+            call lines%line(decimal(share_of(table%parts(c, e), table%values(c))))
+         end do
+      end do
+      call self%shares%add(lines%text())
+      call lines%clear()
+      call add_paths(suspension, place, table, lines)
+      call self%paths%add(lines%text())
+      if (self%has_json) call add_json_state(state, factor, table, self%json)
+   end subroutine add_explain_state
+
+   !> The lines of the load paths of a state.
+   subroutine add_paths(suspension, place, table, lines)
+      type(suspension_t), intent(in) :: suspension
+      character(*), intent(in) :: place
+      type(contribution_table_t), intent(in) :: table
+      type(buffer_t), intent(inout) :: lines
+      character(:), allocatable :: load, name, kind
+      real(wp) :: frame(3), energy
+      integer :: j, k, x, elements, item, sort
+
+      frame = deck_frame(suspension)
+      elements = size(suspension%elements)
+      do j = 1, size(table%energy, 1)
+         load = prefix_of(suspension, table%columns%kandc%compliance%order((j + 2)/3))//'f'//axes(mod(j - 1, 3) + 1)
+         do k = 1, elements + size(suspension%joints)
+            item = merge(k, k - elements, k <= elements)
+            sort = merge(of_element, of_joint, k <= elements)
+            if (k <= elements) then
+               name = suspension%elements(k)%name
+               kind = trim(element_kinds(suspension%elements(k)%kind)%label)
+            else
+               name = suspension%joints(item)%name
+               kind = suspension%joints(item)%kind
+            end if
+            call lines%add(place)
+            call lines%add(load//','//name//','//kind//',')
+            do x = 1, 3
+               call lines%add(decimal(frame(x)*frame(mod(j - 1, 3) + 1)*table%paths%force(x, j, k)))
+               call lines%add(',')
+            end do
+            do x = 1, 3
+               call lines%add(decimal(frame(x)*frame(mod(j - 1, 3) + 1)*table%paths%moment(x, j, k)))
+               call lines%add(',')
+            end do
+            energy = sum(table%energy(j, :), mask=table%shares%share%kind == sort .and. table%shares%share%item == item)
+            call lines%line(decimal(energy))
+         end do
+      end do
+   end subroutine add_paths
+
+   !> Ends both tables; they then exist.
+   subroutine end_explain_files(self, error)
+      type(explain_files_t), intent(inout) :: self
+      type(error_t), allocatable, intent(out) :: error
+
+      call self%shares%finish(error)
+      if (.not. allocated(error)) call self%paths%finish(error)
+   end subroutine end_explain_files
+
+   pure real(wp) function share_of(value, whole) result(share)
+      real(wp), intent(in) :: value, whole
+
+      share = 0.0_wp
+      if (abs(whole) > 0.0_wp) share = value/whole
+   end function share_of
+
+   subroutine begin_explain_json(model, checksum, json)
+      character(*), intent(in) :: model, checksum
+      type(json_t), intent(inout) :: json
+
+      call json%open('{')
+      call json%item('program', json_string('elastokin '//version))
+      call json%item('model', json_string(model))
+      call json%item('checksum', json_string(checksum))
+      call json%open('[', 'cases')
+   end subroutine begin_explain_json
+
+   !> Begins a case: the rows, which are the same at every state.
+   subroutine begin_explain_case(name, unit_name, table, json)
+      character(*), intent(in) :: name, unit_name      !! of the swept value
+      type(contribution_table_t), intent(in) :: table
+      type(json_t), intent(inout) :: json
+      integer :: k
+
+      call json%open('{')
+      call json%item('name', json_string(name))
+      call json%item('factor_unit', json_string(unit_name))
+      call json%open('[', 'rows')
+      do k = 1, size(table%row)
+         call json%open('{')
+         call json%item('row', json_string(trim(table%row(k)%row)))
+         call json%item('kind', json_string(trim(table%row(k)%kind)))
+         call json%item('part', json_string(trim(table%row(k)%part)))
+         call json%close('}')
+      end do
+      call json%close(']')
+      call json%open('[', 'states')
+   end subroutine begin_explain_case
+
+   subroutine end_explain_case(json)
+      type(json_t), intent(inout) :: json
+
+      call json%close(']')
+      call json%close('}')
+   end subroutine end_explain_case
+
+   subroutine end_explain_json(json)
+      type(json_t), intent(inout) :: json
+
+      call json%close(']')
+      call json%close('}')
+   end subroutine end_explain_json
+
+   !> One state: of every column its value, and that of every row.
+   subroutine add_json_state(state, factor, table, json)
+      integer, intent(in) :: state
+      real(wp), intent(in) :: factor
+      type(contribution_table_t), intent(in) :: table
+      type(json_t), intent(inout) :: json
+      character(:), allocatable :: name
+      integer :: c
+
+      call json%open('{')
+      call json%item('state', str(state))
+      call json%item('factor', json_number(factor))
+      call json%open('[', 'columns')
+      do c = 1, size(table%values)
+         name = trim(table%columns%names(table%columns%asked(c)))
+         call json%open('{')
+         call json%item('name', json_string(name))
+         call json%item('unit', json_string(unit_text(unit_of(name))))
+         call json%item('value', json_number(table%values(c)))
+         call json%item('contributions', json_numbers(table%parts(c, :)))
+         call json%close('}')
+      end do
+      call json%close(']')
+      call json%close('}')
+   end subroutine add_json_state
+
+end module ek_explain_files

@@ -1,0 +1,273 @@
+!> The files of a fit: its factors, its points, settings for --set-file, and a figure of start, target and result.
+module ek_fit_files
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_text, only: str
+   use ek_decimal, only: decimal
+   use ek_buffer, only: buffer_t
+   use ek_file, only: join_path, write_whole
+   use ek_version, only: version
+   use ek_design_solver, only: design_solver_t
+   use ek_drawing, only: run_gnuplot
+   use ek_gnuplot_text, only: gnuplot_text, gnuplot_comment
+   use ek_parameter, only: choice_t, parameter_path
+   use ek_study, only: is_given
+   use ek_fit, only: fit_t
+   use ek_fit_problem, only: fit_problem_t
+   use ek_fit_solver, only: fit_result_t, difference_of
+   use ek_fit_statistics, only: fit_statistics_t
+   use ek_console, only: print_path
+   implicit none(type, external)
+   private
+   public :: write_fit_files, changed_numbers
+
+   integer, parameter :: most_panels = 12
+   character(*), parameter :: held_words(-1:1) = [character(5) :: 'lower', '', 'upper']
+
+contains
+
+   !> Writes all files and prints their paths.
+   subroutine write_fit_files(fit, solver, problem, found, statistics, out, draws, message, error)
+      type(fit_t), intent(in) :: fit
+      type(design_solver_t), intent(in) :: solver          !! with the numbers found
+      type(fit_problem_t), intent(in) :: problem
+      type(fit_result_t), intent(in) :: found
+      type(fit_statistics_t), intent(in) :: statistics
+      character(*), intent(in) :: out                      !! folder
+      logical, intent(in) :: draws                         !! runs gnuplot
+      character(:), allocatable, intent(out) :: message    !! '' or why there is no picture
+      type(error_t), allocatable, intent(out) :: error
+      type(error_t), allocatable :: unprinted
+      type(message_list_t) :: scripts, pictures
+
+      message = ''
+      call write_one('_factors.csv', factors_csv(problem, found, statistics))
+      call write_one('_points.csv', points_csv(fit, solver, problem, found))
+      call write_one('.set', settings(fit, solver, problem))
+      call write_one('.gp', script(fit, solver, problem))
+      if (draws .and. .not. allocated(error)) then
+         call scripts%add(fit%name//'.gp')
+         call pictures%add(fit%name//'.png')
+         call pictures%add(fit%name//'.svg')
+         call run_gnuplot(scripts, pictures, out, message, error)
+         if (message == '' .and. .not. allocated(error)) call print_path(join_path(out, fit%name//'.png'), unprinted)
+      end if
+      if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
+
+   contains
+
+      subroutine write_one(ending, text)
+         character(*), intent(in) :: ending, text
+         if (allocated(error)) return
+         call write_whole(join_path(out, fit%name//ending), text, error)
+         if (.not. allocated(error)) call print_path(join_path(out, fit%name//ending), unprinted)
+      end subroutine write_one
+
+   end subroutine write_fit_files
+
+   !> One row per factor.
+   function factors_csv(problem, found, statistics) result(text)
+      type(fit_problem_t), intent(in) :: problem
+      type(fit_result_t), intent(in) :: found
+      type(fit_statistics_t), intent(in) :: statistics
+      character(:), allocatable :: text
+      type(buffer_t) :: csv
+      integer :: f
+
+      call csv%line('factor,unit,start,result,lower,upper,bound,half_of_95_percent,low_95,high_95,half_by_targets_alone,learned')
+      do f = 1, size(problem%variables)
+         associate (this => problem%variables(f))
+            call csv%add(this%name//','//this%direction%unit)
+            call add_number(this%start, csv)
+            call add_number(found%x(f), csv)
+            call add_number(this%lower, csv)
+            call add_number(this%upper, csv)
+            call csv%add(','//trim(held_words(found%held(f))))
+            call add_number(statistics%half(f), csv)
+            call add_number(found%x(f) - statistics%half(f), csv)
+            call add_number(found%x(f) + statistics%half(f), csv)
+            call add_number(statistics%half_alone(f), csv)
+            call csv%line(','//trim(merge('1', '0', statistics%is_learned(f))))
+         end associate
+      end do
+      text = csv%text()
+   end function factors_csv
+
+   !> A cell; nan for a bound that is not given and for what is unknown.
+   subroutine add_number(value, csv)
+      real(wp), intent(in) :: value
+      type(buffer_t), intent(inout) :: csv
+
+      call csv%add(',')
+      if (.not. ieee_is_finite(value)) then
+         call csv%add('nan')
+      else if (abs(value) >= huge(value)) then
+         call csv%add('nan')
+      else
+         call csv%add(decimal(value))
+      end if
+   end subroutine add_number
+
+   !> One row per point: what was wanted, at the start, now.
+   function points_csv(fit, solver, problem, found) result(text)
+      type(fit_t), intent(in) :: fit
+      type(design_solver_t), intent(in) :: solver
+      type(fit_problem_t), intent(in) :: problem
+      type(fit_result_t), intent(in) :: found
+      character(:), allocatable :: text
+      type(buffer_t) :: csv
+      integer :: k
+
+      call csv%line('target,case,quantity,over,at,wanted,low,high,start,result,deviation,difference')
+      do k = 1, size(problem%points)
+         associate (point => problem%points(k), wanted => problem%wanted(k), target => fit%targets(problem%points(k)%target))
+            call csv%add(target%name//',')
+            if (wanted%case > 0) call csv%add(solver%cases(wanted%case)%case%name)
+            call csv%add(','//wanted%name//','//trim(wanted%over))
+            call add_number(wanted%at, csv)
+            call add_number(point%value, csv)
+            call add_number(point%low, csv)
+            call add_number(point%high, csv)
+            call add_number(found%before(k), csv)
+            call add_number(found%after(k), csv)
+            call add_number(point%deviation, csv)
+            call add_number(difference_of(point, found%after(k)), csv)
+            call csv%line('')
+         end associate
+      end do
+      text = csv%text()
+   end function points_csv
+
+   !> All numbers that the factors change.
+   subroutine changed_numbers(problem, changed)
+      type(fit_problem_t), intent(in) :: problem
+      type(choice_t), allocatable, intent(out) :: changed(:)
+      integer :: f
+
+      allocate (changed(0))
+      do f = 1, size(problem%variables)
+         changed = [changed, problem%variables(f)%direction%found]
+      end do
+   end subroutine changed_numbers
+
+   !> The numbers found as settings.
+   function settings(fit, solver, problem) result(text)
+      type(fit_t), intent(in) :: fit
+      type(design_solver_t), intent(in) :: solver
+      type(fit_problem_t), intent(in) :: problem
+      character(:), allocatable :: text
+      type(buffer_t) :: list
+      type(choice_t), allocatable :: changed(:)
+      logical, allocatable :: is_tied(:)
+      integer :: j
+
+      call changed_numbers(problem, changed)
+      call list%line('# elastokin '//version//' fit '//fit%name//': numbers of '//solver%raw%name//' for --set-file')
+      associate (numbers => solver%design%parameters)
+         ! a number of both sides has the path of the half deck, if both sides changed
+         allocate (is_tied(numbers%used), source=.false.)
+         do j = 1, size(changed)
+            is_tied(changed(j)%number) = any(numbers%list(changed%number)%tied == changed(j)%number)
+         end do
+         do j = 1, size(changed)
+            associate (this => numbers%list(changed(j)%number))
+               if (any(changed(:j - 1)%number == changed(j)%number)) cycle
+               if (this%tied > 0) then
+                  if (is_tied(this%tied)) cycle
+               end if
+               call list%line(path_of(changed(j)%number, is_tied(changed(j)%number))//' = '// &
+                  decimal(solver%x(changed(j)%number)/this%unit))
+            end associate
+         end do
+      end associate
+      text = list%text()
+
+   contains
+
+      function path_of(number, is_of_pair) result(path)
+         integer, intent(in) :: number
+         logical, intent(in) :: is_of_pair
+         character(:), allocatable :: path
+         path = parameter_path(solver%design%parameters%list(number), solver%design%records, is_of_pair)
+      end function path_of
+
+   end function settings
+
+   !> A panel for each curve: start, target and result, from the file of the points.
+   function script(fit, solver, problem) result(text)
+      type(fit_t), intent(in) :: fit
+      type(design_solver_t), intent(in) :: solver
+      type(fit_problem_t), intent(in) :: problem
+      character(:), allocatable :: text
+      type(buffer_t) :: gp
+      integer, allocatable :: curves(:)
+      integer :: k, t, rows
+
+      curves = pack([(t, t=1, size(fit%targets))], [(count(problem%points%target == t) > 1, t=1, size(fit%targets))])
+      curves = curves(:min(size(curves), most_panels))
+      rows = max(1, (size(curves) + 2)/3)
+      call gp%line(gnuplot_comment('fit '//fit%name//': start, target and result'))
+      call gp%line('reset')
+      call gp%line('set encoding utf8')
+      call gp%line('set datafile separator comma')
+      call gp%line("set datafile missing 'nan'")
+      call gp%line("set border 3 linecolor rgb '#808080'")
+      call gp%line('set tics out nomirror')
+      call gp%line('set key above')
+      call gp%line('points = '//gnuplot_text(fit%name//'_points.csv'))
+      call gp%line('of(name, column) = strcol(1) eq name ? column(column) : NaN')
+      call gp%line("do for [format in 'png svg'] {")
+      call gp%line("   if (format eq 'png') { set terminal pngcairo size 1500, "//str(420*rows + 60)//" font 'sans-serif,11' }")
+      call gp%line("   if (format eq 'svg') { set terminal svg size 1500, "//str(420*rows + 60)// &
+         " font 'sans-serif,11' background 'white' }")
+      call gp%line('   set output '//gnuplot_text(fit%name//'.')//'.format')
+      if (size(curves) == 0) then
+         call gp%line("   set title 'differences in deviations'")
+         call gp%line("   plot points every ::1 using 0:12:xticlabels(1) with impulses linewidth 4 notitle")
+      else
+         call gp%line('   set multiplot layout '//str(rows)//', '//str(min(3, size(curves)))//' title '// &
+            gnuplot_text(trim(fit%name//' '//fit%title))//' noenhanced')
+         do k = 1, size(curves)
+            t = findloc(problem%points%target, curves(k), dim=1)
+            call gp%line('   set title '//gnuplot_text(fit%targets(curves(k))%name)//' noenhanced')
+            call gp%line('   set xlabel '//gnuplot_text(abscissa(t))//' noenhanced')
+            call gp%line('   set ylabel '//gnuplot_text(problem%wanted(t)%name)//' noenhanced')
+            call gp%line("   plot "//part(9, "with lines linecolor rgb '#a0a0a0' dashtype 2 linewidth 2 title 'start'")//', \')
+            if (any(is_given(problem%points%low) .and. problem%points%target == curves(k))) call gp%line('      '// &
+               part(7, "with lines linecolor rgb '#208040' title 'low'")//', \')
+            if (any(is_given(problem%points%high) .and. problem%points%target == curves(k))) call gp%line('      '// &
+               part(8, "with lines linecolor rgb '#208040' title 'high'")//', \')
+            call gp%line('      '//part(6, "with points pointtype 6 linecolor rgb '#204080' title 'target'")//', \')
+            call gp%line('      '//part(10, "with lines linecolor rgb '#d04020' linewidth 2 title 'result'"))
+         end do
+         call gp%line('   unset multiplot')
+      end if
+      call gp%line('   unset output')
+      call gp%line('}')
+      text = gp%text()
+
+   contains
+
+      !> The swept value with its unit, or the column over which the curve is.
+      function abscissa(t) result(label)
+         integer, intent(in) :: t
+         character(:), allocatable :: label
+
+         label = trim(problem%wanted(t)%over)
+         if (label /= 'factor' .or. problem%wanted(t)%case == 0) return
+         associate (case => solver%cases(problem%wanted(t)%case)%case)
+            label = case%name//', swept value'
+         end associate
+      end function abscissa
+
+      function part(column, style) result(words)
+         integer, intent(in) :: column
+         character(*), intent(in) :: style
+         character(:), allocatable :: words
+         words = 'points every ::1 using 5:(of('//gnuplot_text(fit%targets(curves(k))%name)//', '//str(column)//')) '//style
+      end function part
+
+   end function script
+
+end module ek_fit_files

@@ -1,0 +1,285 @@
+!> The moments of a tolerance study: from its expansion, as tables, and read back for figures and page.
+!>
+!>     <study>_moments.csv   one row per response and method: mean, deviation, skewness, percentiles, share within the limits
+!>     <study>_shares.csv    one row per response and factor: derivatives and shares of the variance
+!>     <study>_bands.csv     one row per column and state: the curve and its band
+module ek_moment_tables
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t
+   use ek_buffer, only: buffer_t
+   use ek_decimal, only: decimal
+   use ek_file, only: join_path, write_whole, file_exists
+   use ek_table, only: table_t, read_csv
+   use ek_sample_statistics, only: mean_and_deviation, ascending_order, percentile, error_of_deviation
+   use ek_standard_factor, only: value_at, slope_at
+   use ek_moments, only: moments_t, normal_yield, normal_percentile
+   use ek_tolerance, only: tolerance_t
+   use ek_study_data, only: study_data_t, study_axis_t, moment_row_t, methods
+   implicit none(type, external)
+   private
+   public :: take_tolerance, take_sample, write_moments, read_moments
+
+   real(wp), parameter :: normal_95 = 1.959963984540054_wp      !! standard errors in half of a 95 % interval
+   character(*), parameter :: moment_heads = 'response,method,mean,mean_half_95,deviation,deviation_half_95,skewness,p5,p95,'// &
+      'lower,upper,within,within_half_95'
+   character(*), parameter :: share_heads = 'response,factor,center,deviation,slope,effect,curvature,first,total,nominal,'// &
+      'at_low,at_high'
+   character(*), parameter :: band_heads = 'column,factor,nominal,mean,deviation,p5,p95'
+
+contains
+
+   !> What the derivatives say of the responses and of the curves.
+   subroutine take_tolerance(found, columns, data)
+      type(tolerance_t), intent(in) :: found
+      character(*), intent(in) :: columns(:)         !! of the study; those of the data lack the swept value
+      type(study_data_t), intent(inout) :: data
+      integer :: c, f, k, r, s
+
+      allocate (data%moments(size(methods), found%responses))
+      data%centers = [(value_at(found%factors(f), 0.0_wp), f=1, size(found%factors))]
+      data%deviations = [(slope_at(found%factors(f), 0.0_wp), f=1, size(found%factors))]
+      do r = 1, found%responses
+         associate (m => found%moments(r), axis => data%responses(r))
+            data%moments(1, r) = row_of(found%expansions(r)%value, m%linear, m%linear_skewness, axis)
+            data%moments(2, r) = row_of(m%mean, m%deviation, m%skewness, axis)
+         end associate
+         call take_effects(r)
+      end do
+      allocate (data%expected(5, size(data%columns), size(found%sweep)))
+      do c = 1, size(data%columns)
+         do s = 1, size(found%sweep)
+            k = found%responses + (findloc(columns == data%columns(c)%name, .true., dim=1) - 1)*size(found%sweep) + s
+            associate (m => found%moments(k))
+               data%expected(:, c, s) = [found%expansions(k)%value, m%mean, m%deviation, &
+                  normal_percentile(m%mean, m%deviation, m%skewness, 0.05_wp), &
+                  normal_percentile(m%mean, m%deviation, m%skewness, 0.95_wp)]
+            end associate
+         end do
+      end do
+
+   contains
+
+      subroutine take_effects(r)
+         integer, intent(in) :: r
+         real(wp) :: ends(2)
+
+         associate (y => found%expansions(r), effects => data%effects(r))
+            effects%nominal = y%value
+            effects%first = found%moments(r)%first
+            effects%total = found%moments(r)%total
+            effects%effect = y%slopes
+            effects%curvature = [(y%curvatures(f, f), f=1, size(y%slopes))]
+            effects%slope = y%slopes
+            effects%at_low = y%slopes
+            effects%at_high = y%slopes
+            do f = 1, size(y%slopes)
+               if (data%deviations(f) > 0.0_wp) effects%slope(f) = y%slopes(f)/data%deviations(f)
+               ends = found%factors(f)%ends
+               ends = y%value + y%slopes(f)*ends + 0.5_wp*effects%curvature(f)*ends**2
+               effects%at_low(f) = ends(1)
+               effects%at_high(f) = ends(2)
+            end do
+            call take_ranges(data, r)
+         end associate
+      end subroutine take_effects
+
+   end subroutine take_tolerance
+
+   !> What the figures of one factor at a time and of the indices need beside the values at the ends.
+   pure subroutine take_ranges(data, r)
+      type(study_data_t), intent(inout) :: data
+      integer, intent(in) :: r
+
+      associate (effects => data%effects(r))
+         effects%lowest = min(effects%at_low, effects%at_high, effects%nominal)
+         effects%highest = max(effects%at_low, effects%at_high, effects%nominal)
+         effects%first_error = 0.0_wp*effects%first
+         effects%total_error = 0.0_wp*effects%total
+      end associate
+   end subroutine take_ranges
+
+   !> A row of what is nearly normal.
+   pure function row_of(mean, deviation, skewness, axis) result(row)
+      real(wp), intent(in) :: mean, deviation, skewness
+      type(study_axis_t), intent(in) :: axis
+      type(moment_row_t) :: row
+
+      row = moment_row_t(mean, deviation, skewness, normal_percentile(mean, deviation, skewness, 0.05_wp), &
+         normal_percentile(mean, deviation, skewness, 0.95_wp), 0.0_wp, 0.0_wp, &
+         normal_yield(mean, deviation, skewness, axis%lower, axis%upper), 0.0_wp)
+   end function row_of
+
+   !> What the designs of the study say of its responses.
+   subroutine take_sample(data)
+      type(study_data_t), intent(inout) :: data
+      real(wp), allocatable :: values(:)
+      integer, allocatable :: order(:)
+      integer :: n, r
+
+      do r = 1, size(data%responses)
+         associate (row => data%moments(3, r), axis => data%responses(r))
+            values = pack(data%y(r, :), ieee_is_finite(data%y(r, :)))
+            n = size(values)
+            row = moment_row_t(nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing(), nothing())
+            if (n < 2) cycle
+            call mean_and_deviation(values, row%mean, row%deviation)
+            row%mean_half = normal_95*row%deviation/sqrt(real(n, wp))
+            row%deviation_half = 0.0_wp
+            row%skewness = 0.0_wp
+            if (row%deviation > 0.0_wp) then
+               row%deviation_half = normal_95*error_of_deviation(values)
+               row%skewness = sum((values - row%mean)**3)/n/row%deviation**3
+            end if
+            if (allocated(order)) deallocate (order)
+            allocate (order(n))
+            call ascending_order(values, order)
+            row%low = percentile(values(order), 0.05_wp)
+            row%high = percentile(values(order), 0.95_wp)
+            row%within = real(count(values >= axis%lower .and. values <= axis%upper), wp)/data%designs
+            row%within_half = normal_95*sqrt(row%within*(1.0_wp - row%within)/data%designs)
+         end associate
+      end do
+   end subroutine take_sample
+
+   pure real(wp) function nothing()
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function nothing
+
+   !> Writes the tables into a folder; names: their names.
+   subroutine write_moments(data, out, names, error)
+      type(study_data_t), intent(in) :: data
+      character(*), intent(in) :: out
+      type(message_list_t), intent(inout) :: names
+      type(error_t), allocatable, intent(out) :: error
+      type(buffer_t) :: csv
+      integer :: c, f, m, r, s
+
+      call csv%line(moment_heads)
+      do r = 1, size(data%responses)
+         do m = 1, size(methods)
+            call csv%add('"'//data%responses(r)%name//'","'//trim(methods(m))//'"')
+            associate (row => data%moments(m, r), axis => data%responses(r))
+               call add_numbers(csv, [row%mean, row%mean_half, row%deviation, row%deviation_half, row%skewness, row%low, row%high, &
+                  axis%lower, axis%upper, row%within, row%within_half])
+            end associate
+         end do
+      end do
+      if (size(data%responses) > 0) call write_one('_moments.csv')
+      csv = buffer_t()
+      call csv%line(share_heads)
+      do r = 1, size(data%responses)
+         do f = 1, size(data%factors)
+            call csv%add('"'//data%responses(r)%name//'","'//data%factors(f)%name//'"')
+            associate (e => data%effects(r))
+               call add_numbers(csv, [data%centers(f), data%deviations(f), e%slope(f), e%effect(f), e%curvature(f), e%first(f), &
+                  e%total(f), e%nominal, e%at_low(f), e%at_high(f)])
+            end associate
+         end do
+      end do
+      if (size(data%responses) > 0) call write_one('_shares.csv')
+      csv = buffer_t()
+      call csv%line(band_heads)
+      do c = 1, size(data%expected, 2)
+         do s = 1, min(size(data%expected, 3), size(data%sweep))
+            call csv%add('"'//data%columns(c)%name//'"')
+            call add_numbers(csv, [data%sweep(s), data%expected(:, c, s)])
+         end do
+      end do
+      if (size(data%expected) > 0 .and. size(data%expected, 3) == size(data%sweep)) call write_one('_bands.csv')
+
+   contains
+
+      subroutine write_one(ending)
+         character(*), intent(in) :: ending
+         if (allocated(error)) return
+         call write_whole(join_path(out, data%name//ending), csv%text(), error)
+         if (.not. allocated(error)) call names%add(data%name//ending)
+      end subroutine write_one
+
+   end subroutine write_moments
+
+   !> The other cells of a row; a limit that is not given is nan.
+   subroutine add_numbers(csv, values)
+      type(buffer_t), intent(inout) :: csv
+      real(wp), intent(in) :: values(:)
+      integer :: k
+
+      do k = 1, size(values)
+         call csv%add(',')
+         if (ieee_is_finite(values(k))) then
+            if (abs(values(k)) < huge(1.0_wp)) then
+               call csv%add(decimal(values(k)))
+               cycle
+            end if
+         end if
+         call csv%add('nan')
+      end do
+      call csv%line('')
+   end subroutine add_numbers
+
+   !> Reads the tables of a finished study. What is missing or does not fit stays unallocated.
+   subroutine read_moments(out, data)
+      character(*), intent(in) :: out
+      type(study_data_t), intent(inout) :: data
+      type(table_t) :: moments, shares, bands
+      logical :: is_good
+      integer :: c, k, m, r, s
+
+      allocate (data%expected(5, 0, 0))
+      is_good = .true.
+      if (size(data%responses) > 0) then
+         call read_one('_moments.csv', size(data%responses)*size(methods), moments)
+         call read_one('_shares.csv', size(data%responses)*size(data%factors), shares)
+         if (.not. is_good) return
+         allocate (data%moments(size(methods), size(data%responses)))
+         do r = 1, size(data%responses)
+            do m = 1, size(methods)
+               associate (row => moments%values(:, (r - 1)*size(methods) + m))
+                  data%moments(m, r) = moment_row_t(row(3), row(5), row(7), row(8), row(9), row(4), row(6), row(12), row(13))
+               end associate
+            end do
+            k = (r - 1)*size(data%factors)
+            associate (e => data%effects(r), rows => shares%values(:, k + 1:k + size(data%factors)))
+               data%centers = rows(3, :)
+               data%deviations = rows(4, :)
+               e%slope = rows(5, :)
+               e%effect = rows(6, :)
+               e%curvature = rows(7, :)
+               e%first = rows(8, :)
+               e%total = rows(9, :)
+               e%nominal = rows(10, 1)
+               e%at_low = rows(11, :)
+               e%at_high = rows(12, :)
+            end associate
+            call take_ranges(data, r)
+         end do
+      end if
+      if (size(data%columns) == 0) return
+      call read_one('_bands.csv', size(data%columns)*size(data%sweep), bands)
+      if (.not. is_good) return
+      deallocate (data%expected)
+      allocate (data%expected(5, size(data%columns), size(data%sweep)))
+      do c = 1, size(data%columns)
+         do s = 1, size(data%sweep)
+            data%expected(:, c, s) = bands%values(3:7, (c - 1)*size(data%sweep) + s)
+         end do
+      end do
+
+   contains
+
+      subroutine read_one(ending, rows, table)
+         character(*), intent(in) :: ending
+         integer, intent(in) :: rows
+         type(table_t), intent(out) :: table
+         type(error_t), allocatable :: error
+
+         if (is_good) is_good = file_exists(join_path(out, data%name//ending))
+         if (is_good) call read_csv(join_path(out, data%name//ending), table, error, has_text=.true.)
+         is_good = is_good .and. .not. allocated(error)
+         if (is_good) is_good = size(table%values, 2) == rows
+      end subroutine read_one
+
+   end subroutine read_moments
+
+end module ek_moment_tables

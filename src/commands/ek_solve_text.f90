@@ -1,0 +1,170 @@
+!> The findings of elastokin solve as text: what was reached, what was not, and why.
+module ek_solve_text
+   use ek_kinds, only: wp
+   use ek_text, only: str, quoted, plural
+   use ek_buffer, only: buffer_t
+   use ek_design_solver, only: design_solver_t
+   use ek_wanted_number, only: wanted_number_t
+   use ek_condition_solver, only: unknown_t, findings_t
+   implicit none(type, external)
+   private
+   public :: add_findings
+
+   real(wp), parameter :: no_effect = 1.0e-9_wp      !! of the largest effect
+   real(wp), parameter :: share_of_conflict = 0.1_wp !! a condition with less is no part of a conflict
+   real(wp), parameter :: aligned = 0.9999_wp        !! cosine between the effects on two conditions that change as one
+
+contains
+
+   !> Adds all findings.
+   subroutine add_findings(solver, unknowns, wanted, targets, found, text)
+      type(design_solver_t), intent(in) :: solver
+      type(unknown_t), intent(in) :: unknowns(:)
+      type(wanted_number_t), intent(in) :: wanted(:)
+      real(wp), intent(in) :: targets(:)
+      type(findings_t), intent(in) :: found
+      type(buffer_t), intent(inout) :: text
+      integer :: j
+
+      do j = 1, size(targets)
+         call text%line(trim(merge('reached:    ', 'not reached:', found%is_reached(j)))//' '//label_of(solver, wanted(j))// &
+            ' = '//quantity(found%after(j), wanted(j)%unit)//trim(wanted_text(j))//' (before '//quantity(found%before(j), '')//')')
+      end do
+      do j = 1, size(unknowns)
+         associate (number => unknowns(j)%direction)
+            call text%line('  '//number%path//' = '//quantity(found%x(j), number%unit)//' (before '//str(number%value, 9)// &
+               ', bounds '//str(unknowns(j)%lower, 9)//' to '//str(unknowns(j)%upper, 9)//')')
+         end associate
+      end do
+      call text%line('  '//plural(found%sweeps, 'sweep', 'sweeps'))
+      if (all(found%is_reached)) then
+         call add_freedom(unknowns, found, text)
+      else
+         call add_reasons(unknowns, wanted, targets, found, text)
+      end if
+
+   contains
+
+      function wanted_text(j) result(words)
+         integer, intent(in) :: j
+         character(:), allocatable :: words
+         words = ''
+         if (.not. found%is_reached(j)) words = ', wanted '//str(targets(j), 9)
+      end function wanted_text
+
+   end subroutine add_findings
+
+   !> 'left_toe_deg of parallel_travel at 20 mm'.
+   function label_of(solver, wanted) result(label)
+      type(design_solver_t), intent(in) :: solver
+      type(wanted_number_t), intent(in) :: wanted
+      character(:), allocatable :: label
+
+      label = wanted%name
+      if (allocated(wanted%key)) return
+      associate (case => solver%cases(wanted%case)%result%case)
+         label = label//' of '//case%name//' at '//str(wanted%at, 9)//' '//case%unit_name
+      end associate
+   end function label_of
+
+   !> '-60.5 mm'.
+   function quantity(value, unit) result(text)
+      real(wp), intent(in) :: value
+      character(*), intent(in) :: unit
+      character(:), allocatable :: text
+
+      text = str(value, 9)
+      if (unit /= '') text = text//' '//unit
+   end function quantity
+
+   !> Which unknowns were not needed, where all conditions are met.
+   subroutine add_freedom(unknowns, found, text)
+      type(unknown_t), intent(in) :: unknowns(:)
+      type(findings_t), intent(in) :: found
+      type(buffer_t), intent(inout) :: text
+      integer :: j
+
+      do j = 1, size(unknowns)
+         if (has_no_effect(found, j)) call text%line('  '//unknowns(j)%direction%path//' has no effect on the conditions')
+      end do
+      if (found%rank > 0 .and. found%rank < size(unknowns)) call text%line('  other solutions exist: '// &
+         plural(size(unknowns), 'number varies', 'numbers vary')//' for '// &
+         plural(found%rank, 'independent condition', 'independent conditions')//'; this is the smallest change')
+   end subroutine add_freedom
+
+   !> Why conditions are not met.
+   subroutine add_reasons(unknowns, wanted, targets, found, text)
+      type(unknown_t), intent(in) :: unknowns(:)
+      type(wanted_number_t), intent(in) :: wanted(:)
+      real(wp), intent(in) :: targets(:)
+      type(findings_t), intent(in) :: found
+      type(buffer_t), intent(inout) :: text
+      character(:), allocatable :: names
+      integer :: i, j, k, lines
+
+      lines = text%length()
+      do j = 1, size(unknowns)
+         if (found%held(j) == 0) cycle
+         call text%line('  '//unknowns(j)%direction%path//' is at its '//trim(merge('lower', 'upper', found%held(j) < 0))// &
+            ' bound; going beyond it would bring the conditions closer')
+      end do
+      do j = 1, size(unknowns)
+         if (has_no_effect(found, j)) call text%line('  '//unknowns(j)%direction%path//' has no effect on the conditions')
+      end do
+      do i = 1, size(targets)
+         if (found%is_reached(i)) cycle
+         if (maxval(abs(found%effect(i, :))) <= no_effect*max(abs(found%after(i)), abs(targets(i)))) &
+            call text%line('  nothing that varies has an effect on '//wanted(i)%name)
+      end do
+      do i = 1, size(targets)
+         do k = i + 1, size(targets)
+            if (abs(cosine(found, i, k)) >= aligned) call text%line('  '//wanted(i)%name//' and '//wanted(k)%name// &
+               ' change in a fixed proportion, '//str(ratio(found, i, k), 4)//', whichever number varies: both cannot be met')
+         end do
+      end do
+      do k = 1, size(found%conflict, 2)
+         if (found%rank == 0 .or. size(targets) < 3 .or. size(targets) > size(unknowns)) exit
+         names = ''
+         do i = 1, size(targets)
+            if (abs(found%conflict(i, k)) > share_of_conflict) names = names//' '//wanted(i)%name
+         end do
+         call text%line('  the numbers that vary cannot change these independently:'//names)
+      end do
+      if (size(targets) > size(unknowns)) call text%line('  '//plural(size(targets), 'condition', 'conditions')//' for '// &
+         plural(size(unknowns), 'number', 'numbers')//' that may vary: let more numbers vary')
+      if (text%length() == lines) call text%line('  the conditions come no closer near these numbers: '// &
+         'a maximum or minimum of the quantity lies between the bounds. Try another start with --set')
+   end subroutine add_reasons
+
+   !> Whether an unknown changes no condition.
+   pure logical function has_no_effect(found, j)
+      type(findings_t), intent(in) :: found
+      integer, intent(in) :: j
+      integer :: i
+
+      has_no_effect = .true.
+      do i = 1, size(found%effect, 1)
+         if (abs(found%effect(i, j)) > no_effect*maxval(abs(found%effect(i, :)))) has_no_effect = .false.
+      end do
+   end function has_no_effect
+
+   !> The cosine between the effects on two conditions; 0 where there are none.
+   pure real(wp) function cosine(found, i, k)
+      type(findings_t), intent(in) :: found
+      integer, intent(in) :: i, k
+      real(wp) :: sizes
+
+      cosine = 0.0_wp
+      sizes = norm2(found%effect(i, :))*norm2(found%effect(k, :))
+      if (sizes > 0.0_wp) cosine = dot_product(found%effect(i, :), found%effect(k, :))/sizes
+   end function cosine
+
+   !> The change of condition i per change of condition k.
+   pure real(wp) function ratio(found, i, k)
+      type(findings_t), intent(in) :: found
+      integer, intent(in) :: i, k
+
+      ratio = dot_product(found%effect(i, :), found%effect(k, :))/sum(found%effect(k, :)**2)
+   end function ratio
+
+end module ek_solve_text

@@ -1,0 +1,42 @@
+!> Every value of a deck, as its path and its text: what a report keeps, so that two reports can be compared by what was changed.
+module ek_deck_values
+   use ek_error, only: message_list_t
+   use ek_deck, only: deck_t, finish_deck
+   use ek_parameter, only: value_path
+   implicit none(type, external)
+   private
+   public :: list_values
+
+   ! Groups whose effect is in the values of others, and keys that describe
+   character(*), parameter :: left_out(3) = [character(10) :: 'include', 'hardpoints', 'mirror']
+   character(*), parameter :: descriptions(3) = [character(5) :: 'name', 'note', 'title']
+
+contains
+
+   !> The values that the model was built from, in the order of the deck: settings made, property files read, both sides of a
+   !> mirrored deck. A path is that of --set.
+   subroutine list_values(deck, paths, texts)
+      type(deck_t), intent(in) :: deck
+      type(message_list_t), intent(out) :: paths, texts       !! of the same length
+      type(deck_t) :: whole
+      character(:), allocatable :: path
+      integer :: k, e, v
+
+      call finish_deck(deck, whole)
+      do k = 1, whole%used
+         associate (record => whole%records(k))
+            if (any(left_out == record%group)) cycle
+            do e = 1, record%used
+               if (any(descriptions == record%entries(e)%key)) cycle
+               do v = 1, record%entries(e)%used
+                  if (record%entries(e)%values(v)%is_empty) cycle
+                  path = value_path(record, record%entries(e)%key, record%entries(e)%first + v - 1)
+                  call paths%add(path)
+                  call texts%add(record%entries(e)%values(v)%text)
+               end do
+            end do
+         end associate
+      end do
+   end subroutine list_values
+
+end module ek_deck_values

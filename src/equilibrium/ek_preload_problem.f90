@@ -1,0 +1,401 @@
+!> The linear problem of `balance = 'all'`: forces in bushings (x), springs and joints (y) that hold the loads at design.
+!>
+!>     min ½ |x|²   subject to   W x + F y = b
+!>
+!> The columns of W are the forces of the bushings' components on the bodies, times the root of their rates: ½ |x|² is their
+!> complementary energy Σ f²/2k. The columns of F, of springs and joints, cost nothing. All rows are scaled by D (ek_scale).
+!> With multipliers v, displacements of the bodies, x = Wᵀ v:
+!>
+!>     [ W Wᵀ  F ] [v]   [b]
+!>     [ Fᵀ    0 ] [y] = [0]
+!>
+!> W Wᵀ is the stiffness of the bushings at design. `hold_by_elimination` solves this system (ek_saddle), which is nearly as sparse as
+!> the tangent; `hold_by_singular_values` needs twenty times as long, and is the way for problems without a unique solution:
+!> redundant rows, dependent springs and joints, bodies that nothing holds.
+module ek_preload_problem
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_measure, only: measure_t, evaluation_t, evaluate
+   use ek_block, only: add_gradient
+   use ek_element, only: element_kinds, element_t
+   use ek_elastic, only: bushing_t, set_bushing_axes, design_rates
+   use ek_rotation, only: cross
+   use ek_saddle, only: saddle_t, new_saddle, eliminate, reduce, spread_motion, solve_forces
+   use ek_singular_values, only: singular_values_t, decompose, min_norm
+   use ek_state, only: state_t, inputs_t, design_state
+   use ek_suspension, only: suspension_t
+   use ek_kkt, only: kkt_t, renew_kkt, assemble, residual_only
+   implicit none(type, external)
+   private
+   public :: preload_problem_t, set_problem, clear_preloads, hold_by_elimination, hold_by_singular_values
+   public :: is_free, takes_part, rank_share
+
+   real(wp), parameter :: rank_share = 1.0e-11_wp       !! of the largest singular value: smaller ones are rounding
+   real(wp), parameter :: moderate = 1.0e100_wp         ! largest number whose products cannot overflow
+   integer, parameter :: most_corrections = 3
+   real(wp), parameter :: last_correction = 1.0e-8_wp   ! of the solution: the next one would be smaller by the same factor, or its root
+   real(wp), parameter :: closed = 1.0e-10_wp           ! of |b|: remainder of W x + F y = b
+
+   !> The columns as gradients of two bodies.
+   type :: preload_problem_t
+      integer :: nq = 0                          !! rows: unknowns of the bodies
+      integer :: nx = 0                          !! columns of W: six per bushing
+      integer :: ny = 0                          !! columns of F: scalar elements, then rows of Φ
+      real(wp), allocatable :: load(:)           !! b, scaled
+      real(wp), allocatable :: root(:)           !! of the rates: preload = root × x
+      real(wp), allocatable :: weighted(:, :)    !! (12, nx) W, scaled
+      integer, allocatable :: at(:, :)           !! (2, bushing) unknowns before each of the two bodies; negative: the chassis
+      real(wp), allocatable :: piece(:, :)       !! (12, piece) parts of the columns of F, scaled
+      integer, allocatable :: piece_at(:, :)     !! (2, piece)
+      integer, allocatable :: piece_of(:)        !! the position in `used` of the column to which a piece belongs
+      integer :: pieces = 0
+      integer, allocatable :: used(:)            !! the columns of F that may carry a force
+      type(kkt_t), private :: kkt                !! work space, also for the next design of the model
+   end type preload_problem_t
+
+contains
+
+   !> Whether balance may change the preload of an element.
+   elemental logical function is_free(element)
+      type(element_t), intent(in) :: element
+      is_free = element_kinds(element%kind)%is_axial_spring .and. element%is_balanced
+   end function is_free
+
+   !> Whether a row may carry a force at design: yes, except for drivers with a stiffness that act on the body of a wheel
+   !> (`balance` of their joint overrides this).
+   pure logical function takes_part(suspension, row)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: row
+      integer :: t
+
+      takes_part = .true.
+      if (.not. suspension%rows(row)%compliance > 0.0_wp) return
+      associate (joint => suspension%joints(suspension%rows(row)%joint))
+         takes_part = joint%is_balanced
+         if (joint%says_balance) return
+      end associate
+      do t = suspension%rows(row)%first, suspension%rows(row)%first + suspension%rows(row)%terms - 1
+         associate (m => suspension%terms(t)%measure)
+            if (any(suspension%wheels%body == m%body_i) .or. any(suspension%wheels%body == m%body_j)) takes_part = .false.
+         end associate
+      end do
+   end function takes_part
+
+   !> Sets the preloads that balance may change to zero.
+   pure subroutine clear_preloads(suspension)
+      type(suspension_t), intent(inout) :: suspension
+      integer :: k
+
+      do k = 1, suspension%scalars
+         if (is_free(suspension%elements(k))) suspension%elements(k)%preload = 0.0_wp
+      end do
+      do k = suspension%scalars + 1, size(suspension%elements)
+         suspension%elements(k)%bushing%preload_force = 0.0_wp
+         suspension%elements(k)%bushing%preload_moment = 0.0_wp
+         call set_bushing_axes(suspension%elements(k)%bushing)
+      end do
+   end subroutine clear_preloads
+
+   !> The problem of a suspension at design; memory of the design before is used again.
+   !> Equation (K.21) of docs/theory/kkt.md.
+   subroutine set_problem(suspension, problem)
+      type(suspension_t), intent(in) :: suspension    !! with zero for the preloads that are sought: `clear_preloads`
+      type(preload_problem_t), intent(inout) :: problem
+      type(state_t) :: state
+      type(evaluation_t) :: evaluation
+      real(wp) :: rates(6)
+      logical :: has_force(suspension%constraints())
+      integer :: b, k, s, t, at, columns
+
+      call renew_kkt(suspension, .false., problem%kkt)
+      state = design_state(suspension)
+      do k = 1, suspension%constraints()
+         has_force(k) = takes_part(suspension, k)
+      end do
+      call allocate_problem(suspension, count(is_free(suspension%elements(:suspension%scalars))) + count(has_force), problem)
+      associate (kkt => problem%kkt)
+         call assemble(suspension, state, inputs_t(), residual_only, kkt)
+         problem%load(:) = -kkt%rhs(:kkt%nq)*kkt%scale(:kkt%nq)
+         do b = 1, problem%nx/6
+            associate (element => suspension%elements(suspension%scalars + b))
+               rates = design_rates(element%bushing)
+               problem%at(:, b) = [6*(element%measure%body_i - 1), 6*(element%measure%body_j - 1)]
+               do k = 1, 6
+                  at = 6*(b - 1) + k
+                  problem%root(at) = sqrt(max(rates(k), 0.0_wp))
+                  call bushing_column(element%bushing, element%measure, k, problem%weighted(:, at))
+                  call scale_gradient(problem%root(at), kkt%scale, problem%at(:, b), problem%weighted(:, at))
+               end do
+            end associate
+         end do
+         columns = 0
+         do s = 1, suspension%scalars
+            if (.not. is_free(suspension%elements(s))) cycle
+            columns = columns + 1
+            problem%used(columns) = s
+            associate (m => suspension%elements(s)%measure)
+               call evaluate(m, state%poses(m%body_i + 1), state%poses(m%body_j + 1), evaluation)
+               call add_piece(1.0_wp, evaluation%gradient, m, columns, kkt%scale, problem)
+            end associate
+         end do
+         do k = 1, kkt%nc
+            if (.not. has_force(k)) cycle
+            columns = columns + 1
+            problem%used(columns) = suspension%scalars + k
+            do t = suspension%rows(k)%first, suspension%rows(k)%first + suspension%rows(k)%terms - 1
+               call add_piece(-1.0_wp, kkt%gradients(:, t), suspension%terms(t)%measure, columns, kkt%scale, problem)
+            end do
+         end do
+      end associate
+   end subroutine set_problem
+
+   !> The lists of a problem, as long as the suspension requires.
+   pure subroutine allocate_problem(suspension, used, problem)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: used                     !! columns of F that may carry a force
+      type(preload_problem_t), intent(inout) :: problem
+      integer :: most
+      problem%nq = suspension%unknowns()
+      problem%nx = 6*(size(suspension%elements) - suspension%scalars)
+      problem%ny = suspension%scalars + suspension%constraints()
+      problem%pieces = 0
+      most = suspension%scalars + size(suspension%terms)
+      if (allocated(problem%load)) then
+         if (size(problem%load) == problem%nq .and. size(problem%root) == problem%nx .and. size(problem%piece_of) == most &
+            .and. size(problem%used) == used) return
+         deallocate (problem%load, problem%root, problem%weighted, problem%piece, problem%at, problem%piece_at)
+         deallocate (problem%piece_of, problem%used)
+      end if
+      allocate (problem%load(problem%nq), problem%root(problem%nx), problem%weighted(12, problem%nx), problem%piece(12, most), &
+         problem%at(2, problem%nx/6), problem%piece_at(2, most), problem%piece_of(most), problem%used(used))
+   end subroutine allocate_problem
+
+   !> Adds a part of a column of F.
+   pure subroutine add_piece(factor, gradient, measure, column, scale, problem)
+      real(wp), intent(in) :: factor, gradient(12), scale(:)
+      type(measure_t), intent(in) :: measure
+      integer, intent(in) :: column
+      type(preload_problem_t), intent(inout) :: problem
+
+      problem%pieces = problem%pieces + 1
+      associate (p => problem%pieces)
+         problem%piece_of(p) = column
+         problem%piece_at(:, p) = [6*(measure%body_i - 1), 6*(measure%body_j - 1)]
+         problem%piece(:, p) = gradient
+         call scale_gradient(factor, scale, problem%piece_at(:, p), problem%piece(:, p))
+      end associate
+   end subroutine add_piece
+
+   !> The generalised force of a unit preload component k of a bushing on its bodies at design.
+   pure subroutine bushing_column(bushing, measure, k, gradient)
+      type(bushing_t), intent(in) :: bushing
+      type(measure_t), intent(in) :: measure
+      integer, intent(in) :: k
+      real(wp), intent(out) :: gradient(12)
+      real(wp) :: axis(3)
+
+      axis = bushing%axes(:, merge(k, k - 3, k <= 3))
+      gradient = 0.0_wp
+      if (k <= 3) then
+         gradient(1:3) = -axis
+         gradient(4:6) = -cross(measure%arm_i + bushing%gap0, axis)
+         gradient(7:9) = axis
+         gradient(10:12) = cross(measure%arm_j, axis)
+      else
+         gradient(4:6) = -axis
+         gradient(10:12) = axis
+      end if
+   end subroutine bushing_column
+
+   !> Multiplies a gradient by a factor and the scales of its two bodies; zero for the chassis.
+   pure subroutine scale_gradient(factor, scale, at, gradient)
+      real(wp), intent(in) :: factor, scale(:)
+      integer, intent(in) :: at(2)
+      real(wp), intent(inout) :: gradient(12)
+
+      if (at(1) >= 0) then
+         gradient(1:6) = factor*gradient(1:6)*scale(at(1) + 1:at(1) + 6)
+      else
+         gradient(1:6) = 0.0_wp
+      end if
+      if (at(2) >= 0) then
+         gradient(7:12) = factor*gradient(7:12)*scale(at(2) + 1:at(2) + 6)
+      else
+         gradient(7:12) = 0.0_wp
+      end if
+   end subroutine scale_gradient
+
+   !> The solution by elimination, corrected until it is that of W and F themselves. is_sure is .false., and x and y have no
+   !> meaning, where the problem may have no unique solution, or the corrections do not become small as they should.
+   !> Equation (K.21) of docs/theory/kkt.md.
+   pure subroutine hold_by_elimination(problem, x, y, is_sure)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(out) :: x(:), y(:)             !! nx and ny: forces over the roots of the rates, and forces
+      logical, intent(out) :: is_sure
+      type(saddle_t) :: saddle
+      real(wp) :: c(problem%nq), v(problem%nq), dx(problem%nx), dy(size(problem%used)), part(size(problem%used))
+      integer :: step
+
+      x = 0.0_wp
+      y = 0.0_wp
+      is_sure = .false.
+      if (size(problem%used) > problem%nq .or. .not. is_moderate(problem)) return
+      call new_saddle(problem%nq, size(problem%used), saddle)
+      call add_stiffness(problem, saddle%k)
+      call add_columns(problem, saddle%f)
+      call eliminate(saddle)
+      if (.not. saddle%is_regular) return
+      c = problem%load
+      do step = 1, most_corrections
+         v = c
+         call reduce(saddle, v)
+         call spread_motion(saddle, v)
+         call bushing_forces(problem, v, dx)
+         x = x + dx
+         call subtract_bushings(problem, dx, c)
+         is_sure = norm2(dx) <= last_correction*norm2(x)
+         if (is_sure) exit
+      end do
+      if (.not. is_sure) return
+      part = 0.0_wp
+      do step = 1, 2
+         v = c
+         call reduce(saddle, v)
+         call solve_forces(saddle, v, dy)
+         part = part + dy
+         call subtract_free(problem, dy, c)
+      end do
+      y(problem%used) = part
+      is_sure = norm2(dy) <= last_correction*norm2(part) .and. norm2(c) <= closed*norm2(problem%load)
+   end subroutine hold_by_elimination
+
+   !> Whether all numbers are finite, and so small that no product of them overflows.
+   pure logical function is_moderate(problem)
+      type(preload_problem_t), intent(in) :: problem
+
+      is_moderate = are_moderate(size(problem%load), problem%load)
+      if (is_moderate) is_moderate = are_moderate(size(problem%weighted), problem%weighted)
+      if (is_moderate) is_moderate = are_moderate(12*problem%pieces, problem%piece)
+   end function is_moderate
+
+   pure logical function are_moderate(n, numbers)
+      integer, intent(in) :: n
+      real(wp), intent(in) :: numbers(n)
+
+      are_moderate = all(ieee_is_finite(numbers))      ! first: a comparison with a NaN is a trap of debug builds
+      if (are_moderate) are_moderate = all(abs(numbers) < moderate)
+   end function are_moderate
+
+   !> Adds W Wᵀ to the lower triangle; above the diagonal nothing is read.
+   pure subroutine add_stiffness(problem, matrix)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(inout) :: matrix(:, :)
+      real(wp) :: column(12)
+      integer :: b, c, l, i, j, first
+
+      do b = 1, problem%nx/6
+         i = problem%at(1, b)
+         j = problem%at(2, b)
+         do l = 1, 12
+            if (merge(i, j, l <= 6) < 0) cycle
+            column = 0.0_wp
+            do c = 6*b - 5, 6*b
+               column = column + problem%weighted(l, c)*problem%weighted(:, c)
+            end do
+            first = merge(i + l, j + l - 6, l <= 6)
+            if (i >= 0 .and. (l <= 6 .or. i > j)) matrix(i + 1:i + 6, first) = matrix(i + 1:i + 6, first) + column(1:6)
+            if (j >= 0 .and. (l > 6 .or. j > i)) matrix(j + 1:j + 6, first) = matrix(j + 1:j + 6, first) + column(7:12)
+         end do
+      end do
+   end subroutine add_stiffness
+
+   !> Adds the columns of F that may carry a force.
+   pure subroutine add_columns(problem, matrix)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(inout) :: matrix(:, :)
+      integer :: p
+
+      do p = 1, problem%pieces
+         call add_gradient(1.0_wp, problem%piece(:, p), problem%piece_at(1, p), problem%piece_at(2, p), &
+            matrix(:, problem%piece_of(p)))
+      end do
+   end subroutine add_columns
+
+   !> x = Wᵀ v
+   pure subroutine bushing_forces(problem, v, x)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: v(:)
+      real(wp), intent(out) :: x(:)
+      integer :: b, k, at
+
+      x = 0.0_wp
+      do b = 1, problem%nx/6
+         do k = 6*b - 5, 6*b
+            at = problem%at(1, b)
+            if (at >= 0) x(k) = dot_product(problem%weighted(1:6, k), v(at + 1:at + 6))
+            at = problem%at(2, b)
+            if (at >= 0) x(k) = x(k) + dot_product(problem%weighted(7:12, k), v(at + 1:at + 6))
+         end do
+      end do
+   end subroutine bushing_forces
+
+   !> c ← c − W x
+   pure subroutine subtract_bushings(problem, x, c)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: x(:)
+      real(wp), intent(inout) :: c(:)
+      integer :: b, k
+
+      do b = 1, problem%nx/6
+         do k = 6*b - 5, 6*b
+            call add_gradient(-x(k), problem%weighted(:, k), problem%at(1, b), problem%at(2, b), c)
+         end do
+      end do
+   end subroutine subtract_bushings
+
+   !> c ← c − F y, y of the columns in `used`
+   pure subroutine subtract_free(problem, y, c)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: y(:)
+      real(wp), intent(inout) :: c(:)
+      integer :: p
+
+      do p = 1, problem%pieces
+         call add_gradient(-y(problem%piece_of(p)), problem%piece(:, p), problem%piece_at(1, p), problem%piece_at(2, p), c)
+      end do
+   end subroutine subtract_free
+
+   !> The solution by singular values: the smallest x of those that leave the least remainder, and the smallest y with it.
+   pure subroutine hold_by_singular_values(problem, x, y, remainder, is_found)
+      type(preload_problem_t), intent(in) :: problem
+      real(wp), intent(out) :: x(:), y(:)             !! as in hold_by_elimination
+      real(wp), intent(out) :: remainder              !! |b − W x − F y|
+      logical, intent(out) :: is_found                !! .false.: a number is not finite
+      type(singular_values_t) :: carried, held
+      real(wp), allocatable :: weighted(:, :), free(:, :), uncarried(:, :)
+      real(wp) :: c(problem%nq), part(size(problem%used))
+      integer :: k
+
+      x = 0.0_wp
+      y = 0.0_wp
+      remainder = huge(remainder)
+      allocate (weighted(problem%nq, problem%nx), free(problem%nq, size(problem%used)), source=0.0_wp)
+      do k = 1, problem%nx
+         call add_gradient(1.0_wp, problem%weighted(:, k), problem%at(1, (k + 5)/6), problem%at(2, (k + 5)/6), weighted(:, k))
+      end do
+      call add_columns(problem, free)
+      ! the part that springs and joints can carry without cost is projected out; the bushings carry the rest. If springs and
+      ! joints can carry everything, only rounding is left of `weighted`, which is not a stiffness.
+      call decompose(free, rank_share, carried)
+      allocate (uncarried, source=transpose(carried%left(:, carried%rank + 1:)))
+      call decompose(matmul(uncarried, weighted), rank_share, held, whole=norm2(weighted))
+      is_found = carried%is_found .and. held%is_found .and. all(ieee_is_finite(problem%load))
+      if (.not. is_found) return
+      call min_norm(held, matmul(uncarried, problem%load), x)
+      c = problem%load - matmul(weighted, x)
+      call min_norm(carried, c, part)
+      y(problem%used) = part
+      remainder = norm2(c - matmul(free, part))
+   end subroutine hold_by_singular_values
+
+end module ek_preload_problem

@@ -1,0 +1,143 @@
+!> The rates that contribute most to the key compliances of a suspension: those that a reader of its report may change on the page.
+!>
+!> A rate is the constant of one law: an axis of a bushing, a spring, a bar. The same law on both sides of an axle is one rate if it
+!> is equal on both. Laws with a curve or a gap have no rate.
+module ek_live_rates
+   use ek_kinds, only: wp
+   use ek_largest, only: largest
+   use ek_element_part, only: is_part_of_angle, has_rate
+   use ek_suspension, only: suspension_t
+   use ek_schedule, only: new_schedule
+   use ek_case_result, only: case_result_t
+   use ek_contribution, only: contribution_t
+   use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
+      is_key_compliance, share_length
+   implicit none(type, external)
+   private
+   public :: live_rate_t, live_rates_t, choose_rates, find_laws
+
+   real(wp), parameter :: same = 1.0e-9_wp      !! relative: equal rates
+   real(wp), parameter :: noise = 1.0e-9_wp     !! share of a column: smaller ones are rounding
+
+   !> A rate that can be changed.
+   type :: live_rate_t
+      character(share_length) :: group = ''            !! of the deck: 'bushing', 'spring', 'torsion'
+      character(share_length) :: element(2) = ''       !! its names in the model, left and right; '': only one
+      character(10) :: part = ''                       !! 'x' to 'rz', 'rate'
+      integer :: number = 0                            !! of the law in the element, 1 to 6
+      real(wp) :: rate = 0.0_wp                        !! [N/m, N m/rad]
+      logical :: is_of_angle = .false.
+   end type live_rate_t
+
+   !> All of them, and the laws that have them.
+   type :: live_rates_t
+      type(live_rate_t), allocatable :: rate(:)
+      integer, allocatable :: of_law(:)                !! rate of each law; a rate of both sides has two laws, the left one first
+   end type live_rates_t
+
+contains
+
+   !> The rates with the largest shares of a key compliance at a state, the largest first; none if its matrix is singular.
+   subroutine choose_rates(result, k, many, rates)
+      type(case_result_t), intent(inout) :: result         !! is_run
+      integer, intent(in) :: k                             !! the state: reached
+      integer, intent(in) :: many                          !! how many at most
+      type(live_rates_t), intent(out) :: rates
+      type(contribution_table_t) :: table
+      type(live_rate_t), allocatable :: all(:)
+      logical, allocatable :: is_wanted(:)
+      real(wp), allocatable :: score(:)
+      integer, allocatable :: order(:)
+      integer :: j
+
+      call start_contributions(result%suspension, table)
+      allocate (is_wanted(table%columns%used), all(0), score(0))
+      do j = 1, size(is_wanted)
+         is_wanted(j) = is_key_compliance(trim(table%columns%names(j)))
+      end do
+      if (any(is_wanted)) then
+         call choose_contributions(is_wanted, table)
+         call find_contributions(result%suspension, new_schedule(result%suspension, result%case), result%path, k, result%kkt, table)
+         if (table%is_known) call list_rates(result%suspension, table, all, score)
+      end if
+      call largest(score, many, order)
+      allocate (rates%rate(size(order)), rates%of_law(0))
+      do j = 1, size(order)
+         rates%rate(j) = all(order(j))
+         rates%of_law = [rates%of_law, j]
+         if (rates%rate(j)%element(2) /= '') rates%of_law = [rates%of_law, j]
+      end do
+   end subroutine choose_rates
+
+   !> All rates with their largest shares; 0: rounding.
+   subroutine list_rates(suspension, table, all, score)
+      type(suspension_t), intent(in) :: suspension
+      type(contribution_table_t), intent(in) :: table       !! at the state
+      type(live_rate_t), allocatable, intent(inout) :: all(:)
+      real(wp), allocatable, intent(inout) :: score(:)
+      type(live_rate_t) :: new
+      real(wp) :: share
+      integer :: l, c, at
+
+      do l = 1, size(table%shares%law)
+         associate (part => table%shares%share(table%shares%law(l)), name => table%row(table%shares%law(l)))
+            if (.not. has_rate(suspension%elements(part%item), part%part) .or. .not. table%shares%slope(l) > 0.0_wp) cycle
+            share = 0.0_wp
+            do c = 1, size(table%values)
+               if (.not. sum(abs(table%parts(c, :))) > 0.0_wp) cycle
+               share = max(share, abs(table%parts(c, table%shares%law(l)))/sum(abs(table%parts(c, :))))
+            end do
+            if (share < noise) share = 0.0_wp
+            new%group = name%kind
+            new%element = [character(share_length) :: name%row, '']
+            new%part = name%part
+            new%number = part%part
+            new%rate = table%shares%slope(l)
+            new%is_of_angle = is_part_of_angle(suspension%elements(part%item), part%part)
+         end associate
+         at = other_side(all, new)
+         if (at > 0) then
+            all(at)%element(2) = new%element(1)
+            score(at) = max(score(at), share)
+         else
+            all = [all, new]
+            score = [score, share]
+         end if
+      end do
+   end subroutine list_rates
+
+   !> The place of the same rate on the left side; 0: there is none.
+   pure integer function other_side(all, new) result(at)
+      type(live_rate_t), intent(in) :: all(:), new
+
+      do at = size(all), 1, -1
+         if (all(at)%element(2) /= '' .or. all(at)%part /= new%part .or. all(at)%group /= new%group) cycle
+         if (index(all(at)%element(1), 'left_') /= 1 .or. index(new%element(1), 'right_') /= 1) cycle
+         if (all(at)%element(1) (6:) == new%element(1) (7:) .and. abs(all(at)%rate - new%rate) <= same*new%rate) return
+      end do
+      at = 0
+   end function other_side
+
+   !> The numbers of the laws of the rates among the shares of a test, in the order of `of_law`.
+   subroutine find_laws(suspension, shares, rates, laws)
+      type(suspension_t), intent(in) :: suspension          !! on the rig of the test
+      type(contribution_t), intent(in) :: shares            !! of the test
+      type(live_rates_t), intent(in) :: rates
+      integer, allocatable, intent(out) :: laws(:)
+      integer :: j, l, side
+
+      allocate (laws(size(rates%of_law)), source=0)
+      do j = 1, size(laws)
+         side = 1
+         if (j > 1) side = merge(2, 1, rates%of_law(j) == rates%of_law(max(1, j - 1)))
+         associate (rate => rates%rate(rates%of_law(j)))
+            do l = 1, size(shares%law)
+               associate (share => shares%share(shares%law(l)))
+                  if (share%part == rate%number .and. suspension%elements(share%item)%name == trim(rate%element(side))) laws(j) = l
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine find_laws
+
+end module ek_live_rates

@@ -1,0 +1,253 @@
+!> What a state needs so that a reader can compute its columns for other rates, exactly and without the model.
+!>
+!> Of m rates, each law acts along a deflection gᵀu; with s = √rate, let G be s gᵀu per unit load, A the same per unit load s on the
+!> laws themselves, and E the relative changes of the rates (0.1: 10 % more). The formula of ek_what_if then has no unit:
+!>
+!>     C' = C − G_vᵀ (I + E A)⁻¹ E G
+!>
+!> A column that is linear in C is the reading rᵀC b of a load b, so it changes by −ρᵀ (I + E A)⁻¹ E β with ρ = G_v r and β = G b:
+!> 2m numbers per column beside the m(m + 1)/2 of A. They are found by the kernels that compute the columns, of the matrices
+!> g_v,a g_bᵀ, so a new column needs nothing here. With heights held the same formula holds with G and A of the suspension whose
+!> heights are held. Of a stiffness, which is the inverse of such a column, the inverse changes so.
+module ek_live_state
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_compliance, only: compliance_t
+   use ek_contribution, only: contribution_t, new_contribution, split_compliance
+   use ek_element_part, only: find_deflections
+   use ek_kkt, only: kkt_t
+   use ek_linear_columns, only: linear_columns_t, start_linear_columns, choose_linear_columns, find_linear_columns, &
+      fill_linear_columns
+   use ek_live_rates, only: live_rates_t, find_laws
+   use ek_loaded_wheels, only: phase
+   use ek_path, only: path_t
+   use ek_port_response, only: lock_t, find_lock, keep_locked
+   use ek_quantity, only: unit_size
+   use ek_schedule, only: schedule_t, inputs_at
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
+   use ek_suspension, only: suspension_t
+   use ek_table, only: name_length
+   use ek_text, only: is_like
+   use ek_what_if, only: find_self_moves
+   use ek_wheel_side, only: prefix_of
+   implicit none(type, external)
+   private
+   public :: live_state_t, live_columns_t, start_live, find_live_state
+
+   !> Stiffnesses that are 1/displacement of a wheel centre under the load along the same axis, on all wheels: the axis. The ride
+   !> rate has the tyre in series, which adds a constant to the inverse.
+   type :: inverse_t
+      character(32) :: name
+      integer :: axis
+   end type inverse_t
+   type(inverse_t), parameter :: inverses(*) = [inverse_t('wheel_rate_n_per_mm', 3), inverse_t('ride_rate_n_per_mm', 3), &
+      inverse_t('fore_aft_stiffness_n_per_mm', 1), inverse_t('lateral_stiffness_n_per_mm', 2), &
+      inverse_t('vertical_stiffness_n_per_mm', 3)]
+
+   !> The columns of a test that follow the rates, and work space.
+   type :: live_columns_t
+      integer :: used = 0
+      character(name_length), allocatable :: name(:)
+      logical, allocatable :: is_held(:)              !! of the suspension whose heights are held
+      logical, allocatable :: is_inverse(:)
+      integer, allocatable, private :: wheel(:), axis(:)      ! of an inverse: index in the matrix
+      type(linear_columns_t), private :: columns
+      type(contribution_t), private :: shares
+      integer, allocatable, private :: laws(:)
+   end type live_columns_t
+
+   !> The numbers of a state.
+   type :: live_state_t
+      logical :: is_known = .false.                   !! the matrix is not singular
+      real(wp), allocatable :: self(:, :), held_self(:, :)   !! A: (law, law); with heights held
+      real(wp), allocatable :: read(:, :), load(:, :)        !! ρ and β of each column: (law, column), in the unit of the column
+      real(wp), allocatable :: deflection(:)                 !! √rate × deflection that the rate multiplies
+      real(wp), allocatable :: move(:, :), held_move(:, :)   !! G_v of the wheel centres: (law, displacement)
+   end type live_state_t
+
+contains
+
+   !> The columns of a test among some names, and the laws of the rates. Stiffnesses and heights held are those of a single
+   !> wheel or of an axle.
+   subroutine start_live(suspension, rates, names, self)
+      type(suspension_t), intent(in) :: suspension          !! on the rig
+      type(live_rates_t), intent(in) :: rates
+      character(*), intent(in) :: names(:)                  !! columns, with the name of the wheel; * stands for any letters
+      type(live_columns_t), intent(out) :: self
+      logical, allocatable :: is_wanted(:)
+      character(:), allocatable :: prefix
+      logical :: can_hold
+      integer :: k, i
+
+      call start_linear_columns(suspension, self%columns)
+      self%shares = new_contribution(suspension, self%columns%kandc%compliance%wheels)
+      call find_laws(suspension, self%shares, rates, self%laws)
+      can_hold = size(suspension%wheels) == 1 .or. self%columns%kandc%is_pair
+      allocate (self%name(0), self%is_held(0), self%is_inverse(0), self%wheel(0), self%axis(0), is_wanted(self%columns%used))
+      is_wanted = .false.
+      if (any(self%laws == 0)) return
+      do k = 1, self%columns%used
+         associate (name => self%columns%names(k))
+            is_wanted(k) = is_named(name, names)
+            if (index(name, '_height_held_') > 0) is_wanted(k) = is_wanted(k) .and. can_hold
+            if (is_wanted(k)) call add(name, index(name, '_height_held_') > 0, 0, 0)
+         end associate
+      end do
+      call choose_linear_columns(self%columns, is_wanted)
+      do k = 1, merge(size(suspension%wheels), 0, can_hold)
+         prefix = prefix_of(suspension, self%columns%kandc%compliance%order(k))
+         do i = 1, size(inverses)
+            if (is_named(prefix//trim(inverses(i)%name), names)) &
+               call add(prefix//trim(inverses(i)%name), .false., k, inverses(i)%axis)
+         end do
+      end do
+
+   contains
+
+      subroutine add(name, is_held, wheel, axis)
+         character(*), intent(in) :: name
+         logical, intent(in) :: is_held
+         integer, intent(in) :: wheel, axis
+
+         self%used = self%used + 1
+         self%name = [character(name_length) :: self%name, name]
+         self%is_held = [self%is_held, is_held]
+         self%is_inverse = [self%is_inverse, axis > 0]
+         self%wheel = [self%wheel, wheel]
+         self%axis = [self%axis, axis]
+      end subroutine add
+
+   end subroutine start_live
+
+   pure logical function is_named(name, names)
+      character(*), intent(in) :: name, names(:)
+      integer :: k
+
+      is_named = .false.
+      do k = 1, size(names)
+         if (is_like(trim(name), trim(names(k)))) is_named = .true.
+      end do
+   end function is_named
+
+   !> The numbers of one reached state of a path.
+   !> Equation (C.19) of docs/theory/compliance.md.
+   subroutine find_live_state(suspension, schedule, path, k, kkt, columns, self)
+      type(suspension_t), intent(in) :: suspension          !! on the rig
+      type(schedule_t), intent(in) :: schedule              !! of the case
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k                              !! the state
+      type(kkt_t), intent(inout) :: kkt                     !! work space; then with the factors of the state
+      type(live_columns_t), intent(inout) :: columns        !! of start_live
+      type(live_state_t), intent(out) :: self
+      type(state_t) :: state
+      type(inputs_t) :: inputs
+      real(wp), allocatable :: values(:), root(:), move(:, :), left(:, :)
+      integer :: l, m
+
+      state = design_state(suspension)
+      call unpack_state(path%packed(:, k), state)
+      call inputs_at(schedule, path%value(k), inputs)
+      allocate (values(size(columns%columns%asked)))
+      call find_linear_columns(suspension, state, inputs, kkt, columns%columns, values)
+      associate (compliance => columns%columns%kandc%compliance, shares => columns%shares)
+         self%is_known = compliance%is_known
+         if (.not. self%is_known) return
+         call split_compliance(suspension, state, inputs, kkt, compliance, shares)
+         call find_self_moves(columns%laws, kkt, compliance, shares, self%self)
+         m = size(columns%laws)
+         root = sqrt(shares%slope(columns%laws))
+         move = shares%move(:, columns%laws)
+         left = shares%left_move(:, columns%laws)
+         do l = 1, m
+            self%self(:, l) = root(:)*self%self(:, l)*root(l)
+            move(:, l) = root(l)*move(:, l)
+            left(:, l) = root(l)*left(:, l)
+         end do
+         call find_factors(suspension, left, move, columns, self)
+         call hold_heights(compliance, move, left, self)
+         self%move = transpose(left)
+         call find_forces(suspension, state, root, columns, self)
+      end associate
+   end subroutine find_live_state
+
+   !> ρ and β of every column, from the values of the column for the matrices g_v,a g_bᵀ, whose table over a and b has the rank 1.
+   subroutine find_factors(suspension, left, move, columns, self)
+      type(suspension_t), intent(in) :: suspension
+      real(wp), intent(in) :: left(:, :), move(:, :)        !! (load, law)
+      type(live_columns_t), intent(in) :: columns
+      type(live_state_t), intent(inout) :: self
+      real(wp) :: share(size(left, 1), size(left, 1)), whole(12, 12), own(6)
+      real(wp), allocatable :: table(:, :, :)
+      integer :: a, b, c, n, at(2)
+
+      n = size(columns%columns%asked)
+      allocate (table(size(left, 2), size(left, 2), columns%used))
+      do b = 1, size(move, 2)
+         do a = 1, size(left, 2)
+            share = spread(left(:, a), 2, size(left, 1))*spread(move(:, b), 1, size(left, 1))
+            call fill_linear_columns(suspension, share, columns%columns, table(a, b, :n))
+            whole = 0.0_wp
+            whole(:size(share, 1), :size(share, 1)) = share
+            do c = n + 1, columns%used
+               own = phase(size(share, 1)/6, whole, columns%wheel(c), columns%axis(c), 1.0_wp)
+               table(a, b, c) = own(columns%axis(c))*unit_size(trim(columns%name(c)))
+            end do
+         end do
+      end do
+      allocate (self%read(size(left, 2), columns%used), self%load(size(left, 2), columns%used), source=0.0_wp)
+      do c = 1, columns%used
+         if (.not. all(ieee_is_finite(table(:, :, c)))) cycle
+         at = maxloc(abs(table(:, :, c)))
+         if (.not. abs(table(at(1), at(2), c)) > 0.0_wp) cycle
+         self%read(:, c) = table(:, at(2), c)
+         self%load(:, c) = table(at(1), :, c)/table(at(1), at(2), c)
+      end do
+   end subroutine find_factors
+
+   !> A and the displacements of the wheel centres while the heights of the wheel centres are held.
+   subroutine hold_heights(compliance, move, left, self)
+      type(compliance_t), intent(in) :: compliance
+      real(wp), intent(in) :: move(:, :), left(:, :)        !! (load, law)
+      type(live_state_t), intent(inout) :: self             !! with A
+      real(wp), allocatable :: response(:, :)
+      type(lock_t) :: lock
+      integer :: n, m, j
+
+      n = size(move, 1)
+      m = size(move, 2)
+      allocate (response(n + m, n + m))
+      response(:n, :n) = compliance%response(:n, :n)
+      response(:n, n + 1:) = left
+      response(n + 1:, :n) = transpose(move)
+      response(n + 1:, n + 1:) = self%self
+      call find_lock(response, [(6*j - 3, j=1, n/6)], lock)
+      do j = n + 1, n + m
+         call keep_locked(lock, response(:, j))
+      end do
+      self%held_self = response(n + 1:, n + 1:)
+      self%held_move = transpose(response(:n, n + 1:))
+   end subroutine hold_heights
+
+   !> The deflections that the rates multiply: what a change of them adds to the forces of the state.
+   subroutine find_forces(suspension, state, root, columns, self)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: root(:)
+      type(live_columns_t), intent(in) :: columns
+      type(live_state_t), intent(inout) :: self
+      real(wp) :: deflection(6)
+      integer :: l
+
+      allocate (self%deflection(size(root)))
+      do l = 1, size(root)
+         associate (share => columns%shares%share(columns%shares%law(columns%laws(l))))
+            associate (element => suspension%elements(share%item))
+               call find_deflections(element, state%poses(element%measure%body_i + 1), state%poses(element%measure%body_j + 1), &
+                  deflection)
+            end associate
+            self%deflection(l) = root(l)*deflection(share%part)
+         end associate
+      end do
+   end subroutine find_forces
+
+end module ek_live_state

@@ -1,0 +1,274 @@
+!> Loads of springs, dampers, stops, torsion springs, bushings, joints, drivers and couplers on the bodies that they connect, at the
+!> points where they are held: for stress and durability.
+!>
+!> A load is the force and the moment ON a body, the moment about the design hardpoint as it has moved with this body, in the frame
+!> of the deck. Every member has two: on its first and on its second body (the chassis included); the two forces are opposite.
+!> A member without points (a torsion spring, a `parallel` joint) has moments only, and no hardpoint.
+module ek_member_loads
+   use ek_kinds, only: wp
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_block, only: rotated
+   use ek_rotation, only: cross
+   use ek_measure, only: measure_t
+   use ek_element_force, only: element_evaluation_t, evaluate_element
+   use ek_suspension, only: suspension_t, body_name
+   use ek_case, only: case_t
+   use ek_path, only: path_t
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
+   use ek_schedule, only: schedule_t, new_schedule, inputs_at
+   use ek_kkt, only: kkt_t, assemble, residual_only
+   use ek_wheel_side, only: deck_frame
+   implicit none(type, external)
+   private
+   public :: member_end_t, member_ends, end_loads, load_record_t, begin_loads, add_loads, peak_loads
+
+   real(wp), parameter :: at_point = 1.0e-9_wp      !! m: a member is held at a hardpoint that is nearer than this
+
+   !> One end of a member.
+   type :: member_end_t
+      character(:), allocatable :: member, point, body     !! names; point: '' if no hardpoint lies there
+      integer :: element = 0             !! its number; 0: a joint
+      integer :: first_term = 0, last_term = 0     !! of a joint
+      integer :: side = 1                !! 1: first body, 2: second body
+      integer :: number = 0              !! of the body, 0: chassis
+      real(wp) :: arm(3) = 0.0_wp        !! from the reference point of the body, body axes [m]
+   end type member_end_t
+
+   !> The loads of several cases: the long form as text, and the peaks.
+   type :: load_record_t
+      type(member_end_t), allocatable :: ends(:)
+      type(buffer_t) :: text                       !! loads.csv
+      real(wp), allocatable :: peaks(:, :)         !! (component, end): of largest size [N, N m]; components: see below
+      integer, allocatable :: state(:, :)
+      real(wp), allocatable :: factor(:, :)
+      integer, allocatable :: case(:, :)
+      character(64), allocatable :: cases(:)       !! their names
+   end type load_record_t
+
+   ! what is larger by less is the same: the first state stays, on both sides of an axle
+   real(wp), parameter :: rounding = 1.0e-9_wp, tiny_load = 1.0e-9_wp      !! of the value; N, N m
+
+   character(*), parameter :: components(8) = [character(2) :: 'fx', 'fy', 'fz', 'f', 'mx', 'my', 'mz', 'm']
+   integer, parameter :: resultants(2) = [4, 8]
+   character(*), parameter :: nl = new_line('a')
+
+contains
+
+   !> The ends of all members, in the order elements, joints. Those of the rig are the last.
+   subroutine member_ends(suspension, has_rig, ends)
+      type(suspension_t), intent(in) :: suspension
+      logical, intent(in) :: has_rig                !! .false.: without joints of the rig
+      type(member_end_t), allocatable, intent(out) :: ends(:)
+      integer :: k, n, t, r, last
+
+      last = size(suspension%rows)
+      if (.not. has_rig) last = suspension%own_rows()
+      n = 0
+      allocate (ends(2*(size(suspension%elements) + size(suspension%terms))))
+      do k = 1, size(suspension%elements)
+         call add_pair(suspension%elements(k)%name, suspension%elements(k)%measure)
+         ends(n - 1:n)%element = k
+      end do
+      do k = 1, size(suspension%joints)
+         associate (joint => suspension%joints(k))
+            if (joint%first_row + joint%rows - 1 > last) cycle
+            associate (first => suspension%rows(joint%first_row), final => suspension%rows(joint%first_row + joint%rows - 1))
+               if (joint%is_of_measures) then      ! each of its measures has bodies of its own
+                  do t = first%first, first%first + first%terms - 1
+                     call add_pair(joint%name, suspension%terms(t)%measure)
+                     ends(n - 1:n)%first_term = t
+                     ends(n - 1:n)%last_term = t
+                  end do
+               else
+                  r = first%first
+                  call add_pair(joint%name, suspension%terms(r)%measure)
+                  ends(n - 1:n)%first_term = r
+                  ends(n - 1:n)%last_term = final%first + final%terms - 1
+               end if
+            end associate
+         end associate
+      end do
+      ends = ends(:n)
+
+   contains
+
+      subroutine add_pair(name, measure)
+         character(*), intent(in) :: name
+         type(measure_t), intent(in) :: measure
+
+         call add_end(name, 1, measure%body_i, measure%arm_i)
+         call add_end(name, 2, measure%body_j, measure%arm_j)
+      end subroutine add_pair
+
+      subroutine add_end(name, side, number, arm)
+         character(*), intent(in) :: name
+         integer, intent(in) :: side, number
+         real(wp), intent(in) :: arm(3)
+         real(wp) :: at(3)
+         integer :: p
+
+         n = n + 1
+         ends(n)%member = name
+         ends(n)%side = side
+         ends(n)%number = number
+         ends(n)%arm = arm
+         ends(n)%body = body_name(suspension, number)
+         ends(n)%point = ''
+         at = arm
+         if (number > 0) at = at + suspension%bodies(number)%origin
+         do p = size(suspension%points), 1, -1
+            if (norm2(suspension%points(p)%at - at) < at_point .and. norm2(arm) > 0.0_wp) ends(n)%point = suspension%points(p)%name
+         end do
+      end subroutine add_end
+
+   end subroutine member_ends
+
+   !> Force and moment on the body of every end [N, N m], frame of the deck.
+   pure subroutine end_loads(suspension, state, gradients, ends, loads)
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(in) :: state
+      real(wp), intent(in) :: gradients(:, :)       !! of the terms, assembled at this state
+      type(member_end_t), intent(in) :: ends(:)
+      real(wp), intent(out) :: loads(:, :)          !! (6, end)
+      type(element_evaluation_t) :: evaluation
+      real(wp) :: force(3), moment(3), arm(3), frame(3)
+      integer :: k, r, t, at
+
+      frame = deck_frame(suspension)
+      do k = 1, size(ends)
+         at = 6*(ends(k)%side - 1)
+         if (ends(k)%element > 0) then
+            associate (element => suspension%elements(ends(k)%element))
+               call evaluate_element(element, state%poses(element%measure%body_i + 1), state%poses(element%measure%body_j + 1), &
+                  evaluation)
+               force = -evaluation%generalised_force(at + 1:at + 3)
+               moment = -evaluation%generalised_force(at + 4:at + 6)
+            end associate
+         else
+            force = 0.0_wp
+            moment = 0.0_wp
+            do r = 1, size(suspension%rows)
+               do t = suspension%rows(r)%first, suspension%rows(r)%first + suspension%rows(r)%terms - 1
+                  if (t < ends(k)%first_term .or. t > ends(k)%last_term) cycle
+                  force = force - state%reaction(r)*gradients(at + 1:at + 3, t)
+                  moment = moment - state%reaction(r)*gradients(at + 4:at + 6, t)
+               end do
+            end do
+         end if
+         arm = rotated(state%poses(ends(k)%number + 1)%a, ends(k)%arm)
+         loads(1:3, k) = frame*force
+         loads(4:6, k) = frame*(moment - cross(arm, force))
+      end do
+   end subroutine end_loads
+
+   !> A record without cases.
+   subroutine begin_loads(suspension, model, checksum, record)
+      type(suspension_t), intent(in) :: suspension      !! not on the rig
+      character(*), intent(in) :: model, checksum
+      type(load_record_t), intent(out) :: record
+
+      call member_ends(suspension, .false., record%ends)
+      allocate (record%peaks(size(components), size(record%ends)), record%factor(size(components), size(record%ends)), &
+         source=0.0_wp)
+      allocate (record%state(size(components), size(record%ends)), record%case(size(components), size(record%ends)), source=0)
+      allocate (record%cases(0))
+      call record%text%line('# model '//model//', deck checksum '//checksum//', axes '// &
+         trim(merge('iso   ', 'x-rear', suspension%is_iso))//'. Force and moment on the body, at the hardpoint')
+      call record%text%line('test,state,factor,element,hardpoint,body,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm')
+   end subroutine begin_loads
+
+   !> Adds the converged states of a case.
+   subroutine add_loads(suspension, case, path, kkt, record)
+      type(suspension_t), intent(in) :: suspension      !! on the rig
+      type(case_t), intent(in) :: case
+      type(path_t), intent(in) :: path
+      type(kkt_t), intent(inout) :: kkt                 !! work space
+      type(load_record_t), intent(inout) :: record
+      character(64), allocatable :: names(:)
+      type(state_t) :: state
+      type(schedule_t) :: schedule
+      type(inputs_t) :: inputs
+      real(wp), allocatable :: loads(:, :)
+      character(:), allocatable :: start
+      integer :: k, e, c
+
+      allocate (names(size(record%cases) + 1), loads(6, size(record%ends)))
+      names(:size(record%cases)) = record%cases
+      names(size(names)) = case%name
+      call move_alloc(names, record%cases)
+      state = design_state(suspension)
+      schedule = new_schedule(suspension, case)
+      do k = 1, path%states
+         if (.not. path%is_reached(k)) cycle
+         call unpack_state(path%packed(:, k), state)
+         call inputs_at(schedule, path%value(k), inputs)
+         call assemble(suspension, state, inputs, residual_only, kkt)
+         call end_loads(suspension, state, kkt%gradients, record%ends, loads)
+         start = case%name//','//str(k - 1)//','//str(path%value(k)/case%unit, 9)//','
+         do e = 1, size(record%ends)
+            call record%text%add(start)
+            call record%text%add(record%ends(e)%member)
+            call record%text%add(',')
+            call record%text%add(record%ends(e)%point)
+            call record%text%add(',')
+            call record%text%add(record%ends(e)%body)
+            do c = 1, 6
+               call record%text%add(',')
+               call record%text%add(str(loads(c, e), 9))
+            end do
+            call record%text%add(nl)
+            call keep(e, k - 1, path%value(k)/case%unit, [loads(1:3, e), norm2(loads(1:3, e)), loads(4:6, e), &
+               norm2(loads(4:6, e))])
+         end do
+      end do
+
+   contains
+
+      subroutine keep(e, number, factor, values)
+         integer, intent(in) :: e, number
+         real(wp), intent(in) :: factor, values(size(components))
+         integer :: i
+
+         do i = 1, size(components)
+            if (record%case(i, e) > 0 .and. abs(values(i)) <= abs(record%peaks(i, e))*(1.0_wp + rounding) + tiny_load) cycle
+            record%peaks(i, e) = values(i)
+            record%state(i, e) = number
+            record%factor(i, e) = factor
+            record%case(i, e) = size(record%cases)
+         end do
+      end subroutine keep
+
+   end subroutine add_loads
+
+   !> The largest value of every component of every end, with its test and state, as comma-separated values.
+   subroutine peak_loads(record, buffer)
+      type(load_record_t), intent(in) :: record
+      type(buffer_t), intent(out) :: buffer
+      integer :: e, i
+
+      call buffer%line('element,hardpoint,body,component,value,unit,test,state,factor')
+      do e = 1, size(record%ends)
+         do i = 1, size(components)
+            if (record%case(i, e) == 0) cycle
+            call buffer%add(record%ends(e)%member)
+            call buffer%add(',')
+            call buffer%add(record%ends(e)%point)
+            call buffer%add(',')
+            call buffer%add(record%ends(e)%body)
+            call buffer%add(',')
+            call buffer%add(trim(components(i)))
+            call buffer%add(',')
+            call buffer%add(str(record%peaks(i, e), 9))
+            call buffer%add(trim(merge(',N,  ', ',N m,', i <= resultants(1))))
+            call buffer%add(trim(record%cases(record%case(i, e))))
+            call buffer%add(',')
+            call buffer%add(str(record%state(i, e)))
+            call buffer%add(',')
+            call buffer%add(str(record%factor(i, e), 9))
+            call buffer%add(nl)
+         end do
+      end do
+   end subroutine peak_loads
+
+end module ek_member_loads

@@ -1,0 +1,90 @@
+!> What the compliance matrix of a state would be with other rates, exactly and without factorising again: the state stays as it is.
+!>
+!> Each law of an element acts along a deflection gᵀu. With the deflections G per unit load, A per unit load on the laws
+!> themselves, and the changes D of their rates,
+!>
+!>     C' = C − G_vᵀ (I + D A)⁻¹ D G
+!>
+!> and, with the laws rigid, C' = C − G_vᵀ A⁻¹ G. G_v is G of the transpose. A law that was not there has the rate 0 before: what
+!> an added spring would do. With preload the state would move as well; such a result is exact at the state as it stands.
+module ek_what_if
+   use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
+   use ek_kkt, only: kkt_t
+   use ek_compliance, only: compliance_t, solve_further
+   use ek_contribution, only: contribution_t
+   use ek_port_response, only: lock_t, find_lock, keep_locked
+   use ek_lapack, only: dgesv
+   implicit none(type, external)
+   private
+   public :: find_self_moves, changed_compliance, rigid_compliance
+
+contains
+
+   !> A: deflections of some laws per unit load on each of them. Costs as many solutions.
+   !> Equation (C.16) of docs/theory/compliance.md.
+   subroutine find_self_moves(laws, kkt, compliance, shares, self_move)
+      integer, intent(in) :: laws(:)                      !! numbers of laws in `shares`
+      type(kkt_t), intent(inout) :: kkt                   !! with the factors of the state
+      type(compliance_t), intent(in) :: compliance        !! of the state
+      type(contribution_t), intent(in) :: shares          !! of split_compliance, at the same state
+      real(wp), allocatable, intent(out) :: self_move(:, :)   !! (law, law) [m/N, rad/(N m)]
+      real(wp) :: columns(kkt%n, size(laws))
+
+      if (are_checked) call require(size(shares%gradient, 1) == kkt%nq, 'find_self_moves: the shares are of another model')
+      columns = 0.0_wp
+      columns(:kkt%nq, :) = shares%gradient(:, laws)
+      call solve_further(kkt, compliance, size(laws), columns)
+      self_move = matmul(transpose(shares%gradient(:, laws)), columns(:kkt%nq, :))
+   end subroutine find_self_moves
+
+   !> C' after changes of some rates. I + D A is singular where a rate becomes so negative that the suspension collapses.
+   !> Equation (C.16) of docs/theory/compliance.md.
+   subroutine changed_compliance(c, left_move, move, self_move, change, changed, is_known)
+      real(wp), intent(in) :: c(:, :)                       !! at the wheel centres
+      real(wp), intent(in) :: left_move(:, :), move(:, :)   !! (load, law): G_vᵀ, Gᵀ
+      real(wp), intent(in) :: self_move(:, :)               !! A
+      real(wp), intent(in) :: change(:)                     !! of each rate [N/m, N m/rad]
+      real(wp), allocatable, intent(out) :: changed(:, :)   !! C'
+      logical, intent(out) :: is_known                      !! .false.: singular
+      real(wp) :: matrix(size(change), size(change)), forces(size(change), size(c, 2))
+      integer :: pivots(size(change)), k, j, info
+
+      do k = 1, size(change)
+         matrix(k, :) = change(k)*self_move(k, :)
+         matrix(k, k) = matrix(k, k) + 1.0_wp
+         do j = 1, size(c, 2)
+            forces(k, j) = change(k)*move(j, k)
+         end do
+      end do
+      call dgesv(size(change), size(c, 2), matrix, size(change), pivots, forces, size(change), info)
+      is_known = info == 0
+      changed = c - matmul(left_move, forces)
+   end subroutine changed_compliance
+
+   !> C' with some laws rigid: their deflections are locked one after the other; one that is locked already has no effect.
+   !> Equation (C.17) of docs/theory/compliance.md.
+   pure function rigid_compliance(c, left_move, move, self_move) result(changed)
+      real(wp), intent(in) :: c(:, :)
+      real(wp), intent(in) :: left_move(:, :), move(:, :)
+      real(wp), intent(in) :: self_move(:, :)
+      real(wp) :: changed(size(c, 1), size(c, 2))
+      real(wp), allocatable :: response(:, :)
+      type(lock_t) :: lock
+      integer :: n, m, j, k
+
+      n = size(c, 1)
+      m = size(self_move, 1)
+      allocate (response(n + m, n + m))
+      response(:n, :n) = c
+      response(:n, n + 1:) = left_move
+      response(n + 1:, :n) = transpose(move)
+      response(n + 1:, n + 1:) = self_move
+      call find_lock(response, [(n + k, k=1, m)], lock)
+      do j = 1, n
+         call keep_locked(lock, response(:, j))
+      end do
+      changed = response(:n, :n)
+   end function rigid_compliance
+
+end module ek_what_if

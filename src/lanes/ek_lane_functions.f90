@@ -1,0 +1,133 @@
+!> Functions of numbers of four designs, each lane as the intrinsic function of the same name.
+module ek_lane_functions
+   use ek_kinds, only: wp
+   use ek_lane_numbers, only: lanes, lanes_t, zero, operator(+), operator(*)
+   implicit none(type, external)
+   private
+   public :: sqrt, sin, cos, atan2, log, dot_product, sum, norm2
+
+   interface sqrt
+      procedure :: sqrt_lanes
+   end interface sqrt
+   interface sin
+      procedure :: sin_lanes
+   end interface sin
+   interface cos
+      procedure :: cos_lanes
+   end interface cos
+   interface log
+      procedure :: log_lanes
+   end interface log
+   interface atan2
+      procedure :: atan2_lanes
+   end interface atan2
+   interface dot_product
+      procedure :: dot_product_lanes, dot_product_real
+   end interface dot_product
+   interface sum
+      procedure :: sum_lanes
+   end interface sum
+   interface norm2
+      procedure :: norm2_lanes
+   end interface norm2
+
+contains
+
+   !> √a
+   elemental type(lanes_t) function sqrt_lanes(a) result(y)
+      type(lanes_t), intent(in) :: a
+      integer :: l
+      !$omp simd
+      do l = 1, lanes
+         y%v(l) = sqrt(a%v(l))
+      end do
+   end function sqrt_lanes
+
+   ! gfortran takes sin, cos, atan2 and log of several numbers from a vector library, which has other last bits than the scalar functions:
+   ! these loops are not vectorised
+
+   !> sin a
+   elemental type(lanes_t) function sin_lanes(a) result(y)
+      type(lanes_t), intent(in) :: a
+      integer :: l
+      !GCC$ novector
+      do l = 1, lanes
+         y%v(l) = sin(a%v(l))
+      end do
+   end function sin_lanes
+
+   !> ln a
+   elemental type(lanes_t) function log_lanes(a) result(y)
+      type(lanes_t), intent(in) :: a
+      integer :: l
+      !GCC$ novector
+      do l = 1, lanes
+         y%v(l) = log(a%v(l))
+      end do
+   end function log_lanes
+
+   !> cos a
+   elemental type(lanes_t) function cos_lanes(a) result(y)
+      type(lanes_t), intent(in) :: a
+      integer :: l
+      !GCC$ novector
+      do l = 1, lanes
+         y%v(l) = cos(a%v(l))
+      end do
+   end function cos_lanes
+
+   !> The angle of the point (x, y).
+   elemental type(lanes_t) function atan2_lanes(y, x) result(angle)
+      type(lanes_t), intent(in) :: y, x
+      integer :: l
+      !GCC$ novector
+      do l = 1, lanes
+         angle%v(l) = atan2(y%v(l), x%v(l))
+      end do
+   end function atan2_lanes
+
+   !> a·b, summed from the first component on as the intrinsic function does.
+   pure type(lanes_t) function dot_product_lanes(a, b) result(y)
+      type(lanes_t), intent(in) :: a(:), b(:)
+      integer :: k
+      y = zero
+      do k = 1, size(a)
+         y = y + a(k)*b(k)
+      end do
+   end function dot_product_lanes
+
+   !> a·b, a the same for all designs.
+   pure type(lanes_t) function dot_product_real(a, b) result(y)
+      real(wp), intent(in) :: a(:)
+      type(lanes_t), intent(in) :: b(:)
+      integer :: k
+      y = zero
+      do k = 1, size(b)
+         y = y + a(k)*b(k)
+      end do
+   end function dot_product_real
+
+   !> The sum of all components, from the first on.
+   pure type(lanes_t) function sum_lanes(a) result(y)
+      type(lanes_t), intent(in) :: a(:)
+      integer :: k
+      y = zero
+      do k = 1, size(a)
+         y = y + a(k)
+      end do
+   end function sum_lanes
+
+   !> |a|
+   pure type(lanes_t) function norm2_lanes(a) result(y)
+      type(lanes_t), intent(in) :: a(:)
+      real(wp) :: x(size(a))
+      integer :: k, l
+      do l = 1, lanes
+         do k = 1, size(a)
+            x(k) = a(k)%v(l)
+         end do
+         y%v(l) = norm2(x)
+      end do
+   end function norm2_lanes
+
+end module ek_lane_functions

@@ -1,0 +1,30 @@
+!> The instruction set for which the lane kernels are compiled.
+!>
+!> The build may compile this layer for several instruction sets, as a shared library of which the loader takes the best copy that the
+!> processor can run (src/lanes/loaded_lanes.cmake). Only the copy that runs knows its own: it is asked by a procedure, as a constant
+!> would be copied from the module file into the program.
+module ek_lane_instructions
+   use, intrinsic :: iso_fortran_env, only: compiler_options
+   implicit none(type, external)
+   private
+   public :: get_instruction_set
+
+   character(*), parameter :: options = compiler_options()
+   character(*), parameter :: key = '-march='
+
+contains
+
+   !> The name in the option -march, the last if there are several: 'x86-64-v3'; '' if the compiler does not say its options.
+   pure subroutine get_instruction_set(name)
+      character(*), intent(out) :: name
+      integer :: first, last
+
+      name = ''
+      first = index(options, key, back=.true.)
+      if (first == 0) return
+      first = first + len(key)
+      last = first + scan(options(first:)//' ', ' ') - 2
+      name = options(first:last)
+   end subroutine get_instruction_set
+
+end module ek_lane_instructions

@@ -1,0 +1,45 @@
+!> The numbers of kernels: what differs between designs.
+!>
+!> A kernel is compiled twice from one source. Here its numbers `real(num)` are reals. The build also makes a copy of it
+!> (src/lanes/make_lanes.cmake) in which they are `type(lanes_t)`, the numbers of four designs, and this module is `ek_lanes`.
+!> "How a kernel is written" in CONTRIBUTING.md gives the rules.
+module ek_number
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: num, mask, piece, zero, one, some, every, pieces_below, entry
+
+   integer, parameter :: num = wp               !! real(num): a number that differs between designs
+   integer, parameter :: mask = kind(.true.)    !! logical(mask): a condition on such numbers
+   integer, parameter :: piece = kind(1)        !! integer(piece): a position in a table, found by such numbers
+
+   real(num), parameter :: zero = 0.0_num, one = 1.0_num     !! for initial values of components and for constants
+
+contains
+
+   !> Whether the condition holds for any of the designs.
+   elemental logical function some(condition)
+      logical(mask), intent(in) :: condition
+      some = condition
+   end function some
+
+   !> Whether the condition holds for all of the designs.
+   elemental logical function every(condition)
+      logical(mask), intent(in) :: condition
+      every = condition
+   end function every
+
+   !> The number of breaks that are not above x.
+   pure integer(piece) function pieces_below(breaks, x)
+      real(num), intent(in) :: breaks(:), x
+      pieces_below = count(breaks <= x)
+   end function pieces_below
+
+   !> table(k)
+   pure real(num) function entry(table, k)
+      real(num), intent(in) :: table(:)
+      integer(piece), intent(in) :: k
+      entry = table(k)
+   end function entry
+
+end module ek_number

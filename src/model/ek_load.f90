@@ -1,0 +1,64 @@
+!> A force and a moment at a point of a body.
+module ek_load
+   use ek_kinds, only: wp
+   use ek_number, only: num, zero
+   use ek_relative_rotation, only: pose_t
+   use ek_block, only: rotated, add_block, add_s_block, r_j, pi_j
+   use ek_rotation, only: cross, skew
+   implicit none(type, external)
+   private
+   public :: load_t, wrench, add_load_tangent
+
+   !> A force and a moment at a point of a body.
+   type :: load_t
+      character(:), allocatable :: name, where
+      integer :: body = 0
+      real(num) :: arm(3) = zero         !! point of application from the reference point, body axes [m]
+      real(num) :: force(3) = zero       !! N, global axes at design
+      real(num) :: moment(3) = zero      !! N m
+      logical :: follows = .false.        !! rotates with the body
+      logical :: is_case = .false.        !! scaled by the case that refers to it; otherwise always acting
+      logical :: is_weight = .false.      !! gravity of the body, not a load of the deck or the rig
+   end type load_t
+
+contains
+
+   !> Force and moment of a load about the body's reference point, global axes; and its arm.
+   !> Equation (K.1) of docs/theory/kkt.md.
+   pure subroutine wrench(load, pose, force, moment, arm)
+      type(load_t), intent(in) :: load
+      type(pose_t), intent(in) :: pose
+      real(num), intent(out) :: force(3), moment(3)   !! N, N m
+      real(num), intent(out) :: arm(3)                !! arm of the point of application, global axes [m]
+
+      arm = rotated(pose%a, load%arm)
+      if (load%follows) then
+         force = rotated(pose%a, load%force)
+         moment = rotated(pose%a, load%moment)
+      else
+         force = load%force
+         moment = load%moment
+      end if
+      moment = moment + cross(arm, force)
+   end subroutine wrench
+
+   !> Adds the stiffness of a load, −d(force, moment)/dz: −S(arm, force) of one that keeps its direction; of one that rotates with
+   !> its body δf = π×f, so T_rπ = f̃, whose symmetric part is distributed half to rπ and half to πr.
+   !> Equation (K.4) of docs/theory/kkt.md.
+   pure subroutine add_load_tangent(load, force, arm, body, blocks)
+      type(load_t), intent(in) :: load
+      real(num), intent(in) :: force(3), arm(3)      !! of wrench, the force times its factor [N]; [m]
+      integer, intent(in) :: body                    !! its diagonal block
+      real(num), intent(inout) :: blocks(6, 6, *)
+      real(num) :: block(3, 3), backward(3)
+
+      if (load%follows) then
+         block = 0.5_wp*skew(force)
+         call add_block(block, r_j, pi_j, [0, body, 0], blocks)
+      else
+         backward = -arm
+         call add_s_block(backward, force, body, blocks)
+      end if
+   end subroutine add_load_tangent
+
+end module ek_load

@@ -1,0 +1,24 @@
+!> One equation of Φ(q) = 0: a sum of measures held at a value.
+module ek_row
+   use ek_number, only: num, zero, one
+   use ek_measure, only: measure_t
+   implicit none(type, external)
+   private
+   public :: row_t, term_t
+
+   !> coefficient × measure
+   type :: term_t
+      type(measure_t) :: measure
+      real(num) :: coefficient = one
+   end type term_t
+
+   !> One equation Σ terms = target.
+   type :: row_t
+      integer :: first = 0, terms = 1      !! its terms are first … first+terms−1 of the suspension
+      real(num) :: target = zero           !! value at design [m, - or rad]
+      integer :: joint = 0                 !! number of the joint
+      logical :: is_driver = .false.
+      real(num) :: compliance = zero       !! driver with a stiffness: Σ terms = target + compliance × λ [m/N, rad/(N m)]
+   end type row_t
+
+end module ek_row

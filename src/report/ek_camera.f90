@@ -1,0 +1,105 @@
+!> The camera of a scene: direction of view, scale, and where a point stands in the picture.
+!>
+!> It has the two angles [deg] of gnuplot's `set view`: at turn = 0 it looks to the right, from the left of the car, at 270
+!> rearward from its front.
+module ek_camera
+   use ek_kinds, only: wp, degree
+   use ek_scene, only: scene_t, run_t
+   implicit none(type, external)
+   private
+   public :: camera_t, fit_camera, projection_t, new_projection, in_picture
+
+   ! measured with gnuplot 5.4, font sizes 12 to 13
+   real(wp), parameter :: box_share = 0.507_wp       ! longest edge of the box, in shorter sides of the picture
+   real(wp), parameter :: above_middle = 0.014_wp    ! offset of the centre in picture heights
+
+   !> Direction of view and scale.
+   type :: camera_t
+      real(wp) :: tilt = 68.0_wp, turn = 300.0_wp       !! deg
+      real(wp) :: centre(3) = 0.0_wp                    !! m, middle of the picture
+      real(wp) :: span = 1.0_wp                         !! m, edge of the cube of the axis ranges
+      real(wp) :: zoom = 1.0_wp                         !! third number of `set view`
+      real(wp) :: width = 3.0_wp, height = 2.0_wp       !! of the picture
+      real(wp) :: scale = 1.0_wp                        !! unit of width and height per m
+   end type camera_t
+
+   !> From a point in space to its position in the picture.
+   type :: projection_t
+      real(wp) :: matrix(2, 3) = 0.0_wp, centre(3) = 0.0_wp
+   end type projection_t
+
+contains
+
+   !> To the right and upward in the picture, unit vectors.
+   pure subroutine directions(camera, right, up)
+      type(camera_t), intent(in) :: camera
+      real(wp), intent(out) :: right(3), up(3)
+
+      right = [cos(camera%turn*degree), sin(camera%turn*degree), 0.0_wp]
+      up = [-sin(camera%turn*degree)*cos(camera%tilt*degree), cos(camera%turn*degree)*cos(camera%tilt*degree), &
+         sin(camera%tilt*degree)]
+   end subroutine directions
+
+   pure type(projection_t) function new_projection(camera) result(self)
+      type(camera_t), intent(in) :: camera      !! fitted
+      real(wp) :: right(3), up(3)
+
+      call directions(camera, right, up)
+      self%matrix(1, :) = right*camera%scale/camera%width
+      self%matrix(2, :) = up*camera%scale/camera%height
+      self%centre = camera%centre
+   end function new_projection
+
+   !> Where a point stands: shares of the width from the left and of the height from below.
+   pure function in_picture(self, at) result(place)
+      type(projection_t), intent(in) :: self
+      real(wp), intent(in) :: at(3)      !! m
+      real(wp) :: place(2)
+      place = matmul(self%matrix, at - self%centre) + [0.5_wp, 0.5_wp + above_middle]
+   end function in_picture
+
+   !> Sets centre, span and zoom so that all faces and lines of some scenes fill a picture of this shape.
+   !>
+   !> gnuplot draws the longest edge of its box as a fixed share of the shorter side of the picture, times the zoom.
+   subroutine fit_camera(camera, scenes, width, height, footer)
+      type(camera_t), intent(inout) :: camera     !! tilt and turn are input
+      type(scene_t), intent(in) :: scenes(:)
+      real(wp), intent(in) :: width, height       !! of the picture, any unit
+      real(wp), intent(in) :: footer              !! share of the height that is kept free below
+      real(wp), allocatable :: at(:, :), across(:), upward(:)
+      real(wp) :: right(3), up(3), scale
+      integer :: s, k, n
+
+      call directions(camera, right, up)
+      allocate (at(3, sum(scenes%faces%used) + sum(scenes%lines%used)))
+      n = 0
+      do s = 1, size(scenes)
+         call include(scenes(s)%faces)
+         call include(scenes(s)%lines)
+      end do
+      camera%span = 0.1_wp
+      camera%width = width
+      camera%height = height
+      if (n == 0) return
+      across = [(dot_product(right, at(:, k)), k=1, n)]
+      upward = [(dot_product(up, at(:, k)), k=1, n)]
+      scale = 0.95_wp*min(width/max(maxval(across) - minval(across), 1.0e-3_wp), &
+         height*(1 - footer)/max(maxval(upward) - minval(upward), 1.0e-3_wp))
+      camera%centre = right*((minval(across) + maxval(across))/2) + &
+         up*((minval(upward) + maxval(upward))/2 - (footer/2 - above_middle)*height/scale)
+      ! the box must contain every vertex; gnuplot clips at the box
+      camera%span = max(camera%span, 2.1_wp*maxval([(maxval(abs(at(:, k) - camera%centre)), k=1, n)]))
+      camera%zoom = scale*camera%span/(box_share*min(width, height))
+      camera%scale = scale
+
+   contains
+
+      subroutine include(list)
+         type(run_t), intent(in) :: list
+         if (list%used > 0) at(:, n + 1:n + list%used) = list%at(:, :list%used)
+         n = n + list%used
+      end subroutine include
+
+   end subroutine fit_camera
+
+end module ek_camera

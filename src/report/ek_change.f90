@@ -1,0 +1,93 @@
+!> When a result has changed: by more than a share of its value, or of the least span that a chart of it has. What is small against
+!> that span is noise: 1e-16 against 1e-17 deg/m is no change, nor is 0 against 1e-7.
+module ek_change
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_quantity, only: all_quantities, unit_of, unit_text
+   implicit none(type, external)
+   private
+   public :: least_of, change_of, verdict_of, letter_of, has_changed
+   public :: changed, same, unknown, only_in
+
+   character(*), parameter :: changed = 'changed', same = 'same', unknown = 'not a number', only_in = 'only in '
+   real(wp), parameter :: rounding = 1.0e-6_wp      !! of the scale: two programs, or two computers, differ by less
+
+   !> What a slope per unit is taken over, where no quantity has the unit of the slope: the usual windows.
+   type :: width_t
+      character(8) :: unit
+      real(wp) :: width
+   end type width_t
+   type(width_t), parameter :: widths(*) = [width_t('m', 0.03_wp), width_t('mm', 30.0_wp), width_t('deg', 2.0_wp), &
+      width_t('kN', 2.0_wp), width_t('N', 2000.0_wp), width_t('100 N m', 2.0_wp), width_t('N m', 200.0_wp), width_t('g', 1.0_wp)]
+
+contains
+
+   !> The least span that a chart has in a unit (ek_quantity); of a slope whose unit no quantity has, the span of its numerator over
+   !> the usual window; 0 for a unit that is not known.
+   pure real(wp) function least_of(unit)
+      character(*), intent(in) :: unit          !! 'deg/m'
+      integer :: at, k
+
+      least_of = least_span(unit)
+      at = index(unit, '/')
+      if (least_of > 0.0_wp .or. at == 0) return
+      k = findloc(widths%unit, unit(at + 1:), dim=1)
+      if (k > 0) least_of = least_span(unit(:at - 1))/widths(k)%width
+   end function least_of
+
+   !> The smallest of the least spans of all quantities in a unit; 0: none has it.
+   pure real(wp) function least_span(unit)
+      character(*), intent(in) :: unit
+      integer :: k
+
+      least_span = huge(1.0_wp)
+      do k = 1, size(all_quantities)
+         if (.not. all_quantities(k)%span > 0.0_wp) cycle
+         if (unit_text(unit_of(trim(all_quantities(k)%name))) == unit) least_span = min(least_span, all_quantities(k)%span)
+      end do
+      if (least_span >= huge(1.0_wp)) least_span = 0.0_wp
+   end function least_span
+
+   !> (b − a) as a share of |a|, or of the least span where this is larger; not a number if one is missing.
+   elemental real(wp) function change_of(a, b, least)
+      real(wp), intent(in) :: a, b, least
+      real(wp) :: scale
+
+      change_of = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
+      change_of = 0.0_wp
+      scale = max(abs(a), least, 1.0e-9_wp)
+      if (abs(b - a) <= rounding*scale) return
+      change_of = (b - a)/scale
+   end function change_of
+
+   !> Whether a change is more than the threshold.
+   elemental logical function has_changed(change, threshold)
+      real(wp), intent(in) :: change, threshold
+
+      has_changed = .false.
+      if (ieee_is_finite(change)) has_changed = abs(change) > threshold
+   end function has_changed
+
+   !> 'changed', 'same', 'only in A', 'not a number' for a row of the first result and of another one.
+   pure function verdict_of(change, threshold, is_in_first, is_in_other, other) result(words)
+      real(wp), intent(in) :: change, threshold
+      logical, intent(in) :: is_in_first, is_in_other
+      integer, intent(in) :: other                 !! number of the other result
+      character(12) :: words
+
+      words = same
+      if (.not. ieee_is_finite(change)) words = unknown
+      if (has_changed(change, threshold)) words = changed
+      if (is_in_first .and. .not. is_in_other) words = only_in//letter_of(1)
+      if (is_in_other .and. .not. is_in_first) words = only_in//letter_of(other)
+      if (.not. is_in_first .and. .not. is_in_other) words = 'in neither'
+   end function verdict_of
+
+   !> The letter of a result: A is the first.
+   pure character(1) function letter_of(result)
+      integer, intent(in) :: result
+      letter_of = achar(iachar('A') + modulo(result - 1, 26))
+   end function letter_of
+
+end module ek_change

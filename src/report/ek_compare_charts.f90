@@ -1,0 +1,355 @@
+!> The charts of a comparison: one per quantity of a test, with the curves of all results, and how far each lies from the first.
+module ek_compare_charts
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_test_result, only: design_row
+   use ek_chart, only: chart_t, trace_t, add_trace, append_chart, cut_of, both_sides
+   use ek_test_charts, only: test_charts
+   use ek_report_files, only: results_t, test_number
+   use ek_change, only: change_of, verdict_of, has_changed, letter_of
+   implicit none(type, external)
+   private
+   public :: chart_change_t, curve_difference_t, compare_charts
+
+   real(wp), parameter :: invisible = 1.0e-5_wp     !! of the scale: such curves are drawn as one
+
+   !> How far the curves of a chart lie from those of the first result.
+   type :: chart_change_t
+      real(wp) :: change = 0.0_wp             !! with its sign, where it is largest, as a share (see ek_change)
+      real(wp) :: largest = 0.0_wp            !! the same in the unit of the chart
+      real(wp) :: at = 0.0_wp                 !! there, on the abscissa
+      logical :: is_changed = .false.         !! by more than the threshold
+      logical :: is_known = .false.           !! some states can be compared
+   end type chart_change_t
+
+   !> One curve of one result against the first.
+   type :: curve_difference_t
+      character(:), allocatable :: test, chart, title, label, curve
+      integer :: result = 2
+      real(wp) :: change = 0.0_wp, largest = 0.0_wp, at = 0.0_wp
+      character(12) :: verdict = ''
+   end type curve_difference_t
+
+   type :: chart_list_t
+      type(chart_t), allocatable :: list(:)
+   end type chart_list_t
+
+contains
+
+   !> The charts of every test of the first result that another one has too. A curve that is the same as that of the first result is
+   !> drawn once, as 'A = B'.
+   subroutine compare_charts(results, threshold, charts, changes, curves)
+      type(results_t), intent(in) :: results(:)
+      real(wp), intent(in) :: threshold
+      type(chart_t), allocatable, intent(out) :: charts(:)
+      type(chart_change_t), allocatable, intent(out) :: changes(:)      !! of each chart
+      type(curve_difference_t), allocatable, intent(out) :: curves(:)
+      type(chart_list_t) :: own(size(results))
+      type(chart_t) :: chart
+      type(chart_change_t) :: change
+      integer :: t, u, r, k, used, places(size(results)), design(size(results))
+
+      allocate (charts(0), changes(0), curves(0))
+      used = 0
+      do t = 1, size(results(1)%tests)
+         design = 0
+         do r = 1, size(results)
+            u = test_number(results(r), results(1)%tests(t)%name)
+            if (allocated(own(r)%list)) deallocate (own(r)%list)
+            allocate (own(r)%list(0))
+            if (u == 0) cycle
+            call test_charts(results(r)%tests(u), own(r)%list, t)
+            design(r) = design_row(results(r)%tests(u)%table)
+         end do
+         do k = 1, size(own(1)%list)
+            do r = 1, size(results)
+               places(r) = chart_number(own(r)%list, own(1)%list(k))
+            end do
+            call join(own, places, design, threshold, results(1)%tests(t)%name, chart, change, curves)
+            if (all(places(2:) == 0)) cycle
+            call append_chart(charts, used, chart)
+            changes = [changes, change]
+         end do
+         do r = 2, size(results)
+            do k = 1, size(own(r)%list)
+               if (chart_number(own(1)%list, own(r)%list(k)) == 0) &
+                  call add_lone(own(r)%list(k), results(1)%tests(t)%name, r, curves)
+            end do
+         end do
+      end do
+      charts = charts(:used)
+   end subroutine compare_charts
+
+   !> The chart of the same name over the same abscissa; 0: there is none.
+   pure integer function chart_number(list, chart) result(number)
+      type(chart_t), intent(in) :: list(:), chart
+
+      do number = size(list), 1, -1
+         if (list(number)%name == chart%name .and. list(number)%x_label == chart%x_label) return
+      end do
+   end function chart_number
+
+   !> A chart that only one result has.
+   subroutine add_lone(chart, test, r, curves)
+      type(chart_t), intent(in) :: chart
+      character(*), intent(in) :: test
+      integer, intent(in) :: r
+      type(curve_difference_t), allocatable, intent(inout) :: curves(:)
+      integer :: k
+
+      do k = 1, size(chart%traces)
+         call add_curve(chart, test, chart%traces(k)%title, r, missing_change(), &
+            verdict_of(0.0_wp, 0.0_wp, r == 1, r > 1, r), curves)
+      end do
+   end subroutine add_lone
+
+   pure type(chart_change_t) function missing_change()
+      real(wp) :: nothing
+
+      nothing = ieee_value(1.0_wp, ieee_quiet_nan)
+      missing_change = chart_change_t(nothing, nothing, nothing, .false., .false.)
+   end function missing_change
+
+   subroutine add_curve(chart, test, title, r, change, verdict, curves)
+      type(chart_t), intent(in) :: chart
+      character(*), intent(in) :: test, title, verdict
+      integer, intent(in) :: r
+      type(chart_change_t), intent(in) :: change
+      type(curve_difference_t), allocatable, intent(inout) :: curves(:)
+      type(curve_difference_t) :: curve        ! one by one: gfortran 12 leaks texts in a structure constructor
+
+      curve%test = test
+      curve%chart = chart%name(len(test) + 2:)
+      curve%title = chart%title
+      curve%label = chart%y_label
+      curve%curve = title
+      curve%result = r
+      curve%change = change%change
+      curve%largest = change%largest
+      curve%at = change%at
+      curve%verdict = verdict
+      curves = [curves, curve]
+   end subroutine add_curve
+
+   !> One chart of all results.
+   subroutine join(own, places, design, threshold, test, chart, change, curves)
+      type(chart_list_t), intent(in) :: own(:)
+      integer, intent(in) :: places(:)             !! of the chart in each list; 0: not there
+      integer, intent(in) :: design(:)             !! rows of the design state
+      real(wp), intent(in) :: threshold
+      character(*), intent(in) :: test
+      type(chart_t), intent(out) :: chart
+      type(chart_change_t), intent(out) :: change
+      type(curve_difference_t), allocatable, intent(inout) :: curves(:)
+      type(chart_change_t) :: one
+      type(trace_t) :: trace
+      integer, allocatable :: found(:)
+      integer :: r, j, k, first
+      logical :: is_elements
+      character(:), allocatable :: letters
+
+      chart = own(1)%list(places(1))
+      first = size(chart%traces)
+      chart%has_key = .true.
+      is_elements = own(1)%list(places(1))%has_key
+      do j = 1, first
+         letters = letter_of(1)
+         do r = 2, size(own)
+            if (places(r) == 0) cycle
+            associate (other => own(r)%list(places(r)))
+               do k = 1, size(other%traces)
+                  if (other%traces(k)%title /= chart%traces(j)%title) cycle
+                  one = distance(chart%traces(j), other%traces(k), chart)
+                  if (is_invisible(one)) letters = letters//' = '//letter_of(r)
+               end do
+            end associate
+         end do
+         call dress(chart%traces(j), letters, 1, is_elements)
+      end do
+      do r = 2, size(own)
+         if (places(r) == 0) then
+            call add_lone(own(1)%list(places(1)), test, 1, curves)
+            cycle
+         end if
+         associate (mine => own(1)%list(places(1)), other => own(r)%list(places(r)))
+            chart%is_level = chart%is_level .and. other%is_level
+            do k = 1, size(other%traces)
+               found = partners(mine, other%traces(k)%title)
+               one = missing_change()
+               do j = 1, size(found)
+                  call take(distance(mine%traces(found(j)), other%traces(k), mine), one)
+               end do
+               call add_curve(mine, test, other%traces(k)%title, r, one, &
+                  verdict_of(one%change, threshold, size(found) > 0, .true., r), curves)
+               call take(one, change)
+               if (is_invisible(one) .and. size(found) > 0) then
+                  if (mine%traces(found(1))%title == other%traces(k)%title) cycle
+               end if
+               trace = other%traces(k)
+               if (size(found) > 0) trace%reference = found(1)
+               if (design(r) /= design(1)) trace%design = design(r)
+               call name_columns(trace, mine, r)
+               call dress(trace, letter_of(r), r, is_elements)
+               call add_trace(chart, trace)
+            end do
+            do j = 1, first
+               if (size(partners(other, mine%traces(j)%title)) == 0) &
+                  call add_curve(mine, test, mine%traces(j)%title, r, missing_change(), &
+                  verdict_of(0.0_wp, 0.0_wp, .true., .false., r), curves)
+            end do
+         end associate
+      end do
+      change%is_changed = has_changed(change%change, threshold)
+   end subroutine join
+
+   !> Whether two curves are drawn as one.
+   pure logical function is_invisible(change)
+      type(chart_change_t), intent(in) :: change
+
+      is_invisible = change%is_known
+      if (is_invisible) is_invisible = abs(change%change) <= invisible
+   end function is_invisible
+
+   !> Keeps the larger of two changes.
+   pure subroutine take(one, largest)
+      type(chart_change_t), intent(in) :: one
+      type(chart_change_t), intent(inout) :: largest
+
+      if (.not. one%is_known) return
+      if (largest%is_known) then
+         if (abs(one%change) <= abs(largest%change)) return
+      end if
+      largest = one
+   end subroutine take
+
+   !> The curves of a chart that a curve of another result is compared with: of the same name; one for both sides stands for each.
+   pure function partners(chart, title) result(found)
+      type(chart_t), intent(in) :: chart
+      character(*), intent(in) :: title
+      integer, allocatable :: found(:)
+      integer :: k
+
+      found = [integer ::]
+      do k = 1, size(chart%traces)
+         if (chart%traces(k)%title == title) then
+            found = [k]
+            return
+         end if
+         if (stands_for(chart%traces(k)%title, title) .or. stands_for(title, chart%traces(k)%title)) found = [found, k]
+      end do
+   end function partners
+
+   !> Whether a curve of both sides, 'left = right' or 'coil (left = right)', stands for one of a side, 'left' or 'right_coil'.
+   pure logical function stands_for(joint, single)
+      character(*), intent(in) :: joint, single
+      integer :: at
+
+      at = index(joint, ' ('//both_sides//')')
+      stands_for = joint == both_sides .and. (single == 'left' .or. single == 'right')
+      if (at > 0) stands_for = single == 'left_'//joint(:at - 1) .or. single == 'right_'//joint(:at - 1)
+   end function stands_for
+
+   !> Name, colour and dash of a curve: the colour of its result, dashed on the right; of several elements the colour is that of the
+   !> element, and the results are distinguished by dashes.
+   pure subroutine dress(trace, letters, r, is_elements)
+      type(trace_t), intent(inout) :: trace
+      character(*), intent(in) :: letters
+      integer, intent(in) :: r                  !! number of its result
+      logical, intent(in) :: is_elements
+      character(:), allocatable :: title
+
+      title = letters
+      if (len(trace%title) > 0) title = letters//', '//trace%title
+      trace%title = title
+      if (is_elements) then
+         trace%dash = modulo(2*(r - 1) + min(trace%dash, 1), 4)
+      else
+         trace%colour = r
+      end if
+   end subroutine dress
+
+   !> Names of a curve's numbers in the data of a page, where every result has its own; the abscissa of the first serves if it is the
+   !> same.
+   pure subroutine name_columns(trace, chart, r)
+      type(trace_t), intent(inout) :: trace
+      type(chart_t), intent(in) :: chart
+      integer, intent(in) :: r
+      integer :: k
+      logical :: is_same
+
+      if (index(trace%column, '(') /= 1) trace%column = letter_of(r)//' '//trace%column
+      is_same = .false.
+      do k = 1, size(chart%traces)
+         if (chart%traces(k)%over /= trace%over) cycle
+         is_same = are_near(chart%traces(k)%x, trace%x)
+         exit
+      end do
+      if (.not. is_same) trace%over = letter_of(r)//' '//trace%over
+   end subroutine name_columns
+
+   !> Whether two abscissae are the same to rounding.
+   pure logical function are_near(a, b)
+      real(wp), intent(in) :: a(:), b(:)
+      real(wp) :: near
+
+      are_near = size(a) == size(b)
+      if (.not. are_near) return
+      are_near = all(ieee_is_finite(a) .and. ieee_is_finite(b))
+      if (.not. are_near) return
+      near = 1.0e-7_wp*maxval(abs(a))
+      are_near = all(abs(a - b) <= near)
+   end function are_near
+
+   !> How far curve b lies from curve a where both have values: state by state if they have the same abscissa, otherwise between
+   !> the states of a. The scale is the largest magnitude of a, or the least span of the chart.
+   pure type(chart_change_t) function distance(a, b, chart) result(change)
+      type(trace_t), intent(in) :: a, b
+      type(chart_t), intent(in) :: chart           !! of a
+      real(wp) :: cut, scale, y, one
+      integer :: k
+      logical :: is_paired
+
+      change = missing_change()
+      cut = cut_of(chart)
+      if (.not. cut > 0.0_wp) cut = huge(1.0_wp)
+      if (.not. any(ieee_is_finite(a%y))) return
+      scale = max(chart%noise, min(cut, maxval(abs(a%y), mask=ieee_is_finite(a%y))))
+      is_paired = are_near(a%x, b%x)
+      if (chart%has_points .and. .not. is_paired) return     ! states without an order have nothing between them
+      do k = 1, size(b%y)
+         if (.not. (ieee_is_finite(b%y(k)) .and. ieee_is_finite(b%x(k)))) cycle
+         if (is_paired) then
+            y = a%y(k)
+         else
+            y = value_at(a, b%x(k))
+         end if
+         if (.not. ieee_is_finite(y)) cycle
+         one = max(-cut, min(cut, b%y(k))) - max(-cut, min(cut, y))
+         if (change%is_known) then
+            if (abs(one) <= abs(change%largest)) cycle
+         end if
+         change%is_known = .true.
+         change%largest = one
+         change%at = b%x(k)
+      end do
+      if (change%is_known) change%change = change_of(scale, scale + change%largest, scale)
+   end function distance
+
+   !> A curve between two of its states; not a number outside.
+   pure real(wp) function value_at(curve, x)
+      type(trace_t), intent(in) :: curve
+      real(wp), intent(in) :: x
+      integer :: k
+
+      value_at = ieee_value(1.0_wp, ieee_quiet_nan)
+      do k = 2, size(curve%x)
+         if (.not. all(ieee_is_finite([curve%x(k - 1:k), curve%y(k - 1:k)]))) cycle
+         associate (p => curve%x(k - 1), q => curve%x(k))
+            if (x < min(p, q) .or. x > max(p, q) .or. .not. abs(q - p) > 0.0_wp) cycle
+            value_at = curve%y(k - 1) + (curve%y(k) - curve%y(k - 1))*((x - p)/(q - p))
+         end associate
+         return
+      end do
+   end function value_at
+
+end module ek_compare_charts

@@ -1,0 +1,234 @@
+!> Results and what differs between them: the decks, the gradients and key numbers, the curves.
+module ek_comparison
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str
+   use ek_gradient, only: gradient_t
+   use ek_report_files, only: results_t
+   use ek_chart, only: chart_t, both_sides, rounded
+   use ek_page, only: page_number
+   use ek_change, only: least_of, change_of
+   use ek_compare_charts, only: chart_change_t, curve_difference_t
+   use ek_deck_difference, only: deck_difference_t
+   implicit none(type, external)
+   private
+   public :: comparison_t, difference_t, compare_gradients, compare_numbers, results_shown, difference, percent, largest_change, &
+      descending, counted
+
+   !> One gradient or key number of all results. Of a key number `test` is its group and `column` its name for programs.
+   type, extends(gradient_t) :: difference_t
+      real(wp) :: least = 0.0_wp              !! what a change is compared with where the value is smaller
+      real(wp), allocatable :: values(:)      !! one per result; not a number if it lacks the gradient
+      logical, allocatable :: is_there(:)
+   end type difference_t
+
+   type :: comparison_t
+      character(:), allocatable :: folder               !! of the page
+      type(results_t), allocatable :: results(:)        !! the first is the one compared with
+      real(wp) :: threshold = 0.01_wp                   !! a larger change counts
+      type(deck_difference_t), allocatable :: facts(:), deck(:)     !! what differs in making and decks
+      type(difference_t), allocatable :: rows(:), numbers(:)        !! gradients, key numbers
+      type(difference_t), allocatable :: shown(:)       !! both, each once, sorted by change
+      type(chart_t), allocatable :: charts(:)           !! of the tests of the first
+      type(chart_change_t), allocatable :: changes(:)   !! of each chart
+      type(curve_difference_t), allocatable :: curves(:)
+      type(message_list_t) :: missing                   !! from some results
+      logical :: is_static = .false.                    !! the charts of gnuplot, no script
+      logical :: has_pictures = .false.                 !! those in the folder belong to this comparison
+   end type comparison_t
+
+contains
+
+   !> All gradients of all results; the same test, quantity and side are one row. Rows are in the order of the first
+   !> result, followed by gradients of the others only.
+   subroutine compare_gradients(results, rows)
+      type(results_t), intent(in) :: results(:)
+      type(difference_t), allocatable, intent(out) :: rows(:)
+      integer :: s, used
+
+      allocate (rows(sum([(size(results(s)%gradients), s=1, size(results))])))
+      used = 0
+      do s = 1, size(results)
+         call take_rows(results(s)%gradients, s, size(results), .false., rows, used)
+      end do
+      rows = rows(:used)
+   end subroutine compare_gradients
+
+   !> The same of all key numbers, by their names. A result without key numbers, a lone table, is left out.
+   subroutine compare_numbers(results, rows)
+      type(results_t), intent(in) :: results(:)
+      type(difference_t), allocatable, intent(out) :: rows(:)
+      integer :: s, used
+
+      allocate (rows(sum([(size(results(s)%numbers), s=1, size(results))])))
+      used = 0
+      if (all([(size(results(s)%numbers) > 0, s=1, size(results))])) then
+         do s = 1, size(results)
+            call take_rows(results(s)%numbers, s, size(results), .true., rows, used)
+         end do
+      end if
+      rows = rows(:used)
+   end subroutine compare_numbers
+
+   !> Adds the values of result number s to the rows.
+   subroutine take_rows(list, s, results, is_by_name, rows, used)
+      type(gradient_t), intent(in) :: list(:)
+      integer, intent(in) :: s, results
+      logical, intent(in) :: is_by_name             !! a row is known by `column`; otherwise by test, quantity and side
+      type(difference_t), intent(inout) :: rows(:)
+      integer, intent(inout) :: used
+      integer :: k, row
+
+      do k = 1, size(list)
+         associate (g => list(k))
+            do row = 1, used
+               if (is_by_name) then
+                  if (rows(row)%column == g%column) exit
+               else if (rows(row)%test == g%test .and. rows(row)%quantity == g%quantity .and. rows(row)%side == g%side) then
+                  exit
+               end if
+            end do
+            if (row > used) then
+               used = row
+               rows(row)%gradient_t = g
+               rows(row)%least = least_of(g%unit)
+               allocate (rows(row)%values(results), rows(row)%is_there(results))
+               rows(row)%values = ieee_value(1.0_wp, ieee_quiet_nan)
+               rows(row)%is_there = .false.
+            end if
+            rows(row)%values(s) = g%value
+            rows(row)%is_there(s) = .true.
+            if (rows(row)%window /= g%window) rows(row)%window = 'different windows'
+         end associate
+      end do
+   end subroutine take_rows
+
+   !> b − a; not a number if one is missing.
+   elemental real(wp) function difference(a, b)
+      real(wp), intent(in) :: a, b
+
+      difference = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (ieee_is_finite(a) .and. ieee_is_finite(b)) difference = b - a
+   end function difference
+
+   !> 100 (b − a)/|a|; not a number if a is zero to rounding.
+   elemental real(wp) function percent(a, b)
+      real(wp), intent(in) :: a, b
+      real(wp), parameter :: nothing = 1.0e-9_wp     ! in the unit of any gradient: rounding of a zero
+
+      percent = ieee_value(1.0_wp, ieee_quiet_nan)
+      if (.not. (ieee_is_finite(a) .and. ieee_is_finite(b))) return
+      if (abs(a) <= nothing) return
+      if (abs(b - a) < huge(1.0_wp)*min(1.0_wp, abs(a))/100) percent = 100*((b - a)/abs(a))
+   end function percent
+
+   !> The change of a row that is largest in magnitude over all results; not a number if none has one.
+   real(wp) function largest_change(row) result(largest)
+      type(difference_t), intent(in) :: row
+      real(wp) :: change
+      integer :: r
+
+      largest = ieee_value(1.0_wp, ieee_quiet_nan)
+      do r = 2, size(row%values)
+         change = change_of(row%values(1), row%values(r), row%least)
+         if (.not. ieee_is_finite(change)) cycle
+         if (.not. ieee_is_finite(largest)) largest = change
+         if (abs(change) > abs(largest)) largest = change
+      end do
+   end function largest_change
+
+   !> The key numbers and gradients for a page: a gradient that is a key number too once, both sides once where every result shows
+   !> the same or the opposite numbers for them; the largest change first, then what has no value.
+   function results_shown(numbers, rows) result(shown)
+      type(difference_t), intent(in) :: numbers(:), rows(:)
+      type(difference_t), allocatable :: shown(:), others(:)
+      real(wp), allocatable :: changes(:)
+      logical :: is_twin(size(rows))
+      integer :: k, l
+
+      is_twin = .false.
+      do k = 1, size(rows)
+         do l = 1, size(numbers)
+            if (numbers(l)%quantity /= rows(k)%quantity .or. numbers(l)%side /= rows(k)%side) cycle
+            is_twin(k) = is_twin(k) .or. are_same(numbers(l), rows(k), 1.0_wp)
+         end do
+      end do
+      shown = numbers
+      call join_sides(shown)
+      others = pack(rows, .not. is_twin)
+      call join_sides(others)
+      shown = [shown, others]
+      allocate (changes(size(shown)))
+      do k = 1, size(shown)
+         changes(k) = rounded(abs(largest_change(shown(k))), 6)         ! equal but for rounding: their order stays
+         if (.not. ieee_is_finite(changes(k))) changes(k) = -1.0_wp
+      end do
+      shown = shown(descending(changes))
+
+   end function results_shown
+
+   !> Keeps one row of the two sides of an axle where they show the same numbers, or the opposite ones.
+   subroutine join_sides(list)
+      type(difference_t), allocatable, intent(inout) :: list(:)
+      logical :: is_twin(size(list))
+      integer :: k, l
+
+      is_twin = .false.
+      do k = 1, size(list)
+         if (list(k)%side /= 'left') cycle
+         do l = 1, size(list)
+            if (list(l)%side /= 'right' .or. list(l)%quantity /= list(k)%quantity .or. list(l)%test /= list(k)%test) cycle
+            if (is_twin(l)) cycle
+            if (are_same(list(k), list(l), 1.0_wp)) then
+               list(k)%side = both_sides
+            else if (are_same(list(k), list(l), -1.0_wp)) then
+               list(k)%side = 'left, right opposite'
+            else
+               cycle
+            end if
+            is_twin(l) = .true.
+            exit
+         end do
+      end do
+      list = pack(list, .not. is_twin)
+   end subroutine join_sides
+
+   !> Whether two rows show the same numbers, or with sign = −1 the opposite ones, for every result.
+   logical function are_same(one, other, sign)
+      type(difference_t), intent(in) :: one, other
+      real(wp), intent(in) :: sign
+      integer :: r
+
+      are_same = all(one%is_there .eqv. other%is_there) .and. one%unit == other%unit
+      do r = 1, size(one%values)
+         if (are_same) are_same = page_number(one%values(r)) == page_number(sign*other%values(r))
+      end do
+   end function are_same
+
+   !> The order of values from large to small; equal ones keep theirs.
+   pure function descending(values) result(order)
+      real(wp), intent(in) :: values(:)
+      integer :: order(size(values))
+      integer :: k, j
+
+      do k = 1, size(values)
+         do j = k - 1, 1, -1
+            if (values(order(j)) >= values(k)) exit
+            order(j + 1) = order(j)
+         end do
+         order(j + 1) = k
+      end do
+   end function descending
+
+   !> '12 of 118 key numbers changed by more than 1 %'
+   function counted(some, all, what, threshold) result(text)
+      integer, intent(in) :: some, all
+      character(*), intent(in) :: what           !! in the plural
+      real(wp), intent(in) :: threshold
+      character(:), allocatable :: text
+
+      text = str(some)//' of '//str(all)//' '//what//' changed by more than '//str(100*threshold, 4)//' %'
+   end function counted
+
+end module ek_comparison

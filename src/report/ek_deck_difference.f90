@@ -1,0 +1,198 @@
+!> What differs between the decks of several results: the facts of their making, and the values by their paths.
+module ek_deck_difference
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_decimal, only: get_decimal
+   use ek_text, only: str
+   use ek_deck_file, only: deck_record_t
+   implicit none(type, external)
+   private
+   public :: deck_difference_t, find_differences, step_text
+
+   character(*), parameter :: left(2) = [character(12) :: '.left_', 'wheel.left.'], &
+      right(2) = [character(12) :: '.right_', 'wheel.right.'], both(2) = [character(12) :: '.', 'wheel.']
+
+   type :: deck_difference_t
+      character(:), allocatable :: path           !! 'point.left_tie_rod_outer.z', or 'Deck checksum'
+      character(:), allocatable :: sides          !! 'both sides', 'both sides, mirrored', or ''
+      type(message_list_t) :: texts               !! one per result; '' where it is not given
+   end type deck_difference_t
+
+contains
+
+   !> The facts and values that are not the same in all records, in the order of the first. A value that only some decks give is
+   !> a difference; of the two sides of an axle that changed alike there is one row.
+   subroutine find_differences(records, facts, values)
+      type(deck_record_t), intent(in) :: records(:)
+      type(deck_difference_t), allocatable, intent(out) :: facts(:), values(:)
+      type(message_list_t) :: names(size(records)), texts(size(records))
+      integer :: r, k
+
+      do r = 1, size(records)
+         names(r) = records(r)%names
+         texts(r) = records(r)%facts
+      end do
+      call differing(names, texts, facts)
+      allocate (values(0))
+      if (.not. all(records%is_known)) then      ! of other sources: a fact that one lacks is no difference
+         facts = pack(facts, [(is_in_all(facts(k)), k=1, size(facts))])
+         return
+      end if
+      do r = 1, size(records)
+         names(r) = records(r)%paths
+         texts(r) = records(r)%texts
+      end do
+      call differing(names, texts, values)
+      call join_sides(values)
+   end subroutine find_differences
+
+   !> Whether every result gives a text.
+   logical function is_in_all(row)
+      type(deck_difference_t), intent(in) :: row
+      integer :: r
+
+      is_in_all = all([(row%texts%line(r) /= '', r=1, row%texts%count())])
+   end function is_in_all
+
+   !> The names whose texts differ.
+   subroutine differing(names, texts, list)
+      type(message_list_t), intent(in) :: names(:), texts(:)     !! of each result
+      type(deck_difference_t), allocatable, intent(out) :: list(:)
+      type(deck_difference_t) :: row
+      integer :: s, r, k, l, used
+
+      allocate (list(16))
+      used = 0
+      do s = 1, size(names)
+         do k = 1, names(s)%count()
+            if (is_listed(s, k)) cycle
+            row%path = names(s)%line(k)
+            row%sides = ''
+            row%texts = message_list_t()
+            do r = 1, size(names)
+               l = place_of(names(r), row%path, k)
+               if (l > 0) call row%texts%add(texts(r)%line(l))
+               if (l == 0) call row%texts%add('')
+            end do
+            if (.not. any([(.not. is_equal(row%texts%line(1), row%texts%line(r)), r=2, size(names))])) cycle
+            if (used == size(list)) list = [list, list]      ! twice the size
+            used = used + 1
+            list(used) = row
+         end do
+      end do
+      list = list(:used)
+
+   contains
+
+      !> Whether a result before s has the name.
+      logical function is_listed(s, k)
+         integer, intent(in) :: s, k
+         integer :: r
+
+         is_listed = .false.
+         do r = 1, s - 1
+            is_listed = is_listed .or. place_of(names(r), names(s)%line(k), k) > 0
+         end do
+      end function is_listed
+
+   end subroutine differing
+
+   !> The place of a name, sought first near where it is expected; 0: it is not there.
+   integer function place_of(names, name, near) result(place)
+      type(message_list_t), intent(in) :: names
+      character(*), intent(in) :: name
+      integer, intent(in) :: near
+      integer :: k, n
+
+      n = names%count()
+      do k = 0, n - 1
+         place = 1 + modulo(near - 1 + k, n)
+         if (names%line(place) == name) return
+      end do
+      place = 0
+   end function place_of
+
+   !> Whether two values are the same: as numbers, if both are.
+   logical function is_equal(a, b)
+      character(*), intent(in) :: a, b
+      real(wp) :: x, y
+
+      is_equal = a == b
+      if (is_equal) return
+      if (are_numbers(a, b, x, y)) is_equal = abs(x - y) <= 1.0e-12_wp*max(abs(x), abs(y))
+   end function is_equal
+
+   logical function are_numbers(a, b, x, y)
+      character(*), intent(in) :: a, b
+      real(wp), intent(out) :: x, y
+      logical :: is_number
+
+      y = 0.0_wp
+      call get_decimal(a, x, are_numbers)
+      if (.not. are_numbers) return
+      call get_decimal(b, y, is_number)
+      are_numbers = is_number
+   end function are_numbers
+
+   !> b − a of two values, as '+5'; '' if they are no numbers.
+   function step_text(a, b) result(text)
+      character(*), intent(in) :: a, b
+      character(:), allocatable :: text
+      real(wp) :: x, y
+
+      text = ''
+      if (a == '' .or. b == '') return
+      if (.not. are_numbers(a, b, x, y)) return
+      text = str(y - x, 6)
+      if (y > x) text = '+'//text
+   end function step_text
+
+   !> One row for the two sides of an axle, where both have the same values or the opposite ones.
+   subroutine join_sides(list)
+      type(deck_difference_t), allocatable, intent(inout) :: list(:)
+      logical :: is_twin(size(list))
+      character(:), allocatable :: path
+      integer :: k, l, form, at
+
+      is_twin = .false.
+      do k = 1, size(list)
+         do form = 1, size(left)
+            at = index(list(k)%path, trim(left(form)))
+            if (at == 0 .or. is_twin(k)) cycle
+            path = list(k)%path(at + len_trim(left(form)):)
+            do l = 1, size(list)
+               if (list(l)%path /= list(k)%path(:at - 1)//trim(right(form))//path .or. is_twin(l)) cycle
+               if (are_alike(list(k)%texts, list(l)%texts, 1.0_wp)) then
+                  list(k)%sides = 'both sides'
+               else if (are_alike(list(k)%texts, list(l)%texts, -1.0_wp)) then
+                  list(k)%sides = 'both sides, mirrored; left shown'
+               else
+                  exit
+               end if
+               is_twin(l) = .true.
+               list(k)%path = list(k)%path(:at - 1)//trim(both(form))//path
+               exit
+            end do
+         end do
+      end do
+      list = pack(list, .not. is_twin)
+   end subroutine join_sides
+
+   !> Whether all values of the right side are `sign` times those of the left.
+   logical function are_alike(a, b, sign)
+      type(message_list_t), intent(in) :: a, b
+      real(wp), intent(in) :: sign
+      real(wp) :: x, y
+      integer :: r
+
+      are_alike = .true.
+      do r = 1, a%count()
+         if (are_numbers(a%line(r), b%line(r), x, y)) then
+            are_alike = are_alike .and. abs(x - sign*y) <= 1.0e-12_wp*abs(x)
+         else
+            are_alike = are_alike .and. a%line(r) == b%line(r)
+         end if
+      end do
+   end function are_alike
+
+end module ek_deck_difference

@@ -1,0 +1,107 @@
+!> deck.csv of a report: what the report was made from, so that a comparison can list what was changed. Rows of kind `fact` say how
+!> it was made (deck, settings, checksum), rows of kind `value` are the values of the deck by their paths.
+module ek_deck_file
+   use ek_error, only: error_t, message_list_t
+   use ek_file, only: write_whole, file_exists
+   use ek_table, only: table_t
+   use ek_text_table, only: text_table_t, new_text_table, add_row, text_table_csv, read_text_table, cell_of
+   implicit none(type, external)
+   private
+   public :: deck_record_t, write_deck_file, read_deck_file, facts_of_table
+
+   character(*), parameter :: fact = 'fact', value = 'value'
+   !> Where a report says so itself, or what no result depends on
+   character(*), parameter :: not_kept(2) = [character(14) :: 'Date', 'Road at design']
+
+   type :: deck_record_t
+      type(message_list_t) :: names, facts      !! 'Deck checksum' and its text
+      type(message_list_t) :: paths, texts      !! values of the deck
+      logical :: is_known = .false.             !! the values are
+   end type deck_record_t
+
+contains
+
+   subroutine write_deck_file(path, names, facts, paths, texts, error)
+      character(*), intent(in) :: path
+      type(message_list_t), intent(in) :: names, facts     !! of the head of the page
+      type(message_list_t), intent(in) :: paths, texts     !! of the values (ek_deck_values)
+      type(error_t), allocatable, intent(out) :: error
+      type(text_table_t) :: table
+      integer :: k
+
+      table = new_text_table([character(5) :: 'kind', 'path', 'value'])
+      do k = 1, names%count()
+         if (.not. any(not_kept == names%line(k))) call add(fact, names%line(k), facts%line(k))
+      end do
+      do k = 1, paths%count()
+         call add(value, paths%line(k), texts%line(k))
+      end do
+      call write_whole(path, text_table_csv(table), error)
+
+   contains
+
+      subroutine add(kind, name, text)
+         character(*), intent(in) :: kind, name, text
+
+         call add_row(table)
+         table%cells(1, table%rows)%text = kind
+         table%cells(2, table%rows)%text = name
+         table%cells(3, table%rows)%text = text
+      end subroutine add
+
+   end subroutine write_deck_file
+
+   !> Reads deck.csv; without the file nothing is known, which is no error: reports of earlier versions do not have it.
+   subroutine read_deck_file(path, record, error)
+      character(*), intent(in) :: path
+      type(deck_record_t), intent(out) :: record
+      type(error_t), allocatable, intent(out) :: error     !! exit_file, with path and line
+      type(text_table_t) :: table
+      integer :: k
+
+      if (.not. file_exists(path)) return
+      call read_text_table(path, table, error)
+      if (allocated(error)) return
+      record%is_known = .true.
+      do k = 1, table%rows
+         if (cell_of(table, k, 'kind') == fact) then
+            call record%names%add(cell_of(table, k, 'path'))
+            call record%facts%add(cell_of(table, k, 'value'))
+         else
+            call record%paths%add(cell_of(table, k, 'path'))
+            call record%texts%add(cell_of(table, k, 'value'))
+         end if
+      end do
+   end subroutine read_deck_file
+
+   !> What the header of a table says of its making; nothing that the record has already.
+   subroutine facts_of_table(table, record)
+      type(table_t), intent(in) :: table
+      type(deck_record_t), intent(inout) :: record
+      character(*), parameter :: sum_mark = ', deck checksum '
+      character(:), allocatable :: line
+      integer :: k, at
+
+      if (record%names%count() > 0) return
+      do k = 1, table%header%count()
+         line = table%header%line(k)
+         at = index(line, sum_mark)
+         if (index(line, 'model ') == 1) call add('Run', line)
+         if (index(line, 'factor: ') == 1) call add('Input', line(len('factor: ') + 1:))
+         if (index(line, 'axes ') == 1) call add('Axes', line(len('axes ') + 1:))
+         if (at == 0) cycle
+         call add('Deck checksum', line(at + len(sum_mark):))
+         call add('Program', line(:at - 1))
+      end do
+
+   contains
+
+      subroutine add(name, text)
+         character(*), intent(in) :: name, text
+         call record%names%add(name)
+         call record%facts%add(text)
+      end subroutine add
+
+   end subroutine facts_of_table
+
+end module ek_deck_file

@@ -1,0 +1,130 @@
+!> What makes the key compliances of a report: of each its largest contributions at design, as bars.
+module ek_explanation
+   use ek_kinds, only: wp
+   use ek_largest, only: largest
+   use ek_quantity, only: quantity_t, quantity_named, unit_of, unit_text
+   use ek_case_result, only: case_result_t
+   use ek_schedule, only: new_schedule
+   use ek_path_states, only: nearest_reached
+   use ek_contribution_table, only: contribution_table_t, start_contributions, choose_contributions, find_contributions, &
+      is_key_compliance, share_length
+   use ek_page, only: page_t, begin_section, add_text, begin_table, add_cell, add_group, add_bar, end_table, page_number
+   implicit none(type, external)
+   private
+   public :: explanation_t, find_explanations, add_explanations
+
+   integer, parameter :: shown = 10      !! contributions of a column
+
+   !> A column at design.
+   type :: explanation_t
+      character(:), allocatable :: title, column, unit
+      real(wp) :: value = 0.0_wp
+      integer :: rows = 0
+      character(share_length + 12) :: row(shown) = ''      !! 'arm_front x'
+      real(wp) :: part(shown) = 0.0_wp                     !! in the unit, the largest first
+      real(wp) :: rest = 0.0_wp
+   end type explanation_t
+
+contains
+
+   !> The contributions to the key compliances at the state of a case that is nearest to design; of an axle those of the left wheel.
+   !> None if there is no such state, or its matrix is singular.
+   subroutine find_explanations(result, list)
+      type(case_result_t), intent(inout) :: result              !! is_run
+      type(explanation_t), allocatable, intent(out) :: list(:)
+      type(contribution_table_t) :: table
+      type(explanation_t), allocatable :: found(:)
+      logical, allocatable :: is_wanted(:)
+      integer, allocatable :: order(:)
+      type(quantity_t) :: quantity
+      integer :: k, c
+
+      allocate (list(0))
+      call start_contributions(result%suspension, table)
+      allocate (is_wanted(table%columns%used))
+      do c = 1, size(is_wanted)
+         is_wanted(c) = is_key_compliance(trim(table%columns%names(c))) .and. index(table%columns%names(c), 'right_') == 0
+      end do
+      k = nearest_reached(result%path, 0.0_wp)
+      if (k == 0 .or. .not. any(is_wanted)) return
+      call choose_contributions(is_wanted, table)
+      call find_contributions(result%suspension, new_schedule(result%suspension, result%case), result%path, k, result%kkt, table)
+      if (.not. table%is_known) return
+      allocate (found(size(table%values)))
+      do c = 1, size(found)
+         associate (this => found(c))
+            this%column = trim(table%columns%names(table%columns%asked(c)))
+            this%unit = unit_text(unit_of(this%column))
+            if (index(this%column, 'left_') == 1) then
+               quantity = quantity_named(this%column(6:))
+            else
+               quantity = quantity_named(this%column)
+            end if
+            this%title = trim(quantity%title)
+            if (index(this%title, 'patch_') == 1) this%title = 'Vertical compliance at the contact point'
+            this%value = table%values(c)
+            call largest(table%parts(c, :), shown, order)
+            this%rows = 0
+            do k = 1, size(order)
+               if (reads_zero(table%parts(c, order(k)))) exit
+               this%rows = k
+               this%row(k) = trim(table%row(order(k))%row)//' '//table%row(order(k))%part
+               this%part(k) = table%parts(c, order(k))
+            end do
+            this%rest = this%value - sum(this%part)
+         end associate
+      end do
+      call move_alloc(found, list)
+   end subroutine find_explanations
+
+   !> The section of the page; none for an empty list.
+   subroutine add_explanations(page, list)
+      type(page_t), intent(inout) :: page
+      type(explanation_t), intent(in) :: list(:)
+      integer :: c, k
+
+      if (size(list) == 0) return
+      call begin_section(page, 'contributions', 'What makes these numbers', is_printed=.false.)
+      call add_text(page, 'p', 'Each compliance at design is the exact sum of what every axis of every bushing, spring, bar '// &
+         'and preload adds to it; elastokin explain lists all of them at every state. Geometric: by the force that the part '// &
+         'carries, not by its rate. A rate that is 1 % higher lowers the compliance by 1 % of its contribution.')
+      call begin_table(page, [character(13) :: 'Contribution', '>Value', '>Share, %', '- 0 +', 'Unit'])
+      do c = 1, size(list)
+         if (list(c)%rows == 0 .and. reads_zero(list(c)%value)) cycle      ! held by a joint, or zero by symmetry
+         associate (this => list(c))
+            call add_group(page, this%title//': '//page_number(this%value)//' '//this%unit)
+            do k = 1, this%rows
+               call add_row(page, trim(this%row(k)), this%part(k), this)
+            end do
+            if (.not. reads_zero(this%rest)) call add_row(page, 'rest', this%rest, this)
+         end associate
+      end do
+      call end_table(page)
+   end subroutine add_explanations
+
+   subroutine add_row(page, name, part, this)
+      type(page_t), intent(inout) :: page
+      character(*), intent(in) :: name
+      real(wp), intent(in) :: part
+      type(explanation_t), intent(in) :: this
+      real(wp) :: most
+
+      most = max(maxval(abs(this%part)), abs(this%rest))      ! a row is shown: one of them is not zero
+      call add_cell(page, name)
+      call add_cell(page, page_number(part), 'n')
+      if (reads_zero(this%value)) then
+         call add_cell(page, '–', 'n')            ! parts that cancel
+      else
+         call add_cell(page, page_number(anint(1000.0_wp*part/this%value)/10.0_wp), 'n')
+      end if
+      call add_bar(page, part/most)
+      call add_cell(page, this%unit, 's')
+   end subroutine add_row
+
+   !> Whether a number is zero in the digits of the page: a row of it would show rounding.
+   pure logical function reads_zero(number)
+      real(wp), intent(in) :: number
+      reads_zero = page_number(number) == '0'
+   end function reads_zero
+
+end module ek_explanation

@@ -1,0 +1,296 @@
+!> The figures and the table of a test over travel and steering: carpets of toe and camber, and the envelope of the wheels in space,
+!> that is where their centres and spin axes are.
+module ek_grid_figures
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_finite
+   use ek_kinds, only: wp, millimetre
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_quantity, only: quantity_named, label_of, head_with_unit
+   use ek_rig_test, only: swept_unit
+   use ek_suspension, only: suspension_t, driver_unit
+   use ek_case, only: case_t
+   use ek_wheel_side, only: left_and_right
+   use ek_grid, only: is_grid, grid_size, grid_levels, grid_place
+   use ek_table, only: column_index, csv_row, row_count
+   use ek_test_result, only: test_result_t, converged_rows, wheel_word
+   use ek_study_data, only: range_of_values, tic_step
+   use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels
+   use ek_carpet_figure, only: carpet_t, new_carpet, carpet_script, is_drawn, colours
+   implicit none(type, external)
+   private
+   public :: find_grid, grid_carpet, carpet_name, envelope_name, envelope_script, envelope_text
+
+   character(*), parameter :: carpet_columns(2) = [character(10) :: 'toe_deg', 'camber_deg']
+   !> Of the table, where the wheel centre is a change from design.
+   character(*), parameter :: envelope_columns(6) = [character(17) :: 'wheel_centre_x_mm', 'wheel_centre_y_mm', &
+      'wheel_centre_z_mm', 'spin_axis_x', 'spin_axis_y', 'spin_axis_z']
+   character(*), parameter :: nl = new_line('a')
+
+contains
+
+   !> The grid of a test, if its case has one.
+   subroutine find_grid(suspension, case, test)
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case               !! on no rig
+      type(test_result_t), intent(inout) :: test     !! with its table
+      logical :: is_good(row_count(test%table))
+      integer :: levels(2), place(2), k
+
+      if (.not. is_grid(case)) return
+      levels = grid_size(case)
+      allocate (test%grid)
+      associate (grid => test%grid)
+         grid%driver = case%drive
+         grid%unit = driver_unit(suspension, case%drive)
+         grid%travel = grid_levels(case%from, case%to, case%increments)/millimetre
+         grid%steer = grid_levels(case%steer_from, case%steer_to, case%steer_increments)/swept_unit(grid%unit)
+         allocate (grid%row(levels(1), levels(2)), source=0)
+         is_good = converged_rows(test%table)
+         do k = 1, size(is_good)
+            place = grid_place(levels, k)
+            if (is_good(k)) grid%row(place(1), place(2)) = k
+         end do
+         if (case%from > case%to) then
+            grid%travel = grid%travel(levels(1):1:-1)
+            grid%row = grid%row(levels(1):1:-1, :)
+         end if
+         if (case%steer_from > case%steer_to) then
+            grid%steer = grid%steer(levels(2):1:-1)
+            grid%row = grid%row(:, levels(2):1:-1)
+         end if
+      end associate
+   end subroutine find_grid
+
+   !> Names of the figures, without extension, and of the table of the envelope.
+   pure function carpet_name(test) result(name)
+      type(test_result_t), intent(in) :: test
+      character(:), allocatable :: name
+      name = test%name//'_carpet'
+   end function carpet_name
+
+   pure function envelope_name(test) result(name)
+      type(test_result_t), intent(in) :: test
+      character(:), allocatable :: name
+      name = test%name//'_envelope'
+   end function envelope_name
+
+   !> The script of the carpets of toe and camber of every wheel; of the left one if the right one is its mirror image.
+   function grid_carpet(test, model) result(text)
+      type(test_result_t), intent(in) :: test        !! with a grid
+      character(*), intent(in) :: model
+      character(:), allocatable :: text, side
+      type(carpet_t) :: carpet
+      integer :: wheels, wheel, c, r
+
+      wheels = size(test%prefixes)
+      if (is_symmetric(test)) wheels = 1
+      carpet = new_carpet(test%grid%travel, test%grid%steer, size(carpet_columns)*wheels, [.false., .false.])
+      call carpet%factors%add('wheel travel [mm]')
+      call carpet%factors%add(test%grid%driver//' ['//trim(test%grid%unit)//']')
+      r = 0
+      do c = 1, size(carpet_columns)
+         do wheel = 1, wheels
+            r = r + 1
+            side = wheel_word(test%prefixes(wheel))
+            if (len(side) > 0) side = ', '//side
+            associate (quantity => quantity_named(carpet_columns(c)))
+               call carpet%responses%add(trim(quantity%title)//side//', '//label_of(quantity))
+            end associate
+            carpet%value(:, :, r) = values_of(test, wheel, trim(carpet_columns(c)))
+         end do
+      end do
+      side = ''
+      if (wheels < size(test%prefixes)) side = '; the right wheel is its mirror image, with the opposite '//test%grid%driver
+      text = carpet_script(carpet, carpet_name(test), test%title//': carpets of toe and camber', model//side)
+   end function grid_carpet
+
+   !> Whether the right wheel has the values of the left one at the opposite value of the driver.
+   pure logical function is_symmetric(test)
+      type(test_result_t), intent(in) :: test
+      real(wp), parameter :: same = 1.0e-6_wp      ! deg, and mm of the driver
+      real(wp), dimension(size(test%grid%travel), size(test%grid%steer)) :: left, right
+      integer :: n, c
+
+      n = size(test%grid%steer)
+      is_symmetric = size(test%prefixes) == 2 .and. all(abs(test%grid%steer + test%grid%steer(n:1:-1)) < same)
+      if (.not. is_symmetric) return
+      do c = 1, size(carpet_columns)
+         left = values_of(test, 1, trim(carpet_columns(c)))
+         right = values_of(test, 2, trim(carpet_columns(c)))
+         right = right(:, n:1:-1)
+         is_symmetric = is_symmetric .and. all(ieee_is_finite(left) .eqv. ieee_is_finite(right)) .and. &
+            .not. any(abs(left - right) > same)
+      end do
+   end function is_symmetric
+
+   !> The values of a column of a wheel on the grid; NaN where there are none.
+   pure function values_of(test, wheel, column) result(values)
+      type(test_result_t), intent(in) :: test
+      integer, intent(in) :: wheel
+      character(*), intent(in) :: column
+      real(wp) :: values(size(test%grid%travel), size(test%grid%steer))
+      integer :: place, i, j
+
+      values = ieee_value(1.0_wp, ieee_quiet_nan)
+      place = column_index(test%table, trim(test%prefixes(wheel))//column)
+      if (place == 0) return
+      do j = 1, size(values, 2)
+         do i = 1, size(values, 1)
+            if (test%grid%row(i, j) > 0) values(i, j) = test%table%values(place, test%grid%row(i, j))
+         end do
+      end do
+   end function values_of
+
+   !> The wheel centres at design in the frame of the deck [mm], left before right, from which the table counts.
+   pure function design_centres(suspension) result(centres)
+      type(suspension_t), intent(in) :: suspension
+      real(wp) :: centres(3, 2)
+      integer :: wheels(2), k, used
+
+      centres = 0.0_wp
+      call left_and_right(suspension, wheels)
+      used = 0
+      do k = 1, 2
+         if (wheels(k) == 0) cycle
+         used = used + 1
+         associate (wheel => suspension%wheels(wheels(k)))
+            centres(:, used) = (suspension%bodies(wheel%body)%origin + wheel%centre)/millimetre
+         end associate
+      end do
+      if (suspension%is_iso) centres(:2, :) = -centres(:2, :)
+   end function design_centres
+
+   !> The script of the envelope: for each wheel the surface of its centre, as lines of equal travel and of equal steering, and its
+   !> spin axis outboard of the centre as strokes.
+   function envelope_script(test, suspension) result(text)
+      type(test_result_t), intent(in) :: test        !! with a grid
+      type(suspension_t), intent(in) :: suspension
+      character(:), allocatable :: text
+      real(wp), parameter :: stroke = 60.0_wp        ! mm
+      character(*), parameter :: lines = ' using 1:2:3 with lines linewidth 2 linecolor '
+      real(wp), dimension(size(test%grid%travel), size(test%grid%steer), 3) :: centre, spin
+      type(sheet_t) :: sheet
+      character(:), allocatable :: side
+      real(wp) :: design(3, 2)
+      real(wp) :: low(3, 2), high(3, 2), ends(2)     ! of centres and strokes of each wheel
+      integer :: levels(2), wheel, axis, i, j
+
+      levels = shape(test%grid%row)
+      design = design_centres(suspension)
+      sheet = new_sheet(envelope_name(test), test%title//': envelope of the wheels', suspension%name// &
+         '; blue: wheel centre, lines of equal wheel travel, orange: of equal '// &
+         test%grid%driver//'; grey: spin axis, '//str(nint(stroke))//' mm outboard', &
+         size(test%prefixes), height=700)
+      sheet%width = merge(1400, 900, sheet%panels > 1)
+      do wheel = 1, sheet%panels
+         do axis = 1, 3
+            centre(:, :, axis) = design(axis, wheel) + values_of(test, wheel, trim(envelope_columns(axis)))
+            spin(:, :, axis) = stroke*values_of(test, wheel, trim(envelope_columns(3 + axis)))
+            ends = range_of_values([centre(:, :, axis), centre(:, :, axis) + spin(:, :, axis)])
+            low(axis, wheel) = ends(1)
+            high(axis, wheel) = ends(2)
+         end do
+         call begin_data(sheet, 'travel'//str(wheel))
+         do i = 1, levels(1)
+            if (.not. is_drawn(i, levels(1))) cycle
+            do j = 1, levels(2)
+               call add_numbers(sheet, centre(i, j, :))
+            end do
+            call sheet%text%line(nl)                 ! two blank lines: no line joins these lines
+         end do
+         call end_data(sheet)
+         call begin_data(sheet, 'steer'//str(wheel))
+         do j = 1, levels(2)
+            if (.not. is_drawn(j, levels(2))) cycle
+            do i = 1, levels(1)
+               call add_numbers(sheet, centre(i, j, :))
+            end do
+            call sheet%text%line(nl)
+         end do
+         call end_data(sheet)
+         call begin_data(sheet, 'axis'//str(wheel))
+         do j = 1, levels(2)
+            do i = 1, levels(1)
+               if (.not. (is_drawn(i, levels(1)) .and. is_drawn(j, levels(2)))) cycle
+               if (all(ieee_is_finite(spin(i, j, :)))) call add_numbers(sheet, [centre(i, j, :), spin(i, j, :)])
+            end do
+         end do
+         call end_data(sheet)
+      end do
+      call begin_panels(sheet)
+      call sheet%text%line("set view equal xyz; set border 4095 linewidth 0.5 linecolor rgb '#C0C0C0'")
+      call sheet%text%line('unset xzeroaxis; unset yzeroaxis; unset grid')
+      do wheel = 1, sheet%panels
+         side = wheel_word(test%prefixes(wheel))
+         if (len(side) > 0) side = side//' wheel; '
+         call begin_panel(sheet, wheel, side//'z upward [mm]', 'x [mm]', 'y [mm]')
+         ! margins at fixed places would scale x and y alone
+         call sheet%text%line('unset lmargin; unset rmargin; unset bmargin; unset tmargin; set size '// &
+            str(1.0_wp/sheet%panels, 4)//', 0.9; set origin '//str((wheel - 1.0_wp)/sheet%panels, 4)//', 0')
+         call set_cube(low(:, wheel), high(:, wheel), sheet)
+         call sheet%text%line('set view 68, '//str(merge(320, 220, test%sides(wheel) < 0))//', 1.1')
+         call sheet%text%line('splot $axis'//str(wheel)// &
+            " using 1:2:3:4:5:6 with vectors nohead linewidth 1.5 linecolor rgb '#909090' notitle, \")
+         call sheet%text%line('      $travel'//str(wheel)//lines//colours(1)//' notitle, \')
+         call sheet%text%line('      $steer'//str(wheel)//lines//colours(2)//' notitle')
+      end do
+      text = end_panels(sheet)
+   end function envelope_script
+
+   !> Ranges of the axes: a cube, so that gnuplot scales all three alike and keeps it in its panel.
+   subroutine set_cube(low, high, sheet)
+      real(wp), intent(in) :: low(3), high(3)        !! mm
+      type(sheet_t), intent(inout) :: sheet
+      character(1), parameter :: names(3) = ['x', 'y', 'z']
+      real(wp) :: middle, half
+      integer :: axis
+
+      half = 0.53_wp*max(maxval(high - low), 1.0_wp)
+      do axis = 1, 3
+         middle = anint((low(axis) + high(axis))/2)
+         call sheet%text%line('set '//names(axis)//'range ['//str(middle - half, 6)//' : '//str(middle + half, 6)//']; set '// &
+            names(axis)//'tics '//tic_step([-half, half]))
+         if (axis == 3) call sheet%text%line('set xyplane at '//str(middle - half, 6))
+      end do
+   end subroutine set_cube
+
+   !> The envelope as CSV: travel, value of the driver, side, wheel centre, spin axis, in the frame of the deck; a row for each
+   !> wheel at each state, travel fastest. A state that did not converge has no row.
+   function envelope_text(test, suspension) result(text)
+      type(test_result_t), intent(in) :: test        !! with a grid
+      type(suspension_t), intent(in) :: suspension
+      character(:), allocatable :: text
+      logical, parameter :: is_whole(size(envelope_columns)) = .false.
+      type(buffer_t) :: buffer
+      character(:), allocatable :: place
+      real(wp) :: values(size(envelope_columns)), design(3, 2)
+      integer :: columns(size(envelope_columns), size(test%prefixes)), wheel, i, j, k
+
+      design = design_centres(suspension)
+      do k = 1, test%table%header%count()
+         call buffer%line('# '//test%table%header%line(k))
+      end do
+      text = 'travel_mm,'//head_with_unit(test%grid%driver, trim(merge('   ', test%grid%unit, test%grid%unit == '-')))// &
+         ',side,centre_x_mm,centre_y_mm,centre_z_mm,spin_axis_x,spin_axis_y,spin_axis_z'
+      do k = 1, size(envelope_columns)
+         do wheel = 1, size(test%prefixes)
+            columns(k, wheel) = column_index(test%table, trim(test%prefixes(wheel))//envelope_columns(k))
+         end do
+      end do
+      call buffer%line(text)
+      do j = 1, size(test%grid%steer)
+         do i = 1, size(test%grid%travel)
+            if (test%grid%row(i, j) == 0) cycle
+            place = csv_row([test%grid%travel(i), test%grid%steer(j)], is_whole(:2))
+            do wheel = 1, size(test%prefixes)
+               call buffer%add(place(:len(place) - 1)//','//trim(merge('right', 'left ', test%sides(wheel) > 0))//',')
+               values = test%table%values(columns(:, wheel), test%grid%row(i, j))
+               values(:3) = values(:3) + design(:, wheel)
+               call buffer%add(csv_row(values, is_whole))
+            end do
+         end do
+      end do
+      text = buffer%text()
+   end function envelope_text
+
+end module ek_grid_figures

@@ -1,0 +1,43 @@
+!> The states in which pictures show a suspension moving: those of its travel and of its steering.
+module ek_moving_states
+   use ek_suspension, only: suspension_t
+   use ek_state, only: state_t, design_state, unpack_state
+   use ek_path, only: path_t
+   use ek_test_result, only: test_result_t
+   implicit none(type, external)
+   private
+   public :: moving_test, state_of_path, travel_kinds, steer_kinds
+
+   character(16), parameter :: travel_kinds(3) = [character(16) :: 'parallel_travel', 'vertical_force', 'single_travel']
+   character(16), parameter :: steer_kinds(1) = [character(16) :: 'steering']
+
+contains
+
+   !> The test of the first of the wanted kinds with more than one state; 0 if there is none.
+   pure integer function moving_test(tests, paths, kinds) result(test)
+      type(test_result_t), intent(in) :: tests(:)
+      type(path_t), intent(in) :: paths(:)          !! of the tests
+      character(*), intent(in) :: kinds(:)
+      integer :: kind
+
+      do kind = 1, size(kinds)
+         do test = 1, size(tests)
+            if (.not. tests(test)%is_run .or. tests(test)%kind /= kinds(kind)) cycle
+            if (count(paths(test)%is_reached) > 1) return
+         end do
+      end do
+      test = 0
+   end function moving_test
+
+   !> State k of a path. The reactions of joints added by a case follow those of the suspension and are omitted.
+   subroutine state_of_path(path, k, suspension, state)
+      type(path_t), intent(in) :: path
+      integer, intent(in) :: k
+      type(suspension_t), intent(in) :: suspension
+      type(state_t), intent(out) :: state
+
+      state = design_state(suspension)
+      call unpack_state(path%packed(:7*size(suspension%bodies) + suspension%constraints(), k), state)
+   end subroutine state_of_path
+
+end module ek_moving_states

@@ -1,0 +1,74 @@
+!> As far as which states a key number needs the path of a test, and whether a solution lacks one of them.
+module ek_number_reach
+   use ek_kinds, only: wp, millimetre, degree
+   use ek_rig_test, only: rig_test_t, rig_test, moves_heights, rolls, steers, of_one_wheel
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t, is_mountable
+   use ek_rig, only: mount
+   use ek_table, only: name_length
+   use ek_case_result, only: case_result_t
+   use ek_test_result, only: test_result_t
+   use ek_key_number, only: key_source_t, needs_path, at_design
+   implicit none(type, external)
+   private
+   public :: reach_of, lacks_state
+
+   real(wp), parameter :: margin = 1.001_wp    !! of a window: its states may differ from their swept values by the tolerance
+
+contains
+
+   !> The swept value beyond which a number needs no state of a source: 0 if it is read at design, otherwise the end of its window.
+   !> Only where the abscissa of a gradient is the swept value, up to a factor, by the way in which the test holds the wheels;
+   !> otherwise all states are needed.
+   pure real(wp) function reach_of(how, suspension, case, source, test) result(reach)
+      integer, intent(in) :: how                        !! of ek_key_number
+      type(suspension_t), intent(in) :: suspension
+      type(case_t), intent(in) :: case
+      type(key_source_t), intent(in) :: source
+      type(test_result_t), intent(in) :: test
+      type(suspension_t) :: on_rig
+      type(case_t) :: this
+      type(rig_test_t) :: rig
+      character(name_length) :: over
+
+      reach = huge(reach)
+      if (how == at_design) reach = 0.0_wp
+      if (needs_path(how) .or. how == at_design) return
+      rig = rig_test(case%test)
+      over = source%over(1)
+      if (over == '') over = source%over(2)
+      if (over == 'factor') then
+         if (.not. (abs(test%factor_size) > 0.0_wp .and. is_mountable(case))) return
+         call mount(suspension, case, on_rig, this)
+         reach = margin*source%half/abs(test%factor_size)*this%unit
+      else if (case%vertical /= '') then
+         return
+      else if (index(over, 'wheel_travel_mm') > 0) then
+         if (case%drive == 'wheel_travel' .and. size(suspension%wheels) == 1) reach = margin*source%half*millimetre
+         if (rig%action == moves_heights .and. .not. of_one_wheel(rig)) reach = margin*source%half*millimetre
+      else if (over == 'axle_roll_deg') then
+         if (rig%action == rolls) reach = margin*source%half*degree
+      else if (over == 'steering_wheel_deg') then
+         if (rig%action == steers) reach = margin*source%half/360.0_wp*abs(suspension%steering%ratio)
+      end if
+
+   end function reach_of
+
+   !> Whether a case lacks a state within a reach from design: it was not run, or the states on one side end before.
+   pure logical function lacks_state(result, reach)
+      type(case_result_t), intent(in) :: result
+      real(wp), intent(in) :: reach                      !! swept value
+      integer :: side, state
+
+      lacks_state = .not. result%is_run()
+      if (lacks_state) return
+      do side = 1, 2
+         state = result%path%failure(side)%state
+         if (state == 0) cycle
+         lacks_state = .not. result%path%is_settled .or. result%path%is_table .or. result%case%follows_arc
+         if (.not. lacks_state) lacks_state = abs(result%path%value(state)) <= reach
+         if (lacks_state) return
+      end do
+   end function lacks_state
+
+end module ek_number_reach

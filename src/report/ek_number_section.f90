@@ -1,0 +1,182 @@
+!> The key numbers of a report on its page: the summary, each with its curve, and all others by group.
+module ek_number_section
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_key_number, only: key_number_t
+   use ek_number_words, only: steer_effect, target_verdict
+   use ek_page, only: page_t, begin_section, add_markup, page_number
+   use ek_report_content, only: report_t
+   use ek_sparkline, only: sparkline
+   use ek_summary, only: summary_numbers, kept_number
+   use ek_svg, only: escape_html
+   implicit none(type, external)
+   private
+   public :: add_summary, add_other_numbers
+
+   character(*), parameter :: fitted = ' (fitted)'
+
+contains
+
+   !> The numbers that head the report, as cards.
+   subroutine add_summary(page, report)
+      type(page_t), intent(inout) :: page
+      type(report_t), intent(in) :: report
+      integer, allocatable :: places(:)
+      character(48) :: effect
+      integer :: k
+
+      allocate (places, source=summary_numbers(report%numbers))
+      if (size(places) == 0) return
+      call begin_section(page, 'summary', 'Summary')
+      call add_markup(page, '<ul class="cards">')
+      do k = 1, size(places)
+         associate (number => report%numbers(places(k)))
+            call add_markup(page, '<li data-number="'//escape_html(number%name)//'"><span class="name">'// &
+               escape_html(short_name(number))//'</span>')
+            call add_markup(page, '<span class="value">'//values_of(number)//'</span>')
+            call add_markup(page, sparkline(number, report%tests))
+            effect = steer_effect(number, report%axle)
+            if (effect /= '') call add_markup(page, '<span class="effect">'//escape_html(trim(effect))//'</span>')
+            call add_markup(page, target_of(number))
+            if (number%held /= '') call add_markup(page, '<span class="held">'//escape_html(trim(number%held))//'</span>')
+            call add_markup(page, details_of(report%numbers, places(k))//'</li>')
+         end associate
+      end do
+      call add_markup(page, '</ul>')
+   end subroutine add_summary
+
+   !> All other numbers, each once; what a number repeats is named with the one that is kept.
+   subroutine add_other_numbers(page, report)
+      type(page_t), intent(inout) :: page
+      type(report_t), intent(in) :: report
+      logical, allocatable :: is_shown(:)
+      character(:), allocatable :: group
+      integer :: k
+
+      allocate (is_shown(size(report%numbers)), source=.true.)
+      is_shown(summary_numbers(report%numbers)) = .false.
+      do k = 1, size(report%numbers)
+         if (kept_number(report%numbers, k) > 0) is_shown(k) = .false.
+      end do
+      if (.not. any(is_shown)) return
+      call begin_section(page, 'key-numbers', 'Key numbers', is_printed=.false.)
+      group = ''
+      do k = 1, size(report%numbers)
+         if (.not. is_shown(k)) cycle
+         associate (number => report%numbers(k))
+            if (number%group /= group) then
+               if (group /= '') call add_markup(page, '</tbody></table></div>')
+               group = number%group
+               call add_markup(page, '<div class="scroll"><table class="numbers"><caption>'//escape_html(group)// &
+                  '</caption><thead><tr><th scope="col">Quantity</th><th scope="col" class="n">Value</th>'// &
+                  '<th scope="col">Unit</th><th scope="col">Sign</th></tr></thead><tbody>')
+            end if
+            call add_markup(page, '<tr><th scope="row">'//escape_html(short_name(number))//held_of(number)// &
+               details_of(report%numbers, k)//'</th><td class="n" data-number="'//escape_html(number%name)//'">'// &
+               pair_of(number)//trim(merge(' <small>left; right opposite</small>', '                                    ', &
+               is_opposite(number)))//'</td><td>'//escape_html(number%unit)// &
+               '</td><td class="s">'//escape_html(number%sign)//target_of(number)//'</td></tr>')
+         end associate
+      end do
+      call add_markup(page, '</tbody></table></div>')
+   end subroutine add_other_numbers
+
+   !> Formula and condition, folded, and the numbers that say the same.
+   function details_of(numbers, k) result(html)
+      type(key_number_t), intent(in) :: numbers(:)
+      integer, intent(in) :: k
+      character(:), allocatable :: html
+      integer :: j
+
+      html = '<details class="how"><summary>how</summary><p>'//escape_html(numbers(k)%definition)//'. '// &
+         escape_html(numbers(k)%condition)//'.'
+      do j = 1, size(numbers)
+         if (kept_number(numbers, j) == k) html = html//' The same as '//escape_html(numbers(j)%quantity)//': '// &
+            pair_of(numbers(j))//' '//escape_html(numbers(j)%unit)//' ('//escape_html(numbers(j)%condition)//').'
+      end do
+      html = html//' Name: <code>'//escape_html(numbers(k)%name)//'</code></p></details>'
+   end function details_of
+
+   !> A number without the mark of a fitted slope, which its formula gives.
+   function short_name(number) result(name)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: name
+      integer :: at
+
+      name = number%quantity
+      at = index(name, fitted)
+      if (at > 0) name = name(:at - 1)//name(at + len(fitted):)
+      name = trim(name)
+      if (name(1:1) >= 'a' .and. name(1:1) <= 'z') name(1:1) = achar(iachar(name(1:1)) - 32)
+   end function short_name
+
+   !> '−3.21 deg/m' and a remark, as 'symmetric'.
+   function values_of(number) result(html)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: html
+
+      html = '<b>'//pair_of(number)//'</b> '
+      if (number%unit /= '–') html = html//escape_html(number%unit)
+      if (is_symmetric(number)) html = html//' <small>symmetric</small>'
+      if (is_opposite(number)) html = html//' <small>left; right wheel opposite</small>'
+   end function values_of
+
+   !> One number if the axle has one, or both wheels the same to the digits shown; otherwise left and right.
+   function pair_of(number) result(html)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: html, right
+
+      html = page_number(number%left)
+      if (number%is_of_axle .or. is_symmetric(number) .or. is_opposite(number)) return
+      right = page_number(number%right)
+      if (ieee_is_finite(number%left) .and. ieee_is_finite(number%right)) then
+         html = '<span title="left">'//html//'</span> <i>|</i> <span title="right">'//right//'</span>'
+      else if (ieee_is_finite(number%right)) then
+         html = right
+      end if
+   end function pair_of
+
+   logical function is_symmetric(number)
+      type(key_number_t), intent(in) :: number
+
+      is_symmetric = .false.
+      if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
+      is_symmetric = page_number(number%left) == page_number(number%right)
+   end function is_symmetric
+
+   !> Left and right differ by their sign alone.
+   logical function is_opposite(number)
+      type(key_number_t), intent(in) :: number
+
+      is_opposite = .false.
+      if (number%is_of_axle .or. .not. ieee_is_finite(number%left) .or. .not. ieee_is_finite(number%right)) return
+      is_opposite = page_number(number%left) == page_number(-number%right) .and. .not. is_symmetric(number)
+   end function is_opposite
+
+   function held_of(number) result(html)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: html
+
+      html = ''
+      if (number%held /= '') html = ' <span class="held">'//escape_html(trim(number%held))//'</span>'
+   end function held_of
+
+   !> Whether a number keeps the target that the deck gives.
+   function target_of(number) result(html)
+      type(key_number_t), intent(in) :: number
+      character(:), allocatable :: html, text
+
+      html = ''
+      if (target_verdict(number) == '') return
+      html = trim(target_verdict(number))
+      if (number%target(1) > -huge(1.0_wp) .and. number%target(2) < huge(1.0_wp)) then
+         text = page_number(number%target(1))//' … '//page_number(number%target(2))
+      else if (number%target(1) > -huge(1.0_wp)) then
+         text = '≥ '//page_number(number%target(1))
+      else
+         text = '≤ '//page_number(number%target(2))
+      end if
+      html = ' <span class="target '//html//'">'//html//' target '//text//'</span>'
+   end function target_of
+
+end module ek_number_section

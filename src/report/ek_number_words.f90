@@ -1,0 +1,67 @@
+!> What a key number says to an engineer: understeer or oversteer, inside or outside its target, the same on both sides.
+module ek_number_words
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_key_number, only: key_number_t
+   implicit none(type, external)
+   private
+   public :: steer_effect, target_verdict, mean_value
+
+   !> Numbers that are positive if the wheels steer to the left in a right turn, away from the bend.
+   character(*), parameter :: away(*) = [character(44) :: 'wheel_roll_steer', 'lateral_force_steer', 'aligning_torque_steer', &
+      'lateral_in_load_held_steer_deg_per_kn', 'lateral_in_height_held_steer_deg_per_kn', &
+      'aligning_in_load_held_steer_deg_per_100nm', 'aligning_in_height_held_steer_deg_per_100nm']
+   real(wp), parameter :: nothing = 5.0e-4_wp       !! deg per deg, kN or 100 N m: not seen in the digits that are shown
+
+contains
+
+   !> What a steer angle in a bend does to the car: a front axle that steers out of the bend understeers, a rear axle oversteers.
+   pure function steer_effect(number, axle) result(effect)
+      type(key_number_t), intent(in) :: number
+      integer, intent(in) :: axle                   !! −1 front, 1 rear, 0 not known
+      character(48) :: effect
+      real(wp) :: value
+
+      effect = ''
+      if (.not. any(away == number%name)) return
+      value = mean_value(number)
+      if (.not. ieee_is_finite(value)) return
+      if (abs(value) < nothing) then
+         effect = 'neutral'
+      else if (axle == 0) then
+         effect = 'understeer at the front, oversteer at the rear'
+         if (value < 0.0_wp) effect = 'oversteer at the front, understeer at the rear'
+      else
+         effect = merge('understeer', 'oversteer ', axle*value < 0.0_wp)
+      end if
+   end function steer_effect
+
+   !> The value of the axle, or the mean of both wheels.
+   pure real(wp) function mean_value(number) result(value)
+      type(key_number_t), intent(in) :: number
+
+      value = number%left
+      if (number%is_of_axle .or. .not. ieee_is_finite(number%right)) return
+      value = number%right
+      if (ieee_is_finite(number%left)) value = (number%left + number%right)/2
+   end function mean_value
+
+   !> 'inside' or 'outside' its target; both wheels count. '' without a target or a value.
+   pure function target_verdict(number) result(verdict)
+      type(key_number_t), intent(in) :: number
+      character(7) :: verdict
+      real(wp) :: values(2)
+      integer :: k
+
+      verdict = ''
+      values = [number%left, number%right]
+      if (number%is_of_axle) values(2) = values(1)
+      if (.not. number%has_target .or. .not. any(ieee_is_finite(values))) return
+      verdict = 'inside'
+      do k = 1, 2
+         if (.not. ieee_is_finite(values(k))) cycle
+         if (values(k) < number%target(1) .or. values(k) > number%target(2)) verdict = 'outside'
+      end do
+   end function target_verdict
+
+end module ek_number_words

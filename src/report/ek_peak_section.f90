@@ -1,0 +1,43 @@
+!> The section of peak loads on the page of a report: one row per member, the loads on its second body.
+module ek_peak_section
+   use ek_kinds, only: wp
+   use ek_member_loads, only: load_record_t
+   use ek_page, only: page_t, begin_section, add_text, begin_table, add_cell, end_table, page_number
+   implicit none(type, external)
+   private
+   public :: add_peak_loads
+
+   integer, parameter :: forces(4) = [1, 2, 3, 4], resultant = 4, moment = 8     !! components of a record
+
+contains
+
+   !> Adds the section. Members that carry nothing in any test are left out.
+   subroutine add_peak_loads(page, record)
+      type(page_t), intent(inout) :: page
+      type(load_record_t), intent(in) :: record
+      integer :: e, c
+
+      call begin_section(page, 'peak-loads', 'Peak loads', is_printed=.false.)
+      call add_text(page, 'p', 'Largest values over all tests, each by itself: force and moment on the body in the frame of '// &
+         'the deck, the moment about the hardpoint. On the first body of each member the forces are opposite: '// &
+         'peak-loads.csv has both bodies and the state of every component, loads.csv all states.')
+      call begin_table(page, [character(15) :: 'Member', 'On body', 'At', '>Fx [N]', '>Fy [N]', '>Fz [N]', '>Force [N]', &
+         '>Moment [N m]', 'Largest load in', '>at'])
+      do e = 2, size(record%ends), 2
+         if (record%case(resultant, e) == 0) cycle
+         if (record%peaks(resultant, e) <= 0.0_wp .and. record%peaks(moment, e) <= 0.0_wp) cycle
+         call add_cell(page, record%ends(e)%member)
+         call add_cell(page, record%ends(e)%body)
+         call add_cell(page, record%ends(e)%point)
+         do c = 1, size(forces)
+            call add_cell(page, page_number(record%peaks(forces(c), e)), 'n')
+         end do
+         call add_cell(page, page_number(record%peaks(moment, e)), 'n')
+         c = merge(resultant, moment, record%peaks(resultant, e) > 0.0_wp)
+         call add_cell(page, trim(record%cases(record%case(c, e))))
+         call add_cell(page, page_number(record%factor(c, e)), 'n')
+      end do
+      call end_table(page)
+   end subroutine add_peak_loads
+
+end module ek_peak_section

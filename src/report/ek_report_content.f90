@@ -1,0 +1,47 @@
+!> What a report contains: its tests, their charts, gradients and key numbers, and the facts at the head of the page.
+module ek_report_content
+   use ek_error, only: message_list_t
+   use ek_path, only: path_t
+   use ek_test_result, only: test_result_t
+   use ek_chart, only: chart_t
+   use ek_gradient, only: gradient_t
+   use ek_key_number, only: key_number_t
+   use ek_member_loads, only: load_record_t
+   use ek_explanation, only: explanation_t
+   use ek_live, only: live_t
+   use ek_turntable, only: turntable_t
+   implicit none(type, external)
+   private
+   public :: report_t, add_fact
+
+   !> A report: its tests, and what its page shows besides.
+   type :: report_t
+      character(:), allocatable :: title, folder
+      type(message_list_t) :: names, values            !! facts for the head of the page
+      type(message_list_t) :: warnings                 !! on the model as a whole
+      type(message_list_t) :: deck_paths, deck_texts   !! values of the deck (ek_deck_values)
+      type(test_result_t), allocatable :: tests(:)
+      type(path_t), allocatable :: paths(:)            !! states of each test, for pictures; empty if it was not run
+      type(chart_t), allocatable :: charts(:)          !! of all tests
+      type(gradient_t), allocatable :: gradients(:)
+      type(key_number_t), allocatable :: numbers(:)    !! key numbers of the tests
+      type(load_record_t), allocatable :: loads        !! of the members, if they are wanted
+      type(explanation_t), allocatable :: explanations(:)     !! what makes the key compliances
+      type(live_t), allocatable :: live                !! rates that the page can change, if they are wanted
+      type(turntable_t), allocatable :: turntable      !! the suspension in space, if something moves
+      integer :: axle = 0                              !! −1 front, 1 rear, 0 not known: what a steer angle does to the car
+      logical :: is_static = .false.                   !! the charts of gnuplot, no script
+      logical :: has_pictures = .false., has_animation = .false., has_views = .false.   !! those in the folder are of this report
+   end type report_t
+
+contains
+
+   !> A fact for the head of the page.
+   subroutine add_fact(report, name, value)
+      type(report_t), intent(inout) :: report
+      character(*), intent(in) :: name, value
+      call report%names%add(name)
+      call report%values%add(value)
+   end subroutine add_fact
+
+end module ek_report_content

@@ -1,0 +1,274 @@
+!> data.json: what the page of a report shows, once: facts, key numbers, and the curves of every test. The page carries the same
+!> text as a block of data, from which its charts are drawn; schema/data.schema.json describes it.
+module ek_report_data
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str
+   use ek_buffer, only: buffer_t
+   use ek_letters, only: as_utf8
+   use ek_json, only: json_t, json_string, json_number
+   use ek_test_result, only: test_result_t, design_row
+   use ek_chart, only: chart_t, trace_t, view_of, rounded
+   use ek_key_number, only: key_number_t
+   use ek_number_words, only: steer_effect, target_verdict
+   use ek_report_content, only: report_t
+   use ek_live_data, only: add_live_data
+   use ek_turntable, only: add_turntable
+   implicit none(type, external)
+   private
+   public :: report_data, comparison_data, format_name
+
+   character(*), parameter :: format_name = 'elastokin report data 1', comparison_name = 'elastokin comparison data 1'
+   integer, parameter :: figures = 6            !! significant digits of a curve: more than a screen resolves
+
+contains
+
+   !> The data of a report as JSON. The text has no '<', so that it can stand in a page as it is.
+   function report_data(report) result(text)
+      type(report_t), intent(in) :: report
+      character(:), allocatable :: text
+      type(json_t) :: json
+      integer :: k
+
+      json%is_one_line = .true.
+      call json%open('{')
+      call json%item('format', json_string(format_name))
+      call json%item('title', json_string(as_utf8(report%title)))
+      call json%open('{', 'facts')
+      do k = 1, report%names%count()
+         call json%item(report%names%line(k), json_string(as_utf8(report%values%line(k))))
+      end do
+      call json%close('}')
+      call json%open('[', 'deck')
+      do k = 1, report%deck_paths%count()
+         call json%item_of_list('['//json_string(as_utf8(report%deck_paths%line(k)))//', '// &
+            json_string(as_utf8(report%deck_texts%line(k)))//']')
+      end do
+      call json%close(']')
+      call json%open('[', 'numbers')
+      do k = 1, size(report%numbers)
+         call add_number(json, report, report%numbers(k))
+      end do
+      call json%close(']')
+      call json%open('[', 'tests')
+      do k = 1, size(report%tests)
+         if (report%tests(k)%is_run) call add_test(json, report%tests(k), report%charts, k)
+      end do
+      call json%close(']')
+      if (allocated(report%turntable)) call add_turntable(json, report%turntable)
+      if (allocated(report%live)) call add_live_data(json, report%live, report%numbers)
+      call json%close('}')
+      text = without_tags(json%text())
+   end function report_data
+
+   !> The data of a comparison for its page: the tests of the first result with the charts of all results.
+   function comparison_data(tests, charts) result(text)
+      type(test_result_t), intent(in) :: tests(:)      !! of the first result
+      type(chart_t), intent(in) :: charts(:)
+      character(:), allocatable :: text
+      type(json_t) :: json
+      integer :: k
+
+      json%is_one_line = .true.
+      call json%open('{')
+      call json%item('format', json_string(comparison_name))
+      call json%open('[', 'tests')
+      do k = 1, size(tests)
+         if (any(charts%test == k)) call add_test(json, tests(k), charts, k)
+      end do
+      call json%close(']')
+      call json%close('}')
+      text = without_tags(json%text())
+   end function comparison_data
+
+   subroutine add_number(json, report, number)
+      type(json_t), intent(inout) :: json
+      type(report_t), intent(in) :: report
+      type(key_number_t), intent(in) :: number
+
+      call json%open('{')
+      call json%item('name', json_string(number%name))
+      call json%item('group', json_string(number%group))
+      call json%item('title', json_string(number%quantity))
+      call json%item('unit', json_string(number%unit))
+      call json%item('left', json_number(number%left))
+      if (.not. number%is_of_axle .and. ieee_is_finite(number%right)) call json%item('right', json_number(number%right))
+      call json%item('held', json_string(trim(number%held)))
+      call json%item('condition', json_string(number%condition))
+      call json%item('definition', json_string(number%definition))
+      if (steer_effect(number, report%axle) /= '') call json%item('effect', json_string(trim(steer_effect(number, report%axle))))
+      if (number%has_target) then
+         call json%open('[', 'target')
+         call json%item_of_list(json_number(limit_of(number%target(1))))
+         call json%item_of_list(json_number(limit_of(number%target(2))))
+         call json%close(']')
+         call json%item('verdict', json_string(trim(target_verdict(number))))
+      end if
+      call json%close('}')
+   end subroutine add_number
+
+   !> A limit of a target; not a number, written as null, if there is none.
+   pure real(wp) function limit_of(target)
+      real(wp), intent(in) :: target
+
+      limit_of = target
+      if (.not. abs(target) < huge(1.0_wp)) limit_of = ieee_value(1.0_wp, ieee_quiet_nan)
+   end function limit_of
+
+   !> A test: its abscissae and columns, each once, and the charts that refer to them by name.
+   subroutine add_test(json, test, charts, number)
+      type(json_t), intent(inout) :: json
+      type(test_result_t), intent(in) :: test
+      type(chart_t), intent(in) :: charts(:)
+      integer, intent(in) :: number                   !! of the test
+      type(message_list_t) :: written
+      integer :: k, l, pass
+
+      call json%open('{')
+      call json%item('name', json_string(test%name))
+      call json%item('title', json_string(as_utf8(test%title)))
+      call json%item('held', json_string(trim(test%held)))
+      call json%item('file', json_string(as_utf8(test%file)))
+      call json%item('label', json_string(as_utf8(test%label)))
+      call json%item('design', str(design_row(test%table) - 1))
+      call json%open('[', 'charts')
+      do k = 1, size(charts)
+         if (charts(k)%test == number) call add_chart(json, charts(k))
+      end do
+      call json%close(']')
+      do pass = 1, 2
+         written = message_list_t()
+         call json%open('{', trim(merge('x', 'y', pass == 1)))
+         do k = 1, size(charts)
+            if (charts(k)%test /= number) cycle
+            do l = 1, size(charts(k)%traces)
+               associate (trace => charts(k)%traces(l))
+                  if (is_new(merge_name(trace, pass), written)) call json%item(merge_name(trace, pass), &
+                     merge_numbers(trace, pass, charts(k)%noise))
+               end associate
+            end do
+         end do
+         call json%close('}')
+      end do
+      call json%close('}')
+   end subroutine add_test
+
+   subroutine add_chart(json, chart)
+      type(json_t), intent(inout) :: json
+      type(chart_t), intent(in) :: chart
+      real(wp) :: low, high
+      integer :: k
+
+      call view_of(chart, low, high)
+      call json%open('{')
+      call json%item('id', json_string(chart%name))
+      call json%item('title', json_string(as_utf8(chart%title)))
+      call json%item('label', json_string(as_utf8(chart%y_label)))
+      call json%item('low', json_number(rounded(low, figures)))
+      call json%item('high', json_number(rounded(high, figures)))
+      call json%item('span', json_number(chart%noise))
+      if (chart%has_points) call json%item('points', 'true')
+      if (chart%is_level) call json%item('level', 'true')
+      call json%open('[', 'curves')
+      do k = 1, size(chart%traces)
+         associate (trace => chart%traces(k))
+            call json%open('{')
+            call json%item('name', json_string(as_utf8(trace%title)))
+            call json%item('x', json_string(trace%over))
+            call json%item('y', json_string(column_of(trace)))
+            call json%item('colour', str(trace%colour))
+            call json%item('dash', str(trace%dash))
+            if (trace%reference > 0) call json%item('from', str(trace%reference - 1))
+            if (trace%design > 0) call json%item('design', str(trace%design - 1))
+            call json%close('}')
+         end associate
+      end do
+      call json%close(']')
+      call json%close('}')
+   end subroutine add_chart
+
+   !> The name of the abscissa (pass 1) or of the values (pass 2) of a curve.
+   function merge_name(trace, pass) result(name)
+      type(trace_t), intent(in) :: trace
+      integer, intent(in) :: pass
+      character(:), allocatable :: name
+
+      if (pass == 1) then
+         name = trace%over
+      else
+         name = column_of(trace)
+      end if
+   end function merge_name
+
+   !> A column of the table; of an expression, the magnitude of a force, the element with the ending _force_magnitude_n.
+   function column_of(trace) result(name)
+      type(trace_t), intent(in) :: trace
+      character(:), allocatable :: name
+      integer :: at
+
+      name = trace%column
+      if (index(name, '(') /= 1) return
+      name = trace%title
+      at = index(name, ' (left = right)')
+      if (at > 0) name = 'left_'//name(:at - 1)
+      name = name//'_force_magnitude_n'
+   end function column_of
+
+   !> The numbers of an abscissa (pass 1) or of a curve (pass 2); what is smaller than a millionth of the least span is rounding.
+   function merge_numbers(trace, pass, span) result(literal)
+      type(trace_t), intent(in) :: trace
+      integer, intent(in) :: pass
+      real(wp), intent(in) :: span
+      character(:), allocatable :: literal
+      type(buffer_t) :: buffer
+      real(wp) :: value
+      integer :: k
+
+      call buffer%add('[')
+      do k = 1, size(trace%x)
+         if (k > 1) call buffer%add(',')
+         value = trace%x(k)
+         if (pass == 2) value = trace%y(k)
+         if (pass == 2 .and. ieee_is_finite(value)) then
+            if (abs(value) < 1.0e-6_wp*span) value = 0.0_wp
+         end if
+         call buffer%add(json_number(rounded(value, figures)))
+      end do
+      call buffer%add(']')
+      literal = buffer%text()
+   end function merge_numbers
+
+   !> Whether a name is not in a list yet; it then is.
+   logical function is_new(name, list)
+      character(*), intent(in) :: name
+      type(message_list_t), intent(inout) :: list
+      integer :: k
+
+      is_new = .true.
+      do k = 1, list%count()
+         if (list%line(k) == name) is_new = .false.
+      end do
+      if (is_new) call list%add(name)
+   end function is_new
+
+   !> A JSON text with every '<' written as an escape: a page would end its block of data at '</script'.
+   function without_tags(json) result(text)
+      character(*), intent(in) :: json
+      character(:), allocatable :: text
+      type(buffer_t) :: out
+      integer :: from, at
+
+      from = 1
+      do
+         at = scan(json(from:), '<')
+         if (at == 0) exit
+         call out%add(json(from:from + at - 2))
+         call out%add('\u003c')
+         from = from + at
+      end do
+      call out%add(json(from:))
+      text = out%text()
+   end function without_tags
+
+end module ek_report_data

@@ -1,0 +1,69 @@
+# Makes ek_page_assets.f90 of the style sheet and the script of the pages:
+#   cmake -DSTYLE=page.css "-DSCRIPT=chart.js,page.js" -DLIVE_STYLE=live.css -DLIVE_SCRIPT=live.js \
+#     -DTURNTABLE_SCRIPT=turntable.js -DMODULE=ek_page_assets.f90 -P embed.cmake
+# The parts of pages whose rates can be changed, and of those with a turntable, are added to those of all pages.
+# Comments of a whole line and indents are left out; a long line becomes several constants.
+string(REPEAT "[^\n]" 80 ek_piece)
+
+# Statements that append the lines of files to the buffer `out`, in the variable `result`
+function(ek_statements result)
+  set(text "")
+  foreach(file IN LISTS ARGN)
+    file(READ ${file} content)
+    string(APPEND text "\n${content}")
+  endforeach()
+  string(ASCII 1 cut)
+  string(REGEX REPLACE "\n[ ]+" "\n" text "${text}")
+  string(REGEX REPLACE "\n//[^\n]*" "" text "${text}")
+  string(REGEX REPLACE "\n/[*][^\n]*[*]/" "" text "${text}")
+  string(REGEX REPLACE "\n\n+" "\n" text "${text}")
+  string(REGEX REPLACE "^\n" "" text "${text}")
+  string(REGEX REPLACE "\n$" "" text "${text}")
+  string(REGEX REPLACE "(${ek_piece})" "\\1${cut}" text "${text}")
+  string(REPLACE "'" "''" text "${text}")
+  string(REPLACE "${cut}" "')\n      call out%add('" text "${text}")
+  string(REPLACE "\n      call" "${cut}" text "${text}")
+  string(REPLACE "\n" "'//nl)\n      call out%add('" text "${text}")
+  string(REPLACE "${cut}" "\n      call" text "${text}")
+  set(${result} "      call out%add('${text}'//nl)\n" PARENT_SCOPE)
+endfunction()
+
+string(REPLACE "," ";" SCRIPT "${SCRIPT}")
+ek_statements(style ${STYLE})
+ek_statements(script ${SCRIPT})
+ek_statements(live_style ${LIVE_STYLE})
+ek_statements(live_script ${LIVE_SCRIPT})
+ek_statements(turntable_script ${TURNTABLE_SCRIPT})
+file(WRITE ${MODULE} "!> Style sheet and script of the pages, made by embed.cmake from the files in src/report/page.
+module ek_page_assets
+   use ek_buffer, only: buffer_t
+   implicit none(type, external)
+   private
+   public :: add_style, add_script, add_live_style, add_live_script, add_turntable_script
+
+   character(*), parameter :: nl = new_line('a')
+
+contains
+
+   pure subroutine add_style(out)
+      type(buffer_t), intent(inout) :: out
+${style}   end subroutine add_style
+
+   pure subroutine add_script(out)
+      type(buffer_t), intent(inout) :: out
+${script}   end subroutine add_script
+
+   pure subroutine add_live_style(out)
+      type(buffer_t), intent(inout) :: out
+${live_style}   end subroutine add_live_style
+
+   pure subroutine add_live_script(out)
+      type(buffer_t), intent(inout) :: out
+${live_script}   end subroutine add_live_script
+
+   pure subroutine add_turntable_script(out)
+      type(buffer_t), intent(inout) :: out
+${turntable_script}   end subroutine add_turntable_script
+
+end module ek_page_assets
+")

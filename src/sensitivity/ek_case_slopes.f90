@@ -1,0 +1,94 @@
+!> A case with the derivatives of its columns at every state: its table at a design, and the same table of a neighbouring design, to
+!> first order and without a solution.
+module ek_case_slopes
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t
+   use ek_table, only: table_t, new_table, name_length, column_index
+   use ek_case_result, only: solve_options_t
+   use ek_number_reach, only: lacks_state
+   use ek_design_solver, only: design_solver_t, solve_case_fully, solve_case_again
+   use ek_derivatives, only: derivatives_t, find_derivatives
+   implicit none(type, external)
+   private
+   public :: case_slopes_t, solve_with_slopes, move_table
+
+   type :: case_slopes_t
+      integer :: case = 0                                    !! in the solver
+      type(solve_options_t) :: options                       !! its columns, and how far from design
+      class(derivatives_t), allocatable :: derivatives       !! of the columns at the states. A class as in worker_case_t
+      type(table_t) :: table                                 !! of the last design: quantities and entries of the compliance matrix
+      type(table_t) :: moved                                 !! the same along a direction
+      integer, allocatable :: place(:)                       !! of a column of the derivatives in the table
+      integer, allocatable :: row(:)                         !! of a state of the derivatives in the table
+   end type case_slopes_t
+
+contains
+
+   !> Solves a case again, with the derivatives of its columns.
+   subroutine solve_with_slopes(is_solved, this, solver, is_valid)
+      logical, intent(in) :: is_solved                       !! the solver has its solution already
+      type(case_slopes_t), intent(inout) :: this
+      type(design_solver_t), intent(inout) :: solver
+      logical, intent(out) :: is_valid
+      type(error_t), allocatable :: error
+      integer, allocatable :: states(:)
+      integer :: c, k, s
+
+      is_valid = is_solved
+      if (.not. is_valid) call solve_case_again(this%case, this%options, solver, is_valid)
+      if (.not. is_valid) then
+         call solve_case_fully(this%case, this%options, solver, is_valid, error)      ! with another proof that it is sound
+         is_valid = is_valid .and. .not. allocated(error)
+      end if
+      if (is_valid) is_valid = .not. lacks_state(solver%cases(this%case)%result, this%options%reach)
+      if (.not. is_valid) return
+      associate (result => solver%cases(this%case)%result, derivatives => this%derivatives)
+         states = pack([(k, k=1, result%path%states)], result%path%is_reached)
+         call find_derivatives(solver, states, derivatives)
+         call make_table(result%table, derivatives, this%table, this%place, this%row)
+         do s = 1, size(states)
+            do c = 1, size(derivatives%columns)
+               this%table%values(this%place(c), this%row(s)) = derivatives%values(c, s)
+            end do
+         end do
+         this%moved = this%table
+      end associate
+   end subroutine solve_with_slopes
+
+   !> A table with the columns of a case and those of its compliance matrix that were derived.
+   subroutine make_table(table, derivatives, whole, place, row)
+      type(table_t), intent(in) :: table
+      type(derivatives_t), intent(in) :: derivatives
+      type(table_t), intent(out) :: whole
+      integer, allocatable, intent(out) :: place(:), row(:)
+      character(name_length), allocatable :: columns(:)
+      integer :: c, s, many
+
+      many = size(table%columns)
+      columns = [character(name_length) :: table%columns, &
+         pack(derivatives%columns, [(column_index(table, trim(derivatives%columns(c))) == 0, c=1, size(derivatives%columns))])]
+      whole = new_table(columns, size(table%values, 2))
+      whole%values(:many, :) = table%values
+      place = [(column_index(whole, trim(derivatives%columns(c))), c=1, size(derivatives%columns))]
+      row = [(minloc(abs(table%values(1, :) - (derivatives%states(s) - 1)), dim=1), s=1, size(derivatives%states))]
+   end subroutine make_table
+
+   !> The table of the design at a distance along a direction. A number that cannot move has no effect.
+   pure subroutine move_table(p, distance, this)
+      integer, intent(in) :: p                               !! the direction
+      real(wp), intent(in) :: distance                       !! in its unit
+      type(case_slopes_t), intent(inout) :: this
+      real(wp) :: slope
+      integer :: c, s
+
+      do s = 1, size(this%row)
+         do c = 1, size(this%place)
+            slope = this%derivatives%slopes(c, p, s)
+            if (.not. ieee_is_finite(slope)) slope = 0.0_wp
+            this%moved%values(this%place(c), this%row(s)) = this%table%values(this%place(c), this%row(s)) + distance*slope
+         end do
+      end do
+   end subroutine move_table
+
+end module ek_case_slopes

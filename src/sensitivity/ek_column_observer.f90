@@ -1,0 +1,102 @@
+!> The values of wanted columns at one state: quantities of the table of a case, and entries of its compliance matrix.
+module ek_column_observer
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t
+   use ek_case, only: case_t
+   use ek_state, only: state_t, inputs_t
+   use ek_kkt, only: kkt_t
+   use ek_attitude, only: attitude_t
+   use ek_table, only: name_length
+   use ek_sweep_table, only: observer_t, make_observer, observe_state, quantity_columns, reads_matrix, reads_poses_of_wheels
+   use ek_compliance, only: compliance_t, new_compliance, keep_responses
+   use ek_skew_system, only: has_skew_part
+   use ek_compliance_table, only: compliance_columns, observe_compliance
+   implicit none(type, external)
+   private
+   public :: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, &
+      reads_states, reads_wheels_only
+
+   !> The columns of a model, and work space.
+   type :: column_observer_t
+      character(name_length), allocatable :: columns(:)    !! quantities, then entries
+      integer, private :: quantities = 0
+      integer, allocatable, private :: entries(:)          !! their numbers among compliance_columns
+      type(observer_t), private :: observer
+      type(compliance_t), private :: compliance
+      type(attitude_t), allocatable, private :: wheels(:)
+      real(wp), allocatable, private :: work(:), matrix(:)
+   end type column_observer_t
+
+contains
+
+   !> An observer of those columns that the model has. Makes texts.
+   subroutine new_column_observer(suspension, case, columns, self)
+      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(case_t), intent(in) :: case
+      character(*), intent(in) :: columns(:)
+      type(column_observer_t), intent(out) :: self
+      character(name_length), allocatable :: names(:)
+      integer :: j
+
+      call make_observer(suspension, case, self%observer, columns)
+      self%columns = quantity_columns(self%observer)
+      self%quantities = size(self%columns)
+      call compliance_columns(suspension, names)
+      self%entries = pack([(j, j=1, size(names))], [(any(columns == names(j)), j=1, size(names))])
+      self%columns = [character(name_length) :: self%columns, names(self%entries)]
+      self%compliance = new_compliance(suspension, .false.)
+      allocate (self%wheels(size(suspension%wheels)))
+      allocate (self%matrix(size(names)), source=0.0_wp)
+   end subroutine new_column_observer
+
+   !> Values at an equilibrium; or, with what was kept at one, at a state close to it.
+   subroutine observe_columns(suspension, state, inputs, kkt, self, values, kept)
+      type(suspension_t), intent(in) :: suspension         !! on the rig
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      type(kkt_t), intent(inout) :: kkt                    !! work space
+      type(column_observer_t), intent(inout) :: self
+      real(wp), intent(inout) :: values(:)
+      real(wp), intent(in), optional :: kept(:, :)         !! of keep_state
+      logical :: has_kept
+
+      if (self%quantities > 0) call observe_state(suspension, state, inputs, kkt, self%observer, self%wheels, self%work, &
+         values(:self%quantities))
+      if (size(self%entries) == 0) return
+      has_kept = present(kept)
+      if (has_kept) has_kept = size(kept, 1) > 0
+      if (has_kept) has_kept = .not. has_skew_part(suspension, inputs)
+      if (has_kept) then
+         call observe_compliance(suspension, state, inputs, kkt, self%compliance, self%matrix, kept)
+      else
+         call observe_compliance(suspension, state, inputs, kkt, self%compliance, self%matrix)
+      end if
+      values(self%quantities + 1:) = self%matrix(self%entries)
+   end subroutine observe_columns
+
+   !> Whether no column needs the compliance matrix or a model around the state.
+   pure logical function reads_states(self)
+      type(column_observer_t), intent(in) :: self
+      reads_states = size(self%entries) == 0 .and. .not. reads_matrix(self%observer)
+   end function reads_states
+
+   !> Whether all columns follow from the poses of the wheels and the numbers of the wheels.
+   pure logical function reads_wheels_only(self)
+      type(column_observer_t), intent(in) :: self
+      reads_wheels_only = size(self%entries) == 0 .and. reads_poses_of_wheels(self%observer)
+   end function reads_wheels_only
+
+   !> The unit loads whose responses are kept: those of the compliance matrix, if it is observed.
+   pure integer function kept_loads(self)
+      type(column_observer_t), intent(in) :: self
+      kept_loads = merge(6*size(self%wheels), 0, size(self%entries) > 0)
+   end function kept_loads
+
+   !> What an observation of an equilibrium leaves for those close to it.
+   pure subroutine keep_state(self, kept)
+      type(column_observer_t), intent(in) :: self          !! after observe_columns
+      real(wp), intent(inout) :: kept(:, :)                !! (kept_loads, unknown)
+      if (size(kept, 1) > 0) call keep_responses(self%compliance, kept)
+   end subroutine keep_state
+
+end module ek_column_observer

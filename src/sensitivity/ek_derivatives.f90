@@ -1,0 +1,344 @@
+!> Derivatives of the columns of a case with respect to numbers of the deck, at states of its path. No solution is repeated.
+!>
+!>     call begin_derivatives(solver, k, columns, directions, self)        once per deck, case, columns and numbers; makes texts
+!>     call find_derivatives(solver, states, self)                         at each design: of the case as the solver has solved it
+!>
+!> Two steps at every state:
+!>
+!> 1. the motion of the state, dz/dp (ek_part_force, ek_state_derivative): exact but for rounding;
+!> 2. each column by the difference of its observations at both ends of this motion, in the neighbouring designs:
+!>
+!>        dy/dp = [y(z ⊕ h dz/dp, p + h) − y(z ⊕ −h dz/dp, p − h)]/2h
+!>
+!>    z ⊕ h dz/dp is the path of equilibria to first order, which is all that a derivative needs. So every column of the table is
+!>    differentiated by the formula with which it is observed, and a new column needs nothing here.
+!>
+!> With the same at 2h, Richardson's extrapolation removes the error of order h², and the difference of both quotients is the
+!> reported error: an upper limit where the column is smooth, and large where it has a corner within 2h (a stop at contact, a
+!> curve's point, an absolute value). A neighbouring design is that of x ± h in all respects: realised, balanced, mounted; its
+!> swept values are those of the same state of the path. What is not defined is not a number: at a state that was not reached or has
+!> a singular tangent, for a number that cannot move, for a column without a value there.
+module ek_derivatives
+   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_contract, only: are_checked, require
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: quoted
+   use ek_case, only: case_t
+   use ek_state, only: state_t, inputs_t, design_state
+   use ek_table, only: name_length
+   use ek_case_result, only: case_result_t
+   use ek_design_solver, only: design_solver_t
+   use ek_state_derivative, only: solve_motions, displace
+   use ek_part_change, only: change_t, draft_t
+   use ek_part_force, only: part_forces_t, choose_parts, find_responses, add_force
+   use ek_stencil, only: stencils, differentiate
+   use ek_column_observer, only: column_observer_t, new_column_observer, observe_columns, keep_state, kept_loads, reads_states, &
+      reads_wheels_only
+   use ek_column_gradient, only: find_gradients, parts_of_gradient
+   use ek_direction, only: direction_t
+   use ek_neighbour, only: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number, go_to
+   implicit none(type, external)
+   private
+   public :: derivatives_t, begin_derivatives, find_derivatives, refuse_case
+
+   real(wp), parameter :: rounding = 1.0e-6_wp                !! N: of forces on the bodies; smaller corners are not looked for
+   integer, parameter :: max_numbers = 4000000                !! of motions and observations that are kept at a time: 32 MB
+
+   !> The derivatives of a case at some states.
+   type :: derivatives_t
+      integer :: case = 0                                  !! number of the case in the solver
+      character(name_length), allocatable :: columns(:)
+      type(direction_t), allocatable :: directions(:)
+      integer, allocatable :: states(:)                    !! of the path of the case
+      real(wp), allocatable :: factor(:)                   !! swept value of each, in its unit
+      real(wp), allocatable :: values(:, :)                !! (column, state), as in the table of the case
+      real(wp), allocatable :: slopes(:, :, :)             !! (column, direction, state): unit of the column per unit of the number
+      real(wp), allocatable :: errors(:, :, :)             !! estimates of their errors
+      logical, allocatable :: can_move(:)                  !! the number may change at this design
+      type(neighbour_t), private :: neighbour
+      type(column_observer_t), private :: observer
+   end type derivatives_t
+
+contains
+
+   !> Prepares the derivatives of a case that is solved by `solver`. Makes texts.
+   subroutine begin_derivatives(solver, k, columns, directions, self)
+      type(design_solver_t), intent(in) :: solver          !! the case was solved at its present numbers (solve_case_fully)
+      integer, intent(in) :: k                             !! the case, not refused by refuse_case
+      character(*), intent(in) :: columns(:)               !! of the table of the case, or of that of its compliance matrix
+      type(direction_t), intent(in) :: directions(:)
+      type(derivatives_t), intent(out) :: self
+
+      self%case = k
+      self%directions = directions
+      call begin_neighbour(solver, k, self%neighbour)
+      associate (result => solver%cases(k)%result)
+         call new_column_observer(result%suspension, result%case, columns, self%observer)
+      end associate
+      self%columns = self%observer%columns
+      allocate (self%can_move(size(directions)), source=.true.)
+   end subroutine begin_derivatives
+
+   !> Why a case has no derivatives: each state must be an equilibrium under inputs that belong to its swept value.
+   subroutine refuse_case(case, error)
+      type(case_t), intent(in) :: case
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+
+      if (case%method /= 'equilibrium') then
+         call fail(error, exit_usage, 'case '//quoted(case%name)//' has method '//quoted(case%method)//', whose states are not '// &
+            'equilibria: their derivatives depend on all states before them. Derivatives need method equilibrium')
+      else if (case%follows_arc) then
+         call fail(error, exit_usage, 'case '//quoted(case%name)//' has follow = ''arc'', where the swept value of a state '// &
+            'depends on the design. Derivatives need follow = ''factor''')
+      end if
+   end subroutine refuse_case
+
+   !> Derivatives at states of the path that the solver has found for the case. No text is made.
+   subroutine find_derivatives(solver, states, self)
+      type(design_solver_t), intent(inout) :: solver       !! the case is solved at its present numbers; its work space is used
+      integer, intent(in) :: states(:)
+      type(derivatives_t), intent(inout) :: self           !! of begin_derivatives
+      integer :: first, last, many
+
+      if (are_checked) call require(self%case > 0 .and. size(self%neighbour%x) == size(solver%x), &
+         'find_derivatives: call begin_derivatives first')
+      call allocate_results(size(states), self)
+      self%states = states
+      call follow_design(solver, self%neighbour)
+      associate (result => solver%cases(self%case)%result)
+         self%factor = result%path%value(states)/result%case%unit
+         ! motions are kept for as many states as fit
+         many = max(1, max_numbers/max(1, (size(self%directions) + kept_loads(self%observer) + 4)*result%kkt%n, &
+            6*size(self%columns)))
+         do first = 1, size(states), many
+            last = min(first + many - 1, size(states))
+            call derive(solver%x, result, first, last, self)
+         end do
+      end associate
+   end subroutine find_derivatives
+
+   subroutine allocate_results(states, self)
+      integer, intent(in) :: states
+      type(derivatives_t), intent(inout) :: self
+
+      if (allocated(self%slopes)) then
+         if (size(self%slopes, 3) /= states) deallocate (self%values, self%slopes, self%errors)
+      end if
+      associate (columns => size(self%columns), directions => size(self%directions))
+         if (.not. allocated(self%slopes)) allocate (self%values(columns, states), self%slopes(columns, directions, states), &
+            self%errors(columns, directions, states))
+      end associate
+      self%values(:, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      self%slopes(:, :, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      self%errors(:, :, :) = ieee_value(1.0_wp, ieee_quiet_nan)
+      self%can_move(:) = .true.
+   end subroutine allocate_results
+
+   !> Derivatives at the states first … last of self%states.
+   subroutine derive(x, result, first, last, self)
+      real(wp), intent(in) :: x(:)                         !! numbers of the design
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: first, last
+      type(derivatives_t), intent(inout) :: self
+      type(point_t), allocatable :: points(:)
+      type(inputs_t), allocatable :: inputs(:)             ! of each state
+      real(wp), allocatable :: values(:, :), kept(:, :, :)
+      type(change_t) :: changes(size(self%directions))
+      type(draft_t) :: draft
+      integer :: p, s
+
+      allocate (points(first:last), inputs(first:last))
+      allocate (values(size(self%columns), first:last), source=ieee_value(1.0_wp, ieee_quiet_nan))
+      allocate (kept(kept_loads(self%observer), result%kkt%n, first:last), source=0.0_wp)
+      call take_states(result, self%states(first:last), self%neighbour, points, inputs)
+      do s = first, last
+         if (.not. points(s)%is_regular) cycle
+         call observe_columns(result%suspension, points(s)%state, inputs(s), result%kkt, self%observer, values(:, s))
+         call keep_state(self%observer, kept(:, :, s))
+      end do
+      self%values(:, first:last) = values
+      do p = 1, size(self%directions)
+         call learn_number(x, self%directions(p), result, points, inputs, self%neighbour, draft, changes(p), self%can_move(p))
+      end do
+      if (is_adjoint(self)) then
+         call derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
+      else
+         call derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
+      end if
+   end subroutine derive
+
+   !> Whether a solution for each column costs less than one for each number.
+   pure logical function is_adjoint(self)
+      type(derivatives_t), intent(in) :: self
+      is_adjoint = size(self%columns) > 0 .and. 3*size(self%columns) <= size(self%directions) .and. reads_states(self%observer)
+   end function is_adjoint
+
+   !> Derivatives by the motions of the states.
+   subroutine derive_by_numbers(x, result, first, last, inputs, changes, values, kept, points, self)
+      real(wp), intent(in) :: x(:)                         !! numbers of the design
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: first, last
+      type(inputs_t), intent(in) :: inputs(first:)         !! of each state
+      type(change_t), intent(in) :: changes(:)             !! of learn_number
+      real(wp), intent(in) :: values(:, first:)            !! (column, state)
+      real(wp), intent(in) :: kept(:, :, first:)           !! of keep_state, of each state
+      type(point_t), intent(inout) :: points(first:)
+      type(derivatives_t), intent(inout) :: self
+      type(part_forces_t) :: parts
+      real(wp), allocatable :: motions(:, :, :), doubts(:, :)
+      integer :: p, s
+
+      allocate (doubts(size(self%directions), first:last), source=0.0_wp)
+      allocate (motions(result%kkt%n, size(self%directions), first:last), source=0.0_wp)
+      call choose_parts(result%suspension, changes, parts)
+      do s = first, last
+         if (.not. points(s)%is_regular) cycle
+         call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, motions(:, :, s), doubts(:, s))
+         call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(self%directions), motions(:, :, s), &
+            points(s)%is_regular)
+      end do
+      do p = 1, size(self%directions)
+         if (.not. self%can_move(p) .or. size(self%columns) == 0) cycle
+         call add_observations(x, p, result, points, inputs, values, kept, self, self%slopes(:, p, first:last), &
+            self%errors(:, p, first:last), motions(:, p, :))
+         do s = first, last
+            self%errors(:, p, s) = self%errors(:, p, s) + doubts(p, s)*abs(self%slopes(:, p, s))
+         end do
+      end do
+   end subroutine derive_by_numbers
+
+   !> Derivatives by the gradients of the columns: the adjoint way.
+   !> Equation (E.9) of docs/theory/derivatives.md.
+   subroutine derive_by_columns(x, result, first, last, inputs, changes, values, kept, points, self)
+      real(wp), intent(in) :: x(:)                         !! numbers of the design
+      type(case_result_t), intent(inout) :: result
+      integer, intent(in) :: first, last
+      type(inputs_t), intent(in) :: inputs(first:)         !! of each state
+      type(change_t), intent(in) :: changes(:)             !! of learn_number
+      real(wp), intent(in) :: values(:, first:)            !! (column, state)
+      real(wp), intent(in) :: kept(:, :, first:)           !! of keep_state, of each state
+      type(point_t), intent(inout) :: points(first:)
+      type(derivatives_t), intent(inout) :: self
+      type(part_forces_t) :: parts
+      type(state_t) :: moved
+      real(wp) :: forces(result%kkt%n, size(self%directions)), doubts(size(self%directions)), &
+         gradients(result%kkt%n, parts_of_gradient, size(self%columns)), share(parts_of_gradient)
+      integer :: c, p, s
+
+      ! at states that do not move
+      do p = 1, size(self%directions)
+         if (.not. self%can_move(p)) cycle
+         if (changes(p)%moves_wheels .or. .not. reads_wheels_only(self%observer)) then
+            call add_observations(x, p, result, points, inputs, values, kept, self, self%slopes(:, p, first:last), &
+               self%errors(:, p, first:last))
+            cycle
+         end if
+         do s = first, last
+            if (points(s)%is_regular) self%slopes(:, p, s) = 0.0_wp
+            if (points(s)%is_regular) self%errors(:, p, s) = 0.0_wp
+         end do
+      end do
+      call choose_parts(result%suspension, changes, parts)
+      moved = design_state(result%suspension)
+      do s = first, last
+         if (.not. points(s)%is_regular) cycle
+         call find_gradients(result%suspension, points(s)%state, inputs(s), result%kkt, self%observer, values(:, s), moved, &
+            gradients)
+         call solve_motions(result%suspension, points(s)%state, inputs(s), result%kkt, size(gradients)/result%kkt%n, gradients, &
+            points(s)%is_regular, is_transposed=.true.)
+         if (.not. points(s)%is_regular) then
+            self%slopes(:, :, s) = ieee_value(1.0_wp, ieee_quiet_nan)
+            self%errors(:, :, s) = ieee_value(1.0_wp, ieee_quiet_nan)
+            cycle
+         end if
+         forces = 0.0_wp
+         call add_forces(result, points(s)%state, inputs(s), s - first + 1, changes, parts, self, forces, doubts)
+         do p = 1, size(self%directions)
+            if (.not. self%can_move(p)) cycle
+            do c = 1, size(self%columns)
+               share = matmul(forces(:, p), gradients(:, :, c))
+               self%slopes(c, p, s) = self%slopes(c, p, s) + share(1)
+               self%errors(c, p, s) = self%errors(c, p, s) + abs(share(2)) + abs(share(3)) + doubts(p)*abs(share(1))
+            end do
+         end do
+      end do
+   end subroutine derive_by_columns
+
+   !> ∂F/∂p of all numbers at a state.
+   !> Equation (E.1) of docs/theory/derivatives.md.
+   subroutine add_forces(result, state, inputs, at, changes, parts, self, forces, doubts)
+      type(case_result_t), intent(in) :: result
+      type(state_t), intent(in) :: state
+      type(inputs_t), intent(in) :: inputs
+      integer, intent(in) :: at                            !! position of the state in the rates of the changes
+      type(change_t), intent(in) :: changes(:)
+      type(part_forces_t), intent(inout) :: parts          !! of choose_parts
+      type(derivatives_t), intent(in) :: self
+      real(wp), intent(inout) :: forces(:, :)              !! (unknown, number), zero
+      real(wp), intent(inout) :: doubts(:)                 !! corner of F, as a share of ∂F/∂p
+      real(wp) :: corner(size(forces, 1)), jump
+      integer :: p
+
+      call find_responses(result%suspension, state, parts)
+      do p = 1, size(changes)
+         if (.not. self%can_move(p)) cycle
+         if (changes(p)%has_curves) corner = 0.0_wp
+         call add_force(result%suspension, state, inputs, at, changes(p), parts, forces(:, p), corner)
+         doubts(p) = changes(p)%doubt
+         if (.not. changes(p)%has_curves) cycle
+         jump = norm2(corner*result%kkt%scale)
+         if (jump*self%directions(p)%step*sqrt(result%kkt%stiffness) > rounding) doubts(p) = max(doubts(p), &
+            jump/max(norm2(forces(:, p)*result%kkt%scale), jump))
+      end do
+   end subroutine add_forces
+
+   !> Difference quotients of the columns along the motions of the states, or at states that do not move, from the first stencil
+   !> whose points are all designs.
+   !> Equation (E.2) of docs/theory/derivatives.md.
+   subroutine add_observations(x, p, result, points, here, values, kept, self, slopes, errors, motions)
+      real(wp), intent(in) :: x(:)
+      integer, intent(in) :: p                             !! the direction
+      type(case_result_t), intent(in) :: result
+      type(point_t), intent(in) :: points(:)
+      type(inputs_t), intent(in) :: here(:)                !! of the design itself
+      real(wp), intent(in) :: values(:, :)                 !! (column, state)
+      real(wp), intent(in) :: kept(:, :, :)                !! of keep_state, of each state
+      type(derivatives_t), intent(inout) :: self
+      real(wp), intent(inout) :: slopes(:, :), errors(:, :)
+      real(wp), intent(in), optional :: motions(:, :)      !! (unknown, state)
+      type(inputs_t) :: inputs(size(points))
+      type(state_t) :: moved
+      real(wp) :: step(result%kkt%nq), y(size(values, 1), 4, size(points))
+      logical :: has_inputs
+      integer :: kind, k, s
+
+      moved = design_state(result%suspension)
+      do kind = 1, size(stencils)
+         do k = 1, 4
+            call go_to(x, self%directions(p), stencils(kind)%at(k), result, points, self%neighbour, inputs, has_inputs, &
+               self%can_move(p))
+            if (.not. self%can_move(p)) exit
+            if (.not. has_inputs) inputs = here
+            do s = 1, size(points)
+               if (.not. points(s)%is_regular) cycle
+               associate (there => self%neighbour%solver%cases(self%case)%result)
+                  if (present(motions)) then
+                     call displace(points(s)%state, motions(:, s), self%directions(p)%step*stencils(kind)%at(k), step, moved)
+                     call observe_columns(there%suspension, moved, inputs(s), there%kkt, self%observer, y(:, k, s), kept(:, :, s))
+                  else
+                     call observe_columns(there%suspension, points(s)%state, inputs(s), there%kkt, self%observer, y(:, k, s))
+                  end if
+               end associate
+            end do
+         end do
+         if (.not. self%can_move(p)) cycle
+         do s = 1, size(points)
+            if (points(s)%is_regular) call differentiate(stencils(kind), self%directions(p)%step, values(:, s), y(:, :, s), &
+               slopes(:, s), errors(:, s))
+         end do
+         return
+      end do
+   end subroutine add_observations
+
+end module ek_derivatives

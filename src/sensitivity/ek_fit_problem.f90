@@ -1,0 +1,305 @@
+!> A fit against its deck: its factors as directions with bounds and priors, its targets as wanted numbers, one per point.
+module ek_fit_problem
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_deck
+   use ek_text, only: str, quoted
+   use ek_table, only: table_t, read_csv, column_index, name_length
+   use ek_group, only: is_inside
+   use ek_deck, only: deck_t
+   use ek_study, only: by_value, by_scale, is_given, not_given
+   use ek_key_number, only: key_number_t, key_source_t, slope
+   use ek_design_solver, only: design_solver_t, case_number
+   use ek_direction, only: direction_t, find_directions
+   use ek_wanted_number, only: wanted_number_t, find_wanted, find_column
+   use ek_fit, only: fit_t, fit_factor_t, fit_target_t
+   implicit none(type, external)
+   private
+   public :: fit_problem_t, fit_variable_t, fit_point_t, make_problem
+
+   !> A factor.
+   type :: fit_variable_t
+      character(:), allocatable :: name
+      type(direction_t) :: direction
+      real(wp) :: start = 0.0_wp                           !! in the deck, in the unit of the direction
+      real(wp) :: lower = -huge(1.0_wp), upper = huge(1.0_wp)
+      real(wp) :: nominal = 0.0_wp, deviation              !! of the prior; deviation is not a number without one
+      real(wp) :: scale = 1.0_wp                           !! a change that counts as large
+      logical :: is_positive = .false.                     !! a rate, a mass, a multiple: known only if it is known to be above zero
+   end type fit_variable_t
+
+   !> One number that is fitted.
+   type :: fit_point_t
+      integer :: target = 0
+      real(wp) :: value, low, high                         !! wanted; not a number: not given
+      real(wp) :: deviation = 1.0_wp                       !! by which the difference is divided: standard deviation over weight
+   end type fit_point_t
+
+   type :: fit_problem_t
+      type(fit_variable_t), allocatable :: variables(:)
+      type(fit_point_t), allocatable :: points(:)
+      type(wanted_number_t), allocatable :: wanted(:)      !! of the points
+      logical :: knows_deviation = .false.                 !! the targets give standard deviations
+   end type fit_problem_t
+
+   real(wp), parameter :: steps = 1.0e3_wp                 !! of a direction that count as large: 10 mm, 0.6 deg, 10 % of a rate
+
+contains
+
+   !> Checks a fit against its deck; reports all mistakes. Nothing is solved.
+   subroutine make_problem(fit, home, deck, solver, problem, error)
+      type(fit_t), intent(in) :: fit
+      character(*), intent(in) :: home                     !! folder of the fit, with its slash
+      type(deck_t), intent(in) :: deck
+      type(design_solver_t), intent(in) :: solver          !! of the deck
+      type(fit_problem_t), intent(out) :: problem
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck
+      type(message_list_t) :: mistakes
+      integer :: k
+
+      allocate (problem%variables(0), problem%points(0), problem%wanted(0))
+      do k = 1, size(fit%factors)
+         call add_factor(fit%factors(k), deck, solver, problem%variables, mistakes)
+      end do
+      problem%knows_deviation = any(is_given(fit%targets%deviation))
+      do k = 1, size(fit%targets)
+         call add_target(fit, k, home, solver, problem, mistakes)
+      end do
+      if (mistakes%count() > 0) call fail(error, exit_deck, mistakes%text())
+   end subroutine make_problem
+
+   !> A factor, or with each = .true. as many as its paths lead to numbers.
+   subroutine add_factor(factor, deck, solver, variables, mistakes)
+      type(fit_factor_t), intent(in) :: factor
+      type(deck_t), intent(in) :: deck
+      type(design_solver_t), intent(in) :: solver
+      type(fit_variable_t), allocatable, intent(inout) :: variables(:)
+      type(message_list_t), intent(inout) :: mistakes
+      type(direction_t), allocatable :: found(:)
+      type(fit_variable_t) :: this
+      type(message_list_t) :: path
+      type(error_t), allocatable :: error
+      character(:), allocatable :: head
+      integer :: k, j, members
+
+      head = factor%where//': factor '//quoted(factor%name)//': '
+      members = 0
+      this%name = factor%name
+      do k = 1, size(factor%paths)
+         path = message_list_t()
+         call path%add(trim(factor%paths(k)))
+         call find_directions(solver%design, deck, path, found, error)
+         if (allocated(error)) then
+            call mistakes%add(head//error%message)
+            return
+         end if
+         do j = 1, size(found)
+            if (factor%is_each) this%name = found(j)%path
+            if (factor%is_each .or. members == 0) this%direction = first_member(factor, factor%weights(k), found(j))
+            members = members + 1
+            if (factor%is_each) call finish()
+            if (factor%is_each .or. members == 1) cycle
+            if (factor%change == by_value .and. abs(found(j)%value - this%direction%value) > 0.0_wp) then
+               call mistakes%add(head//'its paths lead to numbers of different sizes; give change = ''delta'' or ''scale''')
+               return
+            end if
+            call join(factor, factor%weights(k), found(j), this%direction)
+         end do
+      end do
+      if (.not. factor%is_each) call finish()
+
+   contains
+
+      !> Bounds and prior of the factor, which is then complete.
+      subroutine finish()
+         this%start = this%direction%value
+         this%lower = -huge(1.0_wp)
+         this%upper = huge(1.0_wp)
+         if (is_given(factor%lower)) this%lower = factor%lower
+         if (is_given(factor%upper)) this%upper = factor%upper
+         this%nominal = this%start
+         if (is_given(factor%nominal)) this%nominal = factor%nominal
+         this%deviation = factor%deviation
+         if (is_given(factor%tolerance)) this%deviation = factor%tolerance/3.0_wp
+         this%is_positive = factor%change == by_scale
+         associate (list => solver%design%parameters%list)
+            if (factor%change == by_value) this%is_positive = .not. is_inside(list(this%direction%found(1)%number)%range, -1.0_wp)
+         end associate
+         this%scale = steps*this%direction%step
+         if (is_given(this%deviation)) this%scale = 3.0_wp*this%deviation
+         if (is_given(factor%lower) .and. is_given(factor%upper)) this%scale = factor%upper - factor%lower
+         variables = [variables, this]
+      end subroutine finish
+
+   end subroutine add_factor
+
+   !> The direction of the first number of a factor.
+   function first_member(factor, weight, number) result(direction)
+      type(fit_factor_t), intent(in) :: factor
+      real(wp), intent(in) :: weight
+      type(direction_t), intent(in) :: number
+      type(direction_t) :: direction
+
+      direction = number
+      if (factor%change == by_value) return
+      deallocate (direction%found)
+      allocate (direction%found(0))
+      direction%value = 0.0_wp
+      if (factor%change == by_scale) then
+         direction%value = 1.0_wp
+         direction%unit = ''
+         direction%si = 1.0_wp
+         direction%step = 1.0e-4_wp
+      end if
+      call join(factor, weight, number, direction)
+   end function first_member
+
+   !> Adds a number that moves with the others of a factor. A weight is a factor of its sign: all that a direction needs.
+   subroutine join(factor, weight, number, direction)
+      type(fit_factor_t), intent(in) :: factor
+      real(wp), intent(in) :: weight
+      type(direction_t), intent(in) :: number
+      type(direction_t), intent(inout) :: direction
+      integer :: j, many
+
+      many = size(direction%found)
+      direction%found = [direction%found, number%found]
+      do j = many + 1, size(direction%found)
+         associate (sign => direction%found(j)%sign)
+            if (factor%change == by_scale) then
+               sign = sign*weight*number%value*number%si
+            else
+               sign = sign*weight*number%si/direction%si
+            end if
+         end associate
+      end do
+   end subroutine join
+
+   !> The points of a target.
+   subroutine add_target(fit, k, home, solver, problem, mistakes)
+      type(fit_t), intent(in) :: fit
+      integer, intent(in) :: k
+      character(*), intent(in) :: home
+      type(design_solver_t), intent(in) :: solver
+      type(fit_problem_t), intent(inout) :: problem
+      type(message_list_t), intent(inout) :: mistakes
+      type(wanted_number_t) :: wanted
+      type(wanted_number_t), allocatable :: list(:)
+      type(fit_point_t) :: point
+      type(fit_point_t), allocatable :: points(:)
+      type(table_t) :: curve
+      type(error_t), allocatable :: error
+      character(name_length), allocatable :: heads(:)
+      character(:), allocatable :: case, head
+      integer :: c, row, used, places(4)
+
+      associate (this => fit%targets(k))
+         head = this%where//': target '//quoted(this%name)//': '
+         case = this%case
+         if (case == '') case = fit%case
+         c = case_number(case, solver)
+         if (c == 0) then
+            call mistakes%add(head//'the deck has no case '//quoted(case)//', and there is no standard test of this name')
+            return
+         end if
+         if (this%over /= 'factor' .or. this%is_slope) then
+            call find_column(solver, c, this%quantity, trim(this%over), this%at, wanted, heads)
+            if (wanted%case == 0) then
+               call mistakes%add(head//'case '//quoted(solver%cases(c)%case%name)//' has no columns '//quoted(this%quantity)// &
+                  ' and '//quoted(trim(this%over)))
+               return
+            end if
+            if (this%is_slope) call make_slope(this, wanted)
+         else
+            call find_wanted(solver, c, this%quantity, this%at, wanted, error)
+            if (allocated(error)) then
+               call mistakes%add(head//error%message)
+               return
+            end if
+         end if
+         point%target = k
+         point%deviation = 1.0_wp
+         if (is_given(this%deviation)) point%deviation = this%deviation
+         if (.not. this%weight > 0.0_wp) return
+         point%deviation = point%deviation/this%weight
+         point%value = this%value
+         point%low = this%low
+         point%high = this%high
+         if (this%file == '') then
+            problem%wanted = [problem%wanted, wanted]
+            problem%points = [problem%points, point]
+            return
+         end if
+         if (allocated(wanted%key)) then
+            call mistakes%add(head//'a key number is one value and has no curve; give value')
+            return
+         end if
+         call read_csv(path_of(this%file), curve, error)
+         if (allocated(error)) then
+            call mistakes%add(head//error%message)
+            return
+         end if
+         places = [column_index(curve, trim(this%over)), column_index(curve, trim(this%column)), column_index(curve, 'low'), &
+            column_index(curve, 'high')]
+         if (places(1) == 0 .or. all(places(2:) == 0)) then
+            call mistakes%add(head//path_of(this%file)//' must have the columns '//trim(this%over)//' and '//trim(this%column)// &
+               ', or low, or high')
+            return
+         end if
+         allocate (points(size(curve%values, 2)))
+         allocate (list(size(points)), source=wanted)
+         used = 0
+         do row = 1, size(curve%values, 2)
+            point%value = cell(places(2))
+            point%low = cell(places(3))
+            point%high = cell(places(4))
+            wanted%at = curve%values(places(1), row)
+            if (.not. ieee_is_finite(wanted%at)) cycle
+            if (.not. (is_given(point%value) .or. is_given(point%low) .or. is_given(point%high))) cycle
+            wanted%reach = merge(0.0_wp, huge(1.0_wp), abs(wanted%at) <= 0.0_wp .and. this%over == 'factor')
+            used = used + 1
+            list(used) = wanted
+            points(used) = point
+         end do
+         problem%wanted = [problem%wanted, list(:used)]
+         problem%points = [problem%points, points(:used)]
+         if (used == 0) call mistakes%add(head//path_of(this%file)//' has no row with a number')
+      end associate
+
+   contains
+
+      real(wp) function cell(place)
+         integer, intent(in) :: place
+         cell = not_given()
+         if (place > 0) cell = curve%values(place, row)
+      end function cell
+
+      function path_of(file) result(path)
+         character(*), intent(in) :: file
+         character(:), allocatable :: path
+         path = file
+         if (index(file, '/') /= 1) path = home//file
+      end function path_of
+
+   end subroutine add_target
+
+   !> A slope within a window of design, read as a gradient of the report is.
+   subroutine make_slope(target, wanted)
+      type(fit_target_t), intent(in) :: target
+      type(wanted_number_t), intent(inout) :: wanted
+      type(key_number_t) :: key
+      type(key_source_t) :: source
+
+      source%test = wanted%case
+      source%column(1) = wanted%column
+      source%over(1) = target%over
+      source%half = target%window
+      key%how = slope
+      key%sources = [source]
+      wanted%key = key
+      wanted%unit = wanted%unit//' per '//trim(target%over)
+      wanted%column = ''
+      wanted%reach = [huge(1.0_wp)]
+   end subroutine make_slope
+
+end module ek_fit_problem

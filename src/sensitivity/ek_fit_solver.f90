@@ -1,0 +1,134 @@
+!> The factors of a fit at which its targets are met best: weighted least squares within bounds, with priors.
+!>
+!>     Σ ((y − target)/deviation)² + Σ (beyond a limit/deviation)² + Σ ((factor − nominal)/deviation of the prior)²
+module ek_fit_solver
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_convergence
+   use ek_bounded_search, only: bounded_search_t, begin_search, advance_search
+   use ek_design_solver, only: design_solver_t
+   use ek_direction, only: direction_t
+   use ek_study, only: is_given
+   use ek_wanted_values, only: wanted_values_t, begin_values, find_values
+   use ek_fit_problem, only: fit_problem_t, fit_point_t
+   implicit none(type, external)
+   private
+   public :: fit_result_t, solve_fit, difference_of, is_at_work
+
+   type :: fit_result_t
+      real(wp), allocatable :: x(:)                  !! of the factors
+      integer, allocatable :: held(:)                !! −1, +1: a factor stays at its lower or upper bound; 0: between them
+      real(wp), allocatable :: before(:), after(:)   !! of the points, at the start and now
+      real(wp), allocatable :: jacobian(:, :)        !! (point, factor), in their units
+      real(wp) :: sum_before = 0.0_wp, sum_after = 0.0_wp     !! of the squares above
+      integer :: steps = 0, sweeps = 0               !! iterations; designs that were solved
+      integer :: ended = 0                           !! of ek_bounded_search; 0: the iterations were used up
+   end type fit_result_t
+
+contains
+
+   !> Solves a fit; the solver keeps the design found. Makes texts.
+   subroutine solve_fit(problem, iterations, solver, found, error)
+      type(fit_problem_t), intent(in) :: problem
+      integer, intent(in) :: iterations                    !! at most
+      type(design_solver_t), intent(inout) :: solver
+      type(fit_result_t), intent(out) :: found
+      type(error_t), allocatable, intent(out) :: error
+      type(wanted_values_t) :: values
+      type(bounded_search_t) :: search
+      type(direction_t), allocatable :: directions(:)
+      real(wp), allocatable :: r(:), jacobian(:, :), tried(:)
+      logical :: is_valid
+      integer :: f
+
+      associate (variables => problem%variables)
+         allocate (directions(size(variables)))
+         do f = 1, size(variables)
+            directions(f) = variables(f)%direction
+         end do
+         call begin_values(problem%wanted, directions, solver, values, error)
+         if (allocated(error)) return
+         allocate (r(size(problem%points) + size(variables)))
+         allocate (jacobian(size(r), size(variables)))
+         call begin_search(variables%start, variables%lower, variables%upper, variables%scale, search)
+         do
+            tried = search%x
+            call find_values(tried - variables%start, solver, values, is_valid)
+            call find_residuals(problem, tried, values, r, jacobian)
+            call advance_search(r, jacobian, is_valid, search)
+            if (.not. allocated(search%residuals)) exit
+            if (.not. allocated(found%before)) then
+               found%before = values%values
+               found%sum_before = sum(r**2)
+            end if
+            if (is_valid .and. all(abs(search%best - tried) <= 0.0_wp)) then
+               found%after = values%values
+               found%jacobian = values%jacobian
+            end if
+            if (search%is_finished .or. search%steps >= iterations) exit
+         end do
+         if (.not. allocated(search%residuals)) then
+            call fail(error, exit_convergence, 'the targets have no value or no derivative where the search begins')
+            return
+         end if
+         if (any(abs(search%best - tried) > 0.0_wp)) call find_values(search%best - variables%start, solver, values, is_valid)
+         found%x = search%best
+         found%held = search%held
+         where (found%x > variables%lower .and. found%x < variables%upper) found%held = 0
+      end associate
+      found%sum_after = sum(search%residuals**2)
+      found%steps = search%steps
+      found%sweeps = values%sweeps
+      found%ended = search%ended
+   end subroutine solve_fit
+
+   !> All differences with their derivatives; those of priors at the end, zero without one.
+   !> Equation (E.5) of docs/theory/derivatives.md.
+   subroutine find_residuals(problem, x, values, r, jacobian)
+      type(fit_problem_t), intent(in) :: problem
+      real(wp), intent(in) :: x(:)
+      type(wanted_values_t), intent(in) :: values
+      real(wp), intent(out) :: r(:), jacobian(:, :)
+      integer :: f, k
+
+      r = 0.0_wp
+      jacobian = 0.0_wp
+      do k = 1, size(problem%points)
+         if (.not. ieee_is_finite(values%values(k))) return
+         if (.not. is_at_work(problem%points(k), values%values(k))) cycle
+         r(k) = difference_of(problem%points(k), values%values(k))
+         jacobian(k, :) = values%jacobian(k, :)/problem%points(k)%deviation
+      end do
+      do f = 1, size(x)
+         associate (this => problem%variables(f))
+            if (.not. is_given(this%deviation)) cycle
+            r(k - 1 + f) = (x(f) - this%nominal)/this%deviation
+            jacobian(k - 1 + f, f) = 1.0_wp/this%deviation
+         end associate
+      end do
+   end subroutine find_residuals
+
+   !> By how many deviations a value misses its target; 0 between limits.
+   !> Equation (E.5) of docs/theory/derivatives.md.
+   pure real(wp) function difference_of(point, value) result(difference)
+      type(fit_point_t), intent(in) :: point
+      real(wp), intent(in) :: value
+
+      difference = 0.0_wp
+      if (is_given(point%value)) difference = value - point%value
+      if (is_given(point%high)) difference = difference + max(0.0_wp, value - point%high)
+      if (is_given(point%low)) difference = difference - max(0.0_wp, point%low - value)
+      difference = difference/point%deviation
+   end function difference_of
+
+   !> Whether a point pulls at the fit: it has a value, or its limit is exceeded.
+   pure logical function is_at_work(point, value)
+      type(fit_point_t), intent(in) :: point
+      real(wp), intent(in) :: value
+
+      is_at_work = is_given(point%value)
+      if (is_given(point%high)) is_at_work = is_at_work .or. value > point%high
+      if (is_given(point%low)) is_at_work = is_at_work .or. value < point%low
+   end function is_at_work
+
+end module ek_fit_solver

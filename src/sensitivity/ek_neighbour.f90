@@ -1,0 +1,228 @@
+!> The neighbouring designs of a design, on the rig of a case: realised, balanced and mounted like any other, one after the other.
+module ek_neighbour
+   use ek_kinds, only: wp
+   use ek_case, only: case_t
+   use ek_suspension, only: suspension_t, copy_numbers
+   use ek_rotation, only: perpendicular
+   use ek_state, only: state_t, inputs_t, design_state, unpack_state
+   use ek_schedule, only: schedule_t, make_schedule, inputs_at, same_schedule
+   use ek_path, only: path_t, new_path
+   use ek_case_result, only: case_result_t
+   use ek_design_solver, only: design_solver_t, put_numbers, mount_numbers
+   use ek_direction, only: direction_t, move_along
+   use ek_stencil, only: stencil_t, stencils, close_pair, close_four
+   use ek_part_change, only: change_t, draft_t, begin_draft, learn_neighbour, finish_draft
+   implicit none(type, external)
+   private
+   public :: neighbour_t, point_t, begin_neighbour, follow_design, take_states, learn_number, go_to
+
+   real(wp), parameter :: balance_tolerance = 1.0e-13_wp      !! m: balance 'spring' iterates; its error is divided by a step
+
+   !> A design close to another one.
+   type :: neighbour_t
+      integer :: case = 0                                  !! number of the case in the solver
+      type(design_solver_t) :: solver                      !! the same deck, at the numbers of the neighbour
+      real(wp), allocatable :: x(:)
+      type(schedule_t), private :: here, schedule          !! of the design, of the neighbour
+      type(path_t), private :: path
+   end type neighbour_t
+
+   !> One state of the design.
+   type :: point_t
+      integer :: number = 0                      !! of the path
+      logical :: is_regular = .false.            !! it was reached, and its tangent is regular
+      type(state_t) :: state
+   end type point_t
+
+contains
+
+   !> Prepares the neighbours of a design. Makes texts.
+   subroutine begin_neighbour(solver, k, self)
+      type(design_solver_t), intent(in) :: solver          !! the case was solved at its present numbers
+      integer, intent(in) :: k                             !! the case
+      type(neighbour_t), intent(inout) :: self
+
+      self%case = k
+      self%solver = solver
+      ! they keep the reference points of the design, also of bodies for which the deck names a point that moves
+      self%solver%design%plan%bodies%origin = 0
+      self%x = solver%x
+   end subroutine begin_neighbour
+
+   !> Takes the present design: what does not change in the neighbours is then equal to the bit.
+   subroutine follow_design(solver, self)
+      type(design_solver_t), intent(in) :: solver
+      type(neighbour_t), intent(inout) :: self
+
+      call copy_numbers(solver%raw, self%solver%raw)
+      self%solver%raw%bodies%has_origin = .true.
+      call keep_choices(solver%raw, self%solver%raw)
+   end subroutine follow_design
+
+   !> The neighbours keep the directions that the rows of joints take across an axis. The free choice is the global axis with the
+   !> least component along it; where two are equal it changes between neighbours, and λ would have another meaning in each.
+   subroutine keep_choices(design, neighbour)
+      type(suspension_t), intent(in) :: design
+      type(suspension_t), intent(inout) :: neighbour
+      integer :: k
+
+      do k = 1, size(design%joints)
+         neighbour%joints(k)%across = 0.0_wp
+         if (design%joints(k)%is_of_measures) cycle
+         if (norm2(design%joints(k)%axis(:, 1)) > 0.0_wp) neighbour%joints(k)%across = perpendicular(design%joints(k)%axis(:, 1))
+      end do
+   end subroutine keep_choices
+
+   !> Whether the axes of the bushings are close to those of the design: where a deck gives one axis, the same free choice gives the
+   !> other, and where it changes a rate or a column has no derivative.
+   pure logical function has_same_axes(a, b)
+      type(suspension_t), intent(in) :: a, b
+      real(wp), parameter :: close = 0.1_wp
+      integer :: k
+
+      has_same_axes = .true.
+      do k = a%scalars + 1, size(a%elements)
+         if (any(abs(a%elements(k)%bushing%axes - b%elements(k)%bushing%axes) > close)) has_same_axes = .false.
+      end do
+   end function has_same_axes
+
+   !> The states and their inputs.
+   subroutine take_states(result, states, self, points, inputs)
+      type(case_result_t), intent(in) :: result
+      integer, intent(in) :: states(:)
+      type(neighbour_t), intent(inout) :: self
+      type(point_t), intent(inout) :: points(:)
+      type(inputs_t), intent(inout) :: inputs(:)
+      integer :: s
+
+      call make_schedule(result%suspension, result%case, self%here)
+      do s = 1, size(states)
+         points(s)%number = states(s)
+         points(s)%state = design_state(result%suspension)
+         points(s)%is_regular = result%path%is_reached(states(s))
+         if (.not. points(s)%is_regular) cycle
+         call unpack_state(result%path%packed(:, states(s)), points(s)%state)
+         call inputs_at(self%here, result%path%value(states(s)), inputs(s))
+      end do
+   end subroutine take_states
+
+   !> What a number changes in the parts of the model: from two neighbours close by, or four where the axes of a bushing may turn:
+   !> between a stiff and a soft axis rates and preloads curve a hundred times as much as the angle. Where a law that is not linear
+   !> changes, and at the end of the range of the number, from the first stencil whose points are all designs.
+   subroutine learn_number(x, direction, result, points, here, self, draft, change, can_move)
+      real(wp), intent(in) :: x(:)
+      type(direction_t), intent(in) :: direction
+      type(case_result_t), intent(in) :: result
+      type(point_t), intent(in) :: points(:)
+      type(inputs_t), intent(in) :: here(:)                !! of the design itself
+      type(neighbour_t), intent(inout) :: self
+      type(draft_t), intent(inout) :: draft                !! work space
+      type(change_t), intent(inout) :: change
+      logical, intent(out) :: can_move                     !! .false.: no stencil has designs alone
+      integer :: kind
+
+      call visit_neighbours(x, direction, close_pair, result, points, here, self, draft, change, can_move)
+      if (can_move .and. change%has_axes .and. .not. change%has_curves) &
+         call visit_neighbours(x, direction, close_four, result, points, here, self, draft, change, can_move)
+      do kind = 1, size(stencils)
+         if (can_move .and. .not. change%has_curves) return
+         call visit_neighbours(x, direction, stencils(kind), result, points, here, self, draft, change, can_move)
+         if (can_move) return
+      end do
+   end subroutine learn_number
+
+   !> The change by the points of a stencil; can_move is .false. if one of them is no design.
+   subroutine visit_neighbours(x, direction, stencil, result, points, here, self, draft, change, can_move)
+      real(wp), intent(in) :: x(:)
+      type(direction_t), intent(in) :: direction
+      type(stencil_t), intent(in) :: stencil
+      type(case_result_t), intent(in) :: result
+      type(point_t), intent(in) :: points(:)
+      type(inputs_t), intent(in) :: here(:)
+      type(neighbour_t), intent(inout) :: self
+      type(draft_t), intent(inout) :: draft
+      type(change_t), intent(inout) :: change
+      logical, intent(out) :: can_move
+      type(inputs_t) :: there(size(points))
+      logical :: has_inputs
+      integer :: k
+
+      call begin_draft(result%suspension, stencil, direction%step, draft, change)
+      do k = 1, stencil%points
+         call go_to(x, direction, stencil%at(k), result, points, self, there, has_inputs, can_move)
+         if (.not. can_move) return
+         call learn_neighbour(result%suspension, self%solver%cases(self%case)%result%suspension, k, change, draft)
+         if (has_inputs) call add_rates(points, here, there, change%weight(k), change%rates)
+      end do
+      call finish_draft(direction%step, draft, change)
+   end subroutine visit_neighbours
+
+   !> Adds the share of a neighbour in the derivatives of the inputs.
+   subroutine add_rates(points, here, there, weight, rates)
+      type(point_t), intent(in) :: points(:)
+      type(inputs_t), intent(in) :: here(:), there(:)      !! of each state, the same loads and rows
+      real(wp), intent(in) :: weight
+      type(inputs_t), allocatable, intent(inout) :: rates(:)
+      integer :: s
+
+      if (.not. allocated(rates)) then
+         rates = here
+         do s = 1, size(rates)
+            rates(s)%factor = 0.0_wp
+            rates(s)%change = 0.0_wp
+         end do
+      end if
+      do s = 1, size(rates)
+         if (.not. points(s)%is_regular) cycle
+         rates(s)%factor = rates(s)%factor + weight*(there(s)%factor - here(s)%factor)
+         rates(s)%change = rates(s)%change + weight*(there(s)%change - here(s)%change)
+      end do
+   end subroutine add_rates
+
+   !> Puts the neighbour on the rig with a number changed, with the inputs of the states.
+   subroutine go_to(x, direction, steps, result, points, self, inputs, has_inputs, is_done)
+      real(wp), intent(in) :: x(:)
+      type(direction_t), intent(in) :: direction
+      real(wp), intent(in) :: steps                        !! of the direction
+      type(case_result_t), intent(in) :: result            !! of the design itself
+      type(point_t), intent(in) :: points(:)
+      type(neighbour_t), intent(inout) :: self
+      type(inputs_t), intent(inout) :: inputs(:)
+      logical, intent(out) :: has_inputs                   !! they differ from those of the design; otherwise they are not set
+      logical, intent(out) :: is_done                      !! .false.: there is no such design with the same states
+      real(wp) :: place
+      integer :: s
+
+      self%x(:) = x
+      call move_along(direction, steps*direction%step, self%x)
+      call put_numbers(self%x, self%solver)
+      call mount_numbers(self%case, balance_tolerance, self%solver, is_done)
+      has_inputs = .false.
+      if (.not. is_done) return
+      associate (there => self%solver%cases(self%case)%result, path => result%path)
+         is_done = has_same_axes(result%suspension, there%suspension)
+         if (.not. is_done) return
+         call make_schedule(there%suspension, there%case, self%schedule)
+         has_inputs = has_other_range(there%case, result%case) .or. .not. same_schedule(self%schedule, self%here)
+         if (.not. has_inputs) return
+         if (has_other_range(there%case, result%case)) then
+            call new_path(there%suspension, there%case, self%path)
+            is_done = self%path%states == path%states .and. self%path%start == path%start
+            if (.not. is_done) return
+         end if
+         do s = 1, size(points)
+            if (.not. points(s)%is_regular) cycle
+            place = path%value(points(s)%number)
+            if (has_other_range(there%case, result%case)) place = self%path%value(points(s)%number)
+            call inputs_at(self%schedule, place, inputs(s))
+         end do
+      end associate
+   end subroutine go_to
+
+   !> Whether the swept values of two designs of a case differ.
+   pure logical function has_other_range(a, b)
+      type(case_t), intent(in) :: a, b
+      has_other_range = abs(a%from - b%from) > 0.0_wp .or. abs(a%to - b%to) > 0.0_wp
+   end function has_other_range
+
+end module ek_neighbour

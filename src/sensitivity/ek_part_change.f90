@@ -1,0 +1,391 @@
+!> How the numbers of the parts of a model change with a number of the deck: once for a design, from its neighbours.
+!>
+!> A number of the deck touches a few joints, elements and loads; the derivatives of their numbers are differences of neighbouring
+!> designs. What F makes of them at a state: ek_part_force.
+module ek_part_change
+   use ek_kinds, only: wp
+   use ek_suspension, only: suspension_t, wheel_t
+   use ek_state, only: inputs_t
+   use ek_measure, only: measure_t
+   use ek_law, only: law_t
+   use ek_curve, only: curve_t
+   use ek_element, only: element_t, bushing_element, is_linear
+   use ek_row, only: row_t, term_t
+   use ek_load, only: load_t
+   use ek_stencil, only: stencil_t, weight_of, corner_weight
+   implicit none(type, external)
+   private
+   public :: change_t, term_change_t, element_change_t, load_change_t
+   public :: draft_t, begin_draft, learn_neighbour, finish_draft, mark_parts
+
+   real(wp), parameter :: rounding = 1.0e-6_wp             !! N, N m: smaller corners of preloads are not looked for
+
+   !> Of a term: ∂(number)/∂p.
+   type :: term_change_t
+      integer :: term = 0, row = 0
+      logical :: is_touched = .false., has_arms = .false., has_directions = .false.
+      real(wp) :: arms(6) = 0.0_wp, u(3) = 0.0_wp, v(3) = 0.0_wp, coefficient = 0.0_wp
+   end type term_change_t
+
+   !> Of a row.
+   type :: row_change_t
+      integer :: row = 0
+      logical :: is_touched = .false.
+      real(wp) :: target = 0.0_wp, compliance = 0.0_wp
+   end type row_change_t
+
+   !> Of an element.
+   type :: element_change_t
+      integer :: element = 0
+      logical :: is_touched = .false., has_arms = .false., has_directions = .false., has_stiffness = .false., has_load = .false.
+      real(wp) :: arms(6) = 0.0_wp, u(3) = 0.0_wp, v(3) = 0.0_wp
+      real(wp) :: preload = 0.0_wp, reference = 0.0_wp, rate = 0.0_wp               ! one measure
+      real(wp) :: load(6) = 0.0_wp, gap(3) = 0.0_wp, stiffness_t(3, 3) = 0.0_wp, stiffness_r(3, 3) = 0.0_wp   ! bushing
+      type(element_t), allocatable :: there(:)   ! of the neighbours, with the markers of the design: laws that are not linear
+      ! of each neighbour: preload and reference, or preloads and gap of a bushing with curves. What makes a law another one may be a
+      ! rounding error that some of the neighbours do not have
+      real(wp) :: held(9, 4) = 0.0_wp
+      logical :: is_held(4) = .false.
+   end type element_change_t
+
+   !> Of a load: those of the neighbours, without names.
+   type :: load_change_t
+      integer :: load = 0
+      logical :: is_touched = .false.
+      type(load_t) :: there(4)
+   end type load_change_t
+
+   !> What a number of the deck changes.
+   type :: change_t
+      type(term_change_t), allocatable :: terms(:)
+      type(row_change_t), allocatable :: rows(:)
+      type(element_change_t), allocatable :: elements(:)
+      type(load_change_t), allocatable :: loads(:)
+      type(inputs_t), allocatable :: rates(:)            !! of the inputs of each state, if they change
+      real(wp) :: weight(4) = 0.0_wp, corner(4) = 0.0_wp !! of the neighbours in a derivative, and in half the change of a slope
+      real(wp) :: doubt = 0.0_wp                         !! corner of preloads, as a share of their change
+      logical :: moves_wheels = .false.                  !! numbers of wheels change
+      logical :: has_axes = .false.                      !! the rates of a bushing change, in the axes of its body
+      logical :: has_curves = .false.                    !! a law that is not linear changes: F may have a corner
+   end type change_t
+
+   !> The same of all parts, while the neighbours are visited.
+   type :: draft_t
+      type(term_change_t), allocatable, private :: terms(:)
+      type(row_change_t), allocatable, private :: rows(:)
+      type(element_change_t), allocatable, private :: elements(:)
+      type(load_change_t), allocatable, private :: loads(:)
+      real(wp), allocatable, private :: bends(:, :)      ! corners of the preloads of each element
+   end type draft_t
+
+contains
+
+   !> Begins with a number that changes nothing.
+   subroutine begin_draft(suspension, stencil, step, draft, change)
+      type(suspension_t), intent(in) :: suspension
+      type(stencil_t), intent(in) :: stencil
+      real(wp), intent(in) :: step
+      type(draft_t), intent(inout) :: draft
+      type(change_t), intent(out) :: change
+      integer :: k
+
+      if (.not. allocated(draft%terms)) allocate (draft%terms(size(suspension%terms)), draft%rows(size(suspension%rows)), &
+         draft%elements(size(suspension%elements)), draft%loads(size(suspension%loads)), draft%bends(7, size(suspension%elements)))
+      do k = 1, size(draft%terms)
+         if (draft%terms(k)%is_touched) draft%terms(k) = term_change_t()
+      end do
+      do k = 1, size(draft%rows)
+         if (draft%rows(k)%is_touched) draft%rows(k) = row_change_t()
+      end do
+      do k = 1, size(draft%elements)
+         if (draft%elements(k)%is_touched) draft%elements(k) = element_change_t()
+      end do
+      do k = 1, size(draft%loads)
+         draft%loads(k)%is_touched = .false.
+      end do
+      draft%bends(:, :) = 0.0_wp
+      do k = 1, 4
+         change%weight(k) = weight_of(stencil, k)/step
+         change%corner(k) = corner_weight(stencil, k)/step
+      end do
+   end subroutine begin_draft
+
+   !> Adds what differs in neighbour k of the stencil.
+   !> Equation (E.7) of docs/theory/derivatives.md.
+   subroutine learn_neighbour(here, there, k, change, draft)
+      type(suspension_t), intent(in) :: here, there        !! the design and its neighbour, on the same rig
+      integer, intent(in) :: k
+      type(change_t), intent(inout) :: change
+      type(draft_t), intent(inout) :: draft
+      integer :: r, t, e
+
+      change%moves_wheels = change%moves_wheels .or. .not. all(same_wheel(here%wheels, there%wheels))
+      do r = 1, size(here%rows)
+         call learn_row(here%rows(r), there%rows(r), r, change%weight(k), draft%rows(r))
+         do t = here%rows(r)%first, here%rows(r)%first + here%rows(r)%terms - 1
+            call learn_term(here%terms(t), there%terms(t), t, r, change%weight(k), draft%terms(t))
+         end do
+      end do
+      do e = 1, size(here%elements)
+         if (here%elements(e)%kind == bushing_element) then
+            call learn_bushing(here%elements(e), there%elements(e), e, k, change, draft%elements(e), draft%bends(:, e))
+         else
+            call learn_spring(here%elements(e), there%elements(e), e, k, change, draft%elements(e), draft%bends(:, e))
+         end if
+      end do
+      do e = 1, size(here%loads)
+         call learn_load(here%loads(e), there%loads(e), e, k, draft%loads(e))
+      end do
+   end subroutine learn_neighbour
+
+   !> Keeps what the number touches.
+   subroutine finish_draft(step, draft, change)
+      real(wp), intent(in) :: step
+      type(draft_t), intent(inout) :: draft
+      type(change_t), intent(inout) :: change
+      real(wp) :: jump
+      integer :: k, used
+
+      change%terms = pack(draft%terms, draft%terms%is_touched)
+      change%rows = pack(draft%rows, draft%rows%is_touched)
+      change%loads = pack(draft%loads, draft%loads%is_touched)
+      allocate (change%elements(count(draft%elements%is_touched)))
+      used = 0
+      do k = 1, size(draft%elements)
+         if (.not. draft%elements(k)%is_touched) cycle
+         used = used + 1
+         if (allocated(draft%elements(k)%there)) call put_held(draft%elements(k))
+         change%elements(used) = draft%elements(k)
+         change%has_curves = change%has_curves .or. allocated(draft%elements(k)%there)
+         change%has_axes = change%has_axes .or. draft%elements(k)%has_stiffness
+      end do
+      jump = sum(abs(draft%bends))
+      if (jump*step > rounding) change%doubt = jump/(jump + sum(abs(change%elements%preload)) + &
+         sum([(sum(abs(change%elements(k)%load)), k=1, used)]))
+   end subroutine finish_draft
+
+   !> Gives the laws of the neighbours their preloads.
+   pure subroutine put_held(change)
+      type(element_change_t), intent(inout) :: change
+      integer :: k
+
+      do k = 1, 4
+         if (.not. change%is_held(k)) cycle
+         associate (there => change%there(k), held => change%held(:, k))
+            if (there%kind == bushing_element) then
+               there%bushing%preload_force = held(1:3)
+               there%bushing%preload_moment = held(4:6)
+               there%bushing%gap0 = held(7:9)
+            else
+               there%preload = held(1)
+               there%law%reference = held(2)
+            end if
+         end associate
+      end do
+   end subroutine put_held
+
+   !> Marks the parts that the number touches and whose response it needs.
+   pure subroutine mark_parts(change, terms, elements)
+      type(change_t), intent(in) :: change
+      logical, intent(inout) :: terms(:), elements(:)
+
+      terms(change%terms%term) = .true.
+      elements(change%elements%element) = .true.
+   end subroutine mark_parts
+
+   !> Whether the numbers of a wheel from which its attitude follows are the same.
+   elemental logical function same_wheel(a, b)
+      type(wheel_t), intent(in) :: a, b
+      same_wheel = .not. (any(abs(a%centre - b%centre) > 0.0_wp) .or. any(abs(a%contact - b%contact) > 0.0_wp) .or. &
+         any(abs(a%spin - b%spin) > 0.0_wp) .or. any(abs(a%steer_axis - b%steer_axis) > 0.0_wp))
+   end function same_wheel
+
+   pure subroutine learn_row(here, there, number, weight, change)
+      type(row_t), intent(in) :: here, there
+      integer, intent(in) :: number
+      real(wp), intent(in) :: weight
+      type(row_change_t), intent(inout) :: change
+
+      if (.not. (abs(there%target - here%target) > 0.0_wp .or. abs(there%compliance - here%compliance) > 0.0_wp)) return
+      change%row = number
+      change%is_touched = .true.
+      change%target = change%target + weight*(there%target - here%target)
+      change%compliance = change%compliance + weight*(there%compliance - here%compliance)
+   end subroutine learn_row
+
+   pure subroutine learn_term(here, there, number, row, weight, change)
+      type(term_t), intent(in) :: here, there
+      integer, intent(in) :: number, row
+      real(wp), intent(in) :: weight
+      type(term_change_t), intent(inout) :: change
+
+      call learn_measure(here%measure, there%measure, weight, change%arms, change%u, change%v, change%has_arms, &
+         change%has_directions)
+      change%coefficient = change%coefficient + weight*(there%coefficient - here%coefficient)
+      if (.not. (change%has_arms .or. change%has_directions .or. abs(there%coefficient - here%coefficient) > 0.0_wp)) return
+      change%term = number
+      change%row = row
+      change%is_touched = .true.
+   end subroutine learn_term
+
+   pure subroutine learn_measure(here, there, weight, arms, u, v, has_arms, has_directions)
+      type(measure_t), intent(in) :: here, there
+      real(wp), intent(in) :: weight
+      real(wp), intent(inout) :: arms(6), u(3), v(3)
+      logical, intent(inout) :: has_arms, has_directions
+
+      if (any(abs(there%arm_i - here%arm_i) > 0.0_wp) .or. any(abs(there%arm_j - here%arm_j) > 0.0_wp)) then
+         has_arms = .true.
+         arms(1:3) = arms(1:3) + weight*(there%arm_i - here%arm_i)
+         arms(4:6) = arms(4:6) + weight*(there%arm_j - here%arm_j)
+      end if
+      if (any(abs(there%u - here%u) > 0.0_wp) .or. any(abs(there%v - here%v) > 0.0_wp)) then
+         has_directions = .true.
+         u = u + weight*(there%u - here%u)
+         v = v + weight*(there%v - here%v)
+      end if
+   end subroutine learn_measure
+
+   !> Of an element of one measure.
+   pure subroutine learn_spring(here, there, number, k, all, change, bends)
+      type(element_t), intent(in) :: here, there
+      integer, intent(in) :: number, k
+      type(change_t), intent(in) :: all
+      type(element_change_t), intent(inout) :: change
+      real(wp), intent(inout) :: bends(7)
+      logical :: has_load
+
+      call learn_measure(here%measure, there%measure, all%weight(k), change%arms, change%u, change%v, change%has_arms, &
+         change%has_directions)
+      has_load = abs(there%preload - here%preload) > 0.0_wp .or. .not. same_law(here%law, there%law)
+      change%is_held(k) = .true.
+      change%held(1:2, k) = [there%preload, there%law%reference]
+      if (.not. (has_load .or. change%has_arms .or. change%has_directions)) return
+      change%element = number
+      change%is_touched = .true.
+      if (.not. has_load) return
+      change%has_load = .true.
+      associate (weight => all%weight(k))
+         change%preload = change%preload + weight*(there%preload - here%preload)
+         change%reference = change%reference + weight*(there%law%reference - here%law%reference)
+         change%rate = change%rate + weight*(there%law%rate - here%law%rate)
+      end associate
+      bends(1) = bends(1) + all%corner(k)*(there%preload - here%preload)
+      if (is_linear(here) .or. same_form(here%law, there%law)) return
+      call keep_neighbour(here, there, k, change%there)
+   end subroutine learn_spring
+
+   pure subroutine learn_bushing(here, there, number, k, all, change, bends)
+      type(element_t), intent(in) :: here, there
+      integer, intent(in) :: number, k
+      type(change_t), intent(in) :: all
+      type(element_change_t), intent(inout) :: change
+      real(wp), intent(inout) :: bends(7)
+      real(wp) :: load(6)
+
+      call learn_measure(here%measure, there%measure, all%weight(k), change%arms, change%u, change%v, change%has_arms, &
+         change%has_directions)
+      associate (p => here%bushing, q => there%bushing, weight => all%weight(k))
+         load = [q%force0 - p%force0, q%moment0 - p%moment0]
+         if (any(abs(load) > 0.0_wp) .or. any(abs(q%gap0 - p%gap0) > 0.0_wp)) then
+            change%has_load = .true.
+            change%load = change%load - weight*load
+            change%gap = change%gap + weight*(q%gap0 - p%gap0)
+            bends(2:7) = bends(2:7) + all%corner(k)*load
+         end if
+         if (p%has_curves) then
+            change%is_held(k) = .true.
+            change%held(:, k) = [q%preload_force, q%preload_moment, q%gap0]
+            if (.not. same_components(here, there)) call keep_neighbour(here, there, k, change%there)
+         else if (any(abs(q%stiffness_t - p%stiffness_t) > 0.0_wp) .or. any(abs(q%stiffness_r - p%stiffness_r) > 0.0_wp)) then
+            change%has_stiffness = .true.
+            change%stiffness_t = change%stiffness_t + weight*(q%stiffness_t - p%stiffness_t)
+            change%stiffness_r = change%stiffness_r + weight*(q%stiffness_r - p%stiffness_r)
+         end if
+      end associate
+      if (.not. (change%has_arms .or. change%has_load .or. change%has_stiffness .or. allocated(change%there))) return
+      change%element = number
+      change%is_touched = .true.
+   end subroutine learn_bushing
+
+   !> Keeps the law of a neighbour, with the markers of the design.
+   pure subroutine keep_neighbour(here, there, k, laws)
+      type(element_t), intent(in) :: here, there
+      integer, intent(in) :: k
+      type(element_t), allocatable, intent(inout) :: laws(:)
+      integer :: j
+
+      if (.not. allocated(laws)) then
+         allocate (laws(4))
+         do j = 1, 4
+            laws(j) = here
+         end do
+      end if
+      laws(k) = there
+      laws(k)%measure = here%measure
+   end subroutine keep_neighbour
+
+   pure subroutine learn_load(here, there, number, k, change)
+      type(load_t), intent(in) :: here, there
+      integer, intent(in) :: number, k
+      type(load_change_t), intent(inout) :: change
+      integer :: j
+
+      if (.not. (any(abs(there%arm - here%arm) > 0.0_wp) .or. any(abs(there%force - here%force) > 0.0_wp) .or. &
+         any(abs(there%moment - here%moment) > 0.0_wp))) return
+      if (.not. change%is_touched) then
+         change%load = number
+         change%is_touched = .true.
+         do j = 1, 4
+            call copy_load(here, change%there(j))
+         end do
+      end if
+      call copy_load(there, change%there(k))
+   end subroutine learn_load
+
+   !> Without its names.
+   pure subroutine copy_load(from, to)
+      type(load_t), intent(in) :: from
+      type(load_t), intent(inout) :: to
+
+      to%arm = from%arm
+      to%force = from%force
+      to%moment = from%moment
+      to%follows = from%follows
+   end subroutine copy_load
+
+   pure logical function same_law(a, b)
+      type(law_t), intent(in) :: a, b
+      same_law = same_form(a, b) .and. .not. (abs(a%reference - b%reference) > 0.0_wp .or. abs(a%rate - b%rate) > 0.0_wp)
+   end function same_law
+
+   !> Whether two laws differ by their reference at most; of one without a curve the rate is not compared where it is linear.
+   pure logical function same_form(a, b)
+      type(law_t), intent(in) :: a, b
+
+      same_form = .not. (abs(a%sign - b%sign) > 0.0_wp .or. abs(a%rounding - b%rounding) > 0.0_wp)
+      if (a%is_one_sided) same_form = same_form .and. .not. abs(a%rate - b%rate) > 0.0_wp
+      if (same_form .and. a%has_curve) same_form = same_curve(a%curve, b%curve)
+   end function same_form
+
+   pure logical function same_curve(a, b)
+      type(curve_t), intent(in) :: a, b
+      same_curve = .not. (any(abs(a%breaks - b%breaks) > 0.0_wp) .or. any(abs(a%coefficients - b%coefficients) > 0.0_wp) .or. &
+         abs(a%end_value - b%end_value) > 0.0_wp .or. abs(a%end_slope - b%end_slope) > 0.0_wp)
+   end function same_curve
+
+   !> Whether the axes, to rounding, and the rates and curves of two bushings with curves are equal.
+   pure logical function same_components(a, b)
+      type(element_t), intent(in) :: a, b
+      integer :: c
+
+      associate (p => a%bushing, q => b%bushing)
+         same_components = .not. (any(abs(p%axes - q%axes) > 8.0_wp*epsilon(1.0_wp)) .or. any(abs(p%kt - q%kt) > 0.0_wp) .or. &
+            any(abs(p%kr - q%kr) > 0.0_wp))
+         do c = 1, size(p%laws)
+            same_components = same_components .and. same_law(p%laws(c), q%laws(c))
+         end do
+      end associate
+   end function same_components
+
+end module ek_part_change

@@ -1,0 +1,154 @@
+!> How the forces of the parts of a model change with the numbers of these parts, at a state where the bodies do not move.
+!>
+!> Of an element, "force" is the generalised force dV/dz of its two bodies [N, N m]; of a term of a row, the gradient of its
+!> measure. With H the derivative of such a force g by z (the tangent of the element, the Hessian of the measure), a marker that is
+!> moved by e on body i changes it by
+!>
+!>     δg = H[:, r_i] e + [0; e×g_r; 0; 0]
+!>
+!> because a marker that moves with its body and one that moves on it differ in their arm only. All other numbers are linear: forces
+!> and moments of a bushing, the tension of an element of one measure, the directions of a measure.
+module ek_part_response
+   use ek_kinds, only: wp
+   use ek_rotation, only: cross
+   use ek_relative_rotation, only: pose_t
+   use ek_measure, only: measure_t, evaluation_t, evaluate, add_measure_hessian, is_of_angle, distance, axis_axis, global_gap
+   use ek_element, only: element_t, bushing_element
+   use ek_element_force, only: element_evaluation_t, evaluate_element, add_element_tangent
+   use ek_elastic, only: bushing_force
+   implicit none(type, external)
+   private
+   public :: response_t, respond_element, respond_measure, turn_directions
+
+   !> A part at one pair of poses.
+   type :: response_t
+      real(wp) :: value = 0.0_wp               !! of the measure [m, rad, -]
+      real(wp) :: tension = 0.0_wp, slope = 0.0_wp     !! of an element of one measure
+      real(wp) :: gradient(12) = 0.0_wp        !! of the measure
+      real(wp) :: force(12) = 0.0_wp           !! g
+      real(wp) :: by_arms(12, 6) = 0.0_wp      !! ∂g by the arms of both markers, axes of their bodies
+      real(wp) :: value_by_arms(6) = 0.0_wp    !! the same of the value of the measure
+      real(wp) :: by_load(12, 6) = 0.0_wp      !! ∂g by force and moment of a bushing, axes of body i
+      real(wp) :: gap(3) = 0.0_wp, theta(3) = 0.0_wp   !! deflections of a bushing, axes of body i
+      real(wp) :: stiffness(3, 3) = 0.0_wp     !! of a bushing in its gap, axes of body i
+   end type response_t
+
+   integer, parameter :: local(3) = [1, 2, 3]  !! the blocks of the tangent of one part, see ek_block
+
+contains
+
+   !> The response of an element.
+   !> Equation (E.7) of docs/theory/derivatives.md.
+   pure subroutine respond_element(element, pose_i, pose_j, evaluation, response)
+      type(element_t), intent(in) :: element
+      type(pose_t), intent(in) :: pose_i, pose_j
+      type(element_evaluation_t), intent(inout) :: evaluation        !! work space
+      type(response_t), intent(inout) :: response
+      real(wp) :: blocks(6, 6, 3)
+      integer :: k
+
+      call evaluate_element(element, pose_i, pose_j, evaluation)
+      response%force = evaluation%generalised_force
+      blocks = 0.0_wp
+      call add_element_tangent(element, evaluation, .false., local, blocks)
+      call move_markers(blocks, pose_i, pose_j, response)
+      if (element%kind /= bushing_element) then
+         response%value = evaluation%measure%value
+         response%gradient = evaluation%measure%gradient
+         response%tension = evaluation%tension
+         response%slope = evaluation%slope
+         return
+      end if
+      associate (bushing => evaluation%bushing)
+         response%gap = bushing%gap
+         response%theta = bushing%rotation%theta
+         response%stiffness = bushing%stiffness_t
+         bushing%moment = 0.0_wp
+         do k = 1, 3
+            bushing%force = pose_i%a(:, k)
+            response%by_load(:, k) = bushing_force(bushing)
+         end do
+         bushing%force = 0.0_wp
+         do k = 1, 3
+            bushing%moment = [merge(1.0_wp, 0.0_wp, k == 1), merge(1.0_wp, 0.0_wp, k == 2), merge(1.0_wp, 0.0_wp, k == 3)]
+            response%by_load(:, k + 3) = bushing_force(bushing)
+         end do
+      end associate
+   end subroutine respond_element
+
+   !> The response of a measure.
+   !> Equation (E.7) of docs/theory/derivatives.md.
+   pure subroutine respond_measure(measure, pose_i, pose_j, evaluation, response)
+      type(measure_t), intent(in) :: measure
+      type(pose_t), intent(in) :: pose_i, pose_j
+      type(evaluation_t), intent(inout) :: evaluation                !! work space
+      type(response_t), intent(inout) :: response
+      real(wp) :: blocks(6, 6, 3)
+      integer :: k
+
+      call evaluate(measure, pose_i, pose_j, evaluation)
+      response%value = evaluation%value
+      response%gradient = evaluation%gradient
+      response%force = evaluation%gradient
+      if (is_of_angle(measure%kind)) return              ! it has no points
+      blocks = 0.0_wp
+      ! that of a gap along a global direction has rotations only
+      if (measure%kind /= global_gap) call add_measure_hessian(measure%kind, evaluation, 1.0_wp, local, blocks)
+      call move_markers(blocks, pose_i, pose_j, response)
+      do k = 1, 3
+         response%value_by_arms(k) = dot_product(evaluation%gradient(1:3), pose_i%a(:, k))
+         response%value_by_arms(k + 3) = dot_product(evaluation%gradient(7:9), pose_j%a(:, k))
+      end do
+   end subroutine respond_measure
+
+   !> ∂g by the arms, from the tangent.
+   !> Equation (E.7) of docs/theory/derivatives.md.
+   pure subroutine move_markers(blocks, pose_i, pose_j, response)
+      real(wp), intent(in) :: blocks(6, 6, 3)            !! diagonal blocks of i and j, lower triangle; rows of j, columns of i
+      type(pose_t), intent(in) :: pose_i, pose_j
+      type(response_t), intent(inout) :: response
+      real(wp) :: columns(12, 3)
+      integer :: k
+
+      columns(1:6, :) = blocks(:, 1:3, 1)
+      columns(7:12, :) = blocks(:, 1:3, 3)
+      do k = 1, 3
+         response%by_arms(:, k) = columns(:, 1)*pose_i%a(1, k) + columns(:, 2)*pose_i%a(2, k) + columns(:, 3)*pose_i%a(3, k)
+         response%by_arms(4:6, k) = response%by_arms(4:6, k) + cross(pose_i%a(:, k), response%force(1:3))
+      end do
+      columns(1:6, :) = transpose(blocks(1:3, :, 3))
+      columns(7:12, :) = blocks(:, 1:3, 2)
+      do k = 1, 3
+         response%by_arms(:, k + 3) = columns(:, 1)*pose_j%a(1, k) + columns(:, 2)*pose_j%a(2, k) + columns(:, 3)*pose_j%a(3, k)
+         response%by_arms(10:12, k + 3) = response%by_arms(10:12, k + 3) + cross(pose_j%a(:, k), response%force(7:9))
+      end do
+   end subroutine move_markers
+
+   !> Changes of value and gradient of a measure when its directions change: it is linear in u and in v. A distance has neither, and
+   !> only a cosine has v.
+   !> Equation (E.7) of docs/theory/derivatives.md.
+   pure subroutine turn_directions(measure, u, v, pose_i, pose_j, value, gradient)
+      type(measure_t), intent(in) :: measure
+      real(wp), intent(in) :: u(3), v(3)                 !! the changes
+      type(pose_t), intent(in) :: pose_i, pose_j
+      real(wp), intent(out) :: value, gradient(12)
+      type(measure_t) :: turned
+      type(evaluation_t) :: evaluation
+
+      value = 0.0_wp
+      gradient = 0.0_wp
+      if (measure%kind == distance) return
+      turned = measure
+      turned%u = u
+      call evaluate(turned, pose_i, pose_j, evaluation)
+      value = evaluation%value
+      gradient = evaluation%gradient
+      if (measure%kind /= axis_axis) return
+      turned%u = measure%u
+      turned%v = v
+      call evaluate(turned, pose_i, pose_j, evaluation)
+      value = value + evaluation%value
+      gradient = gradient + evaluation%gradient
+   end subroutine turn_directions
+
+end module ek_part_response

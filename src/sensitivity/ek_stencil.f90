@@ -1,0 +1,91 @@
+!> Derivatives of functions of one number from their values at four points, with an estimate of the error.
+module ek_stencil
+   use ek_kinds, only: wp
+   implicit none(type, external)
+   private
+   public :: stencil_t, stencils, close_pair, close_four, weight_of, corner_weight, differentiate, find_quotients
+
+   !> Points of a difference quotient, and the weights of the values there, both in steps. D₁ and D₂ have the steps h and 2h;
+   !> (4 D₁ − D₂)/3 is of higher order than both.
+   type :: stencil_t
+      real(wp) :: at(4), first(4), second(4)
+      integer :: points = 4
+   end type stencil_t
+
+   type(stencil_t), parameter :: central = stencil_t([-2.0_wp, -1.0_wp, 1.0_wp, 2.0_wp], [0.0_wp, -0.5_wp, 0.5_wp, 0.0_wp], &
+      [-0.25_wp, 0.0_wp, 0.0_wp, 0.25_wp])
+   ! at the end of a legal range: one side, errors of order h² too
+   type(stencil_t), parameter :: forward = stencil_t([0.0_wp, 1.0_wp, 2.0_wp, 4.0_wp], [-1.5_wp, 2.0_wp, -0.5_wp, 0.0_wp], &
+      [-0.75_wp, 0.0_wp, 1.0_wp, -0.25_wp])
+   type(stencil_t), parameter :: backward = stencil_t(-forward%at, -forward%first, -forward%second)
+   ! two points alone, for numbers of parts: these are not differences of large forces, so they bear a small step; the error is of
+   ! order h², and is in no error estimate
+   type(stencil_t), parameter :: close_pair = stencil_t([-0.02_wp, 0.02_wp, 0.0_wp, 0.0_wp], [-25.0_wp, 25.0_wp, 0.0_wp, 0.0_wp], &
+      [-25.0_wp, 25.0_wp, 0.0_wp, 0.0_wp], 2)
+   type(stencil_t), parameter :: close_four = stencil_t(0.1_wp*central%at, 10.0_wp*central%first, 10.0_wp*central%second)
+   real(wp), parameter :: corner_weights(0:4) = [-1.5_wp, -0.25_wp, 1.0_wp, 1.0_wp, -0.25_wp]    !! of the middle and the points
+   type(stencil_t), parameter :: stencils(3) = [central, forward, backward]      !! in the order of preference
+
+contains
+
+   !> The weight of the value at a point in the derivative, per step.
+   !> Equation (E.2) of docs/theory/derivatives.md.
+   pure real(wp) function weight_of(stencil, k)
+      type(stencil_t), intent(in) :: stencil
+      integer, intent(in) :: k
+      weight_of = (4.0_wp*stencil%first(k) - stencil%second(k))/3.0_wp
+   end function weight_of
+
+   !> The weight of the value at a point in half the difference of the slopes on both sides, per step; point 0 is the middle. The
+   !> sum is of order h³ where there is no corner. One-sided stencils do not see one.
+   !> Equation (E.2) of docs/theory/derivatives.md.
+   pure real(wp) function corner_weight(stencil, k) result(weight)
+      type(stencil_t), intent(in) :: stencil
+      integer, intent(in) :: k
+
+      weight = 0.0_wp
+      if (sees_corners(stencil)) weight = corner_weights(k)
+   end function corner_weight
+
+   !> Whether points of a stencil stand on both sides.
+   pure logical function sees_corners(stencil)
+      type(stencil_t), intent(in) :: stencil
+      sees_corners = stencil%at(1)*stencil%at(4) < 0.0_wp
+   end function sees_corners
+
+   !> The derivatives of many functions, and limits of their errors: where a function is straight but for one corner within the
+   !> points, the error is never larger, wherever the corner is.
+   !> Equation (E.2) of docs/theory/derivatives.md.
+   pure subroutine differentiate(stencil, h, here, y, slope, error)
+      type(stencil_t), intent(in) :: stencil
+      real(wp), intent(in) :: h                            !! step
+      real(wp), intent(in) :: here(:), y(:, :)             !! values at the middle; (function, point)
+      real(wp), intent(out) :: slope(:), error(:)
+      real(wp) :: gap, corner
+      integer :: c
+
+      do c = 1, size(slope)
+         call find_quotients(stencil, h, here(c), [y(c, 1), y(c, 2), y(c, 3), y(c, 4)], slope(c), gap, corner)
+         error(c) = abs(gap) + abs(corner)
+      end do
+   end subroutine differentiate
+
+   !> The derivative of one function, and both parts of its error with their signs: what both quotients differ by, and a corner.
+   !> Equation (E.2) of docs/theory/derivatives.md.
+   pure subroutine find_quotients(stencil, h, here, y, slope, gap, corner)
+      type(stencil_t), intent(in) :: stencil
+      real(wp), intent(in) :: h                            !! step
+      real(wp), intent(in) :: here, y(4)                   !! values at the middle, and at the points
+      real(wp), intent(out) :: slope, gap, corner
+      real(wp) :: first, second
+
+      first = dot_product(stencil%first, y)/h
+      second = dot_product(stencil%second, y)/h
+      slope = first + (first - second)/3.0_wp
+      gap = 2.0_wp/3.0_wp*(first - second)
+      ! a corner in the middle is the same in both quotients
+      corner = 0.0_wp
+      if (sees_corners(stencil)) corner = (corner_weights(0)*here + dot_product(corner_weights(1:4), y))/h
+   end subroutine find_quotients
+
+end module ek_stencil

@@ -1,0 +1,195 @@
+!> Responses and curves of a study at a design, with their derivatives with respect to the factors.
+!>
+!>     call begin_study_slopes(study, deck, designer, self, error)         once
+!>     call find_study_slopes(values, self, is_valid)                      at each design
+!>
+!> As for the numbers of a fit (ek_wanted_values): the tables of the cases are moved along the derivatives of their columns, and a
+!> response is read from the moved table as from any other.
+module ek_study_slopes
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
+   use ek_text, only: quoted
+   use ek_deck, only: deck_t
+   use ek_table, only: column_index, name_length
+   use ek_study, only: study_t
+   use ek_response_value, only: reading_t, read_response, is_difference
+   use ek_worker, only: worker_t, factor_paths_t, put_factor
+   use ek_study_design, only: designer_t
+   use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers, solve_case_fully, case_number
+   use ek_direction, only: direction_t, factor_direction
+   use ek_derivatives, only: begin_derivatives, refuse_case
+   use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
+   use ek_stencil, only: stencils, differentiate
+   implicit none(type, external)
+   private
+   public :: study_slopes_t, begin_study_slopes, find_study_slopes
+
+   type :: study_slopes_t
+      real(wp), allocatable :: values(:)                     !! of the responses, then of the curves, column by column
+      real(wp), allocatable :: slopes(:, :)                  !! (value, factor): per unit of the factor
+      integer :: responses = 0                               !! that come first
+      real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
+      integer, allocatable, private :: columns(:)            !! places of the curves among the derived columns
+      type(reading_t), allocatable, private :: readings(:)
+      integer, allocatable, private :: case_of(:)            !! of each response
+      type(case_slopes_t), allocatable, private :: cases(:)
+      type(direction_t), allocatable, private :: directions(:)
+      type(factor_paths_t), allocatable, private :: paths(:)
+      type(worker_t), private :: worker                      !! makes the numbers of a design
+      type(design_solver_t), private :: solver
+   end type study_slopes_t
+
+contains
+
+   !> Solves the cases at the numbers of the deck and prepares their derivatives. Makes texts.
+   subroutine begin_study_slopes(study, deck, designer, self, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(designer_t), intent(in) :: designer               !! of the study (new_designer)
+      type(study_slopes_t), intent(out) :: self
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck: what has no derivative; exit_model
+      type(message_list_t) :: mistakes
+      logical :: is_done
+      integer :: c, f, k
+
+      call begin_design_solver(deck, self%solver, error)
+      if (allocated(error)) return
+      self%readings = designer%readings
+      self%case_of = designer%case_of
+      self%paths = designer%paths
+      self%worker%design = designer%worker%design
+      self%worker%x = designer%worker%design%parameters%x
+      allocate (self%directions(size(study%factors)))
+      do f = 1, size(study%factors)
+         if (size(self%paths(f)%found) == 0) then
+            call mistakes%add(study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
+               ': its paths lead to a whole number, a name or a switch, which has no derivative; use kind = ''monte_carlo''')
+         else
+            self%directions(f) = factor_direction(self%solver%design, study%factors(f)%name, self%paths(f))
+         end if
+      end do
+      allocate (self%cases(size(designer%options)))
+      do c = 1, size(self%cases)
+         associate (this => self%cases(c), solver => self%solver)
+            k = case_number(designer%case_names(c), solver)
+            this%case = k
+            call refuse_case(solver%cases(k)%case, error)
+            if (allocated(error)) call mistakes%add(study%where//': '//error%message)
+            if (allocated(error)) cycle
+            if (designer%increments > 0) solver%cases(k)%case%increments = designer%increments
+            if (designer%increments > 0 .and. solver%cases(k)%number > 0) &
+               solver%design%cases(solver%cases(k)%number)%increments = designer%increments
+            this%options = designer%options(c)
+         end associate
+      end do
+      if (mistakes%count() > 0) then
+         if (allocated(error)) deallocate (error)
+         call fail(error, exit_deck, mistakes%text())
+         return
+      end if
+      do c = 1, size(self%cases)
+         associate (this => self%cases(c), solver => self%solver)
+            call solve_case_fully(this%case, this%options, solver, is_done, error)
+            if (.not. allocated(error) .and. .not. is_done) call fail(error, exit_model, deck%file//': its numbers give no model')
+            if (allocated(error)) return
+            allocate (this%derivatives)
+            call begin_derivatives(solver, this%case, this%options%columns, self%directions, this%derivatives)
+         end associate
+      end do
+      call place_curves(study, self)
+   end subroutine begin_study_slopes
+
+   !> The curves among the columns that are derived, and their states.
+   subroutine place_curves(study, self)
+      type(study_t), intent(in) :: study
+      type(study_slopes_t), intent(inout) :: self
+      integer :: c
+
+      associate (result => self%solver%cases(self%cases(1)%case)%result, names => self%cases(1)%derivatives%columns)
+         self%columns = [(findloc(names == study%columns(c), .true., dim=1), c=1, size(study%columns))]
+         allocate (self%sweep(merge(size(result%table%values, 2), 0, size(study%columns) > 0)))
+         if (size(self%sweep) > 0) self%sweep(:) = result%table%values(2, :)
+      end associate
+      self%responses = size(self%readings)
+      allocate (self%values(self%responses + size(self%columns)*size(self%sweep)))
+      allocate (self%slopes(size(self%values), size(self%directions)))
+   end subroutine place_curves
+
+   !> Values and derivatives at a design. is_valid is .false. where the design has a defect, a number of the deck is outside its
+   !> range, or a state was not found. No text is made.
+   subroutine find_study_slopes(values, self, is_valid)
+      real(wp), intent(in) :: values(:)                      !! of the factors
+      type(study_slopes_t), intent(inout) :: self
+      logical, intent(out) :: is_valid
+      real(wp) :: y(self%responses, 4), errors(self%responses), h
+      integer :: c, f, k
+
+      self%worker%x(:) = self%worker%design%parameters%x
+      do f = 1, size(values)
+         call put_factor(self%paths(f), values(f), self%worker)
+      end do
+      call put_numbers(self%worker%x(:size(self%solver%x)), self%solver)
+      do c = 1, size(self%cases)
+         call solve_with_slopes(.false., self%cases(c), self%solver, is_valid)
+         if (.not. is_valid) return
+      end do
+      call read_values(.false., self, self%values(:self%responses))
+      do f = 1, size(self%directions)
+         h = self%directions(f)%step
+         do k = 1, 4
+            do c = 1, size(self%cases)
+               call move_table(f, stencils(1)%at(k)*h, self%cases(c))
+            end do
+            call read_values(.true., self, y(:, k))
+         end do
+         call differentiate(stencils(1), h, self%values(:self%responses), y, self%slopes(:self%responses, f), errors)
+      end do
+      call take_curves(self, is_valid)
+      do c = 1, size(self%cases)
+         is_valid = is_valid .and. all(self%cases(c)%derivatives%can_move)
+      end do
+      is_valid = is_valid .and. all(ieee_is_finite(self%values(:self%responses)))
+      if (is_valid) is_valid = all(ieee_is_finite(self%slopes(:self%responses, :)))
+   end subroutine find_study_slopes
+
+   !> Reads the responses from the tables of the design or from the moved ones.
+   subroutine read_values(is_moved, self, values)
+      logical, intent(in) :: is_moved
+      type(study_slopes_t), intent(in) :: self
+      real(wp), intent(out) :: values(:)
+      integer :: fault, k
+
+      do k = 1, size(values)
+         associate (this => self%cases(self%case_of(k)), less => self%readings(k)%asked%less)
+            if (is_difference(self%readings(k))) then
+               values(k) = values(less(1)) - values(less(2))
+            else if (is_moved) then
+               call read_response(self%readings(k), this%moved, values(k), fault)
+            else
+               call read_response(self%readings(k), this%table, values(k), fault)
+            end if
+         end associate
+      end do
+   end subroutine read_values
+
+   !> The curves, state by state.
+   pure subroutine take_curves(self, is_valid)
+      type(study_slopes_t), intent(inout) :: self
+      logical, intent(inout) :: is_valid                     !! .false. if the case has other states here
+      integer :: c, first, last
+
+      if (size(self%columns) == 0) return
+      associate (found => self%cases(1)%derivatives, states => size(self%sweep))
+         is_valid = is_valid .and. size(found%states) == states
+         if (.not. is_valid) return
+         do c = 1, size(self%columns)
+            first = self%responses + (c - 1)*states + 1
+            last = first + states - 1
+            self%values(first:last) = found%values(self%columns(c), :)
+            self%slopes(first:last, :) = transpose(found%slopes(self%columns(c), :, :))
+         end do
+      end associate
+   end subroutine take_curves
+
+end module ek_study_slopes

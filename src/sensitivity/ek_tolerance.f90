@@ -1,0 +1,130 @@
+!> Tolerances: mean, deviation, skewness and shares of the responses of a study by exact derivatives.
+!>
+!> The responses are expanded about the centre of the factors, in the standard form of each (ek_standard_factor): the slopes are exact
+!> derivatives, the curvatures central differences of exact derivatives at two designs beside the centre for each factor. With k
+!> factors these are 2 k + 1 designs with their derivatives.
+module ek_tolerance
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_model
+   use ek_text, only: quoted
+   use ek_deck, only: deck_t
+   use ek_study, only: study_t, define_factor
+   use ek_worker, only: deck_value
+   use ek_study_design, only: designer_t
+   use ek_sampler_settings, only: factor_t
+   use ek_standard_factor, only: standard_factor_t, new_standard_factor, value_at, slope_at
+   use ek_moments, only: expansion_t, moments_t, find_moments
+   use ek_study_slopes, only: study_slopes_t, begin_study_slopes, find_study_slopes
+   implicit none(type, external)
+   private
+   public :: tolerance_t, find_tolerance
+
+   real(wp), parameter :: step = 0.1_wp         !! of the difference of two gradients, standard deviations: the curvature is in error by
+                                                !! its relative change over this, squared, over six
+
+   type :: tolerance_t
+      type(standard_factor_t), allocatable :: factors(:)
+      type(expansion_t), allocatable :: expansions(:)        !! of the responses, then of the curves
+      type(moments_t), allocatable :: moments(:)             !! the same
+      real(wp), allocatable :: sweep(:)                      !! swept value of the states of a curve
+      integer :: responses = 0
+   end type tolerance_t
+
+contains
+
+   !> Expands all responses and curves of a study. Texts are made.
+   !>
+   !> Equation (D.14) of docs/theory/sampling.md.
+   subroutine find_tolerance(study, deck, designer, tolerance, error)
+      type(study_t), intent(in) :: study
+      type(deck_t), intent(in) :: deck
+      type(designer_t), intent(in) :: designer               !! of the study (new_designer)
+      type(tolerance_t), intent(out) :: tolerance
+      type(error_t), allocatable, intent(out) :: error       !! exit_deck, exit_model: what has no derivative, and why
+      type(study_slopes_t) :: slopes
+      type(factor_t) :: factor
+      real(wp), allocatable :: here(:), low(:, :), high(:, :)
+      logical :: is_valid
+      integer :: f, k
+
+      allocate (tolerance%factors(size(study%factors)))
+      do f = 1, size(study%factors)
+         call define_factor(study%factors(f), study%kind, deck_value(designer%worker, designer%paths(f)), factor, error)
+         if (allocated(error)) return
+         call new_standard_factor(factor, tolerance%factors(f))
+      end do
+      call begin_study_slopes(study, deck, designer, slopes, error)
+      if (allocated(error)) return
+      allocate (here(size(study%factors)))
+      do f = 1, size(here)
+         here(f) = value_at(tolerance%factors(f), 0.0_wp)
+      end do
+      call find_study_slopes(here, slopes, is_valid)
+      if (.not. is_valid) then
+         call fail(error, exit_model, study%where//': the design at the centre of all factors has no derivatives: a response '// &
+            'has no value there, a state was not reached, or a number of the deck is outside its range')
+         return
+      end if
+      tolerance%responses = slopes%responses
+      tolerance%sweep = slopes%sweep
+      allocate (tolerance%expansions(size(slopes%values)), tolerance%moments(size(slopes%values)))
+      do k = 1, size(slopes%values)
+         tolerance%expansions(k)%value = slopes%values(k)
+         tolerance%expansions(k)%slopes = [(slopes%slopes(k, f)*slope_at(tolerance%factors(f), 0.0_wp), f=1, size(here))]
+         allocate (tolerance%expansions(k)%curvatures(size(here), size(here)), source=0.0_wp)
+      end do
+      do f = 1, size(here)
+         if (.not. tolerance%factors(f)%scale > 0.0_wp) cycle
+         call find_beside(-step, low)
+         if (allocated(error)) return
+         call find_beside(step, high)
+         if (allocated(error)) return
+         do k = 1, size(slopes%values)
+            tolerance%expansions(k)%curvatures(:, f) = (high(k, :) - low(k, :))/(2.0_wp*step)
+         end do
+      end do
+      do k = 1, size(slopes%values)
+         associate (b => tolerance%expansions(k)%curvatures)
+            b = 0.5_wp*(b + transpose(b))
+            where (.not. ieee_is_finite(b)) b = 0.0_wp
+         end associate
+         if (is_finite(tolerance%expansions(k))) then
+            call find_moments(tolerance%expansions(k), tolerance%factors, tolerance%moments(k))
+         else                                                ! a column that is not defined at a state
+            tolerance%moments(k)%mean = ieee_value(1.0_wp, ieee_quiet_nan)
+            tolerance%moments(k)%deviation = tolerance%moments(k)%mean
+         end if
+      end do
+
+   contains
+
+      !> The slopes in standard form where factor f is u standard deviations from the centre.
+      subroutine find_beside(u, standard)
+         real(wp), intent(in) :: u
+         real(wp), allocatable, intent(out) :: standard(:, :)      !! (value, factor)
+         real(wp) :: values(size(here))
+         integer :: j
+
+         values = here
+         values(f) = value_at(tolerance%factors(f), u)
+         call find_study_slopes(values, slopes, is_valid)
+         if (.not. is_valid) then
+            call fail(error, exit_model, study%factors(f)%where//': factor '//quoted(study%factors(f)%name)// &
+               ': a design a tenth of a standard deviation from the centre has no derivatives')
+            return
+         end if
+         standard = slopes%slopes
+         do j = 1, size(here)
+            standard(:, j) = standard(:, j)*slope_at(tolerance%factors(j), merge(u, 0.0_wp, j == f))
+         end do
+      end subroutine find_beside
+
+   end subroutine find_tolerance
+
+   pure logical function is_finite(expansion)
+      type(expansion_t), intent(in) :: expansion
+      is_finite = ieee_is_finite(expansion%value) .and. all(ieee_is_finite(expansion%slopes))
+   end function is_finite
+
+end module ek_tolerance

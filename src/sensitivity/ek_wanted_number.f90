@@ -1,0 +1,204 @@
+!> A number of the results that is wanted: a column of a case at a swept value, an entry of its compliance matrix, or a key number
+!> of the report. What it is, which cases it needs, and how its value is read from their tables.
+module ek_wanted_number
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: quoted, suggestion
+   use ek_quantity, only: unit_of, unit_text
+   use ek_table, only: table_t, name_length, column_index
+   use ek_case, only: case_t
+   use ek_test_result, only: test_result_t, unfolded_rows
+   use ek_key_number, only: key_number_t, nothing, read_source
+   use ek_number_names, only: list_all, find_number, stems_of
+   use ek_number_reach, only: reach_of
+   use ek_compliance_table, only: compliance_columns
+   use ek_design_solver, only: design_solver_t, heads_of_case, report_cases
+   implicit none(type, external)
+   private
+   public :: wanted_number_t, find_column, find_key_number, find_wanted, read_number
+
+   !> One wanted number.
+   type :: wanted_number_t
+      character(:), allocatable :: name          !! as the user gave it
+      character(:), allocatable :: unit          !! 'deg', '' without one
+      integer :: case = 0                        !! in the solver; of a key number: that of the first source that has a value
+      character(name_length) :: column = ''      !! '': a key number
+      character(name_length) :: over = 'factor'  !! the column in which `at` is meant
+      real(wp) :: at = 0.0_wp                    !! where the column is read, in the unit of `over`
+      type(key_number_t), allocatable :: key     !! the key number, with its sources
+      integer :: wheel = 1                       !! of the key number: 1 left or single wheel, or axle; 2 right
+      integer :: source = 0                      !! of the key number: which has the value; 0: not yet known, or all of them
+      integer, allocatable :: cases(:)           !! of the sources, in the solver
+      real(wp), allocatable :: reach(:)          !! swept value [SI] beyond which it needs no state of these
+   end type wanted_number_t
+
+   character(*), parameter :: no_quantities(7) = [character(16) :: 'state', 'factor', 'converged', 'stable', 'near_singular', &
+      'iterations', 'constraint_error']
+
+contains
+
+   !> A column, an entry of the compliance matrix, or a key number, in this order.
+   subroutine find_wanted(solver, k, name, at, wanted, error)
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(in) :: k                             !! the case of a column
+      character(*), intent(in) :: name
+      real(wp), intent(in) :: at                           !! swept value, in the unit of the case
+      type(wanted_number_t), intent(out) :: wanted
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, with suggestions
+      character(name_length), allocatable :: heads(:), known(:)
+      character(:), allocatable :: hint
+
+      call find_column(solver, k, name, 'factor', at, wanted, heads)
+      if (wanted%case > 0) return
+      call find_key_number(solver, name, wanted, known)
+      if (allocated(wanted%key)) return
+      hint = suggestion(name, [character(name_length) :: heads, known])
+      if (any(no_quantities == name)) hint = '; it describes the solution and is no quantity of the suspension'
+      call fail(error, exit_usage, quoted(name)//' is no column of case '//quoted(solver%cases(k)%case%name)// &
+         ', no entry of its compliance matrix and no key number'//hint)
+   end subroutine find_wanted
+
+   !> A column of a case, at a value of another one; wanted%case is 0 if the case has no such quantity.
+   subroutine find_column(solver, k, name, over, at, wanted, heads)
+      type(design_solver_t), intent(in) :: solver
+      integer, intent(in) :: k                             !! the case
+      character(*), intent(in) :: name, over
+      real(wp), intent(in) :: at                           !! in the unit of `over`
+      type(wanted_number_t), intent(out) :: wanted
+      character(name_length), allocatable, intent(out) :: heads(:)     !! all columns and entries, for suggestions
+      character(name_length), allocatable :: entries(:)
+
+      call heads_of_case(k, solver, heads)
+      call compliance_columns(solver%raw, entries)
+      heads = [character(name_length) :: heads, entries]
+      wanted%name = name
+      wanted%unit = unit_text(unit_of(name))
+      if (wanted%unit == '–') wanted%unit = ''
+      if (.not. any(heads == name) .or. any(no_quantities == name) .or. .not. any(heads == over)) return
+      wanted%case = k
+      wanted%column = name
+      wanted%over = over
+      wanted%at = at
+      wanted%cases = [k]
+      wanted%reach = [huge(1.0_wp)]
+      if (abs(at) <= 0.0_wp .and. over == 'factor') wanted%reach = 0.0_wp      ! the design state alone
+   end subroutine find_column
+
+   !> A key number; wanted%key is not allocated if the report has none of this name.
+   subroutine find_key_number(solver, name, wanted, known)
+      type(design_solver_t), intent(in) :: solver
+      character(*), intent(in) :: name
+      type(wanted_number_t), intent(out) :: wanted
+      character(name_length), allocatable, intent(out) :: known(:)     !! all names, for suggestions; only if there is none
+      type(case_t), allocatable :: cases(:)
+      type(test_result_t), allocatable :: tests(:)
+      type(key_number_t), allocatable :: listed(:)
+      character(name_length), allocatable :: heads(:, :)
+      integer :: number, k
+
+      allocate (known(0))
+      call report_cases(solver, cases)
+      call list_all(solver%raw, cases, tests, listed, heads, stems_of([name]))
+      call find_number(name, heads, number, wanted%wheel)
+      if (number == 0) then
+         call list_all(solver%raw, cases, tests, listed, heads)
+         known = pack(heads, heads /= '')
+         return
+      end if
+      wanted%name = name
+      wanted%key = listed(number)
+      wanted%unit = listed(number)%unit
+      associate (sources => wanted%key%sources)
+         allocate (wanted%cases(size(sources)), wanted%reach(size(sources)))
+         do k = 1, size(sources)
+            wanted%cases(k) = solver%report_order(sources(k)%test)
+            wanted%reach(k) = reach_of(wanted%key%how, solver%raw, cases(sources(k)%test), sources(k), tests(sources(k)%test))
+         end do
+      end associate
+   end subroutine find_key_number
+
+   !> Its value, from the tables of its cases; not a number if it has none there.
+   subroutine read_number(wanted, source, table, value)
+      type(wanted_number_t), intent(in) :: wanted
+      integer, intent(in) :: source                        !! of a key number that is read
+      type(table_t), intent(in) :: table                   !! of its case
+      real(wp), intent(inout) :: value                     !! of the sources before; not a number before the first
+      real(wp) :: both(2)
+      logical :: is_final
+
+      if (allocated(wanted%key)) then
+         both = value
+         call read_source(wanted%key%how, wanted%key%sources(source), table, both, is_final)
+         value = both(wanted%wheel)
+      else
+         value = value_at(table, column_index(table, trim(wanted%over)), column_index(table, trim(wanted%column)), wanted%at)
+      end if
+   end subroutine read_number
+
+   !> Column y where column x has a given value: of a state that has it, otherwise on the cubic curve through the two states on
+   !> either side (a straight line next to an end). Where x has the value several times, next to design. Not a number outside the
+   !> range of x.
+   function value_at(table, x, y, at) result(value)
+      type(table_t), intent(in) :: table
+      integer, intent(in) :: x, y                          !! places of the columns
+      real(wp), intent(in) :: at
+      real(wp) :: value
+      real(wp), parameter :: rounding = 1.0e-7_wp          !! of the range of x: what a driven height may miss
+      integer, allocatable :: rows(:)
+      logical :: is_good(size(table%values, 2))
+      real(wp) :: nearest, place, slack
+      integer :: k, f, best
+
+      value = nothing()
+      f = column_index(table, 'factor')
+      if (min(x, y, f) == 0) return
+      is_good = unfolded_rows(table) .and. ieee_is_finite(table%values(x, :)) .and. ieee_is_finite(table%values(y, :))
+      rows = pack([(k, k=1, size(is_good))], is_good)
+      if (size(rows) == 0) return
+      slack = rounding*(maxval(table%values(x, rows)) - minval(table%values(x, rows)))
+      if (at < minval(table%values(x, rows)) - slack .or. at > maxval(table%values(x, rows)) + slack) return
+      place = min(max(at, minval(table%values(x, rows))), maxval(table%values(x, rows)))
+      best = 0
+      nearest = huge(nearest)
+      do k = 1, size(rows) - 1
+         if ((table%values(x, rows(k)) - place)*(table%values(x, rows(k + 1)) - place) > 0.0_wp) cycle
+         if (abs(table%values(f, rows(k))) >= nearest) cycle
+         nearest = abs(table%values(f, rows(k)))
+         best = k
+      end do
+      if (best == 0) then
+         value = table%values(y, rows(1))                  ! the only state
+      else if (best > 1 .and. best < size(rows) - 1) then
+         value = polynomial(table%values(x, rows(best - 1:best + 2)), table%values(y, rows(best - 1:best + 2)), place)
+      else
+         value = polynomial(table%values(x, rows(best:best + 1)), table%values(y, rows(best:best + 1)), place)
+      end if
+   end function value_at
+
+   !> The polynomial through some points (Lagrange); at one of them its value to the bit. Where two points have the same x, the
+   !> value of the first.
+   pure real(wp) function polynomial(x, y, at) result(value)
+      real(wp), intent(in) :: x(:), y(:), at
+      real(wp) :: weight
+      integer :: j, k
+
+      do k = 1, size(x)
+         value = y(k)
+         if (abs(x(k) - at) <= 0.0_wp) return
+      end do
+      value = y(1)
+      do k = 2, size(x)
+         if (any(abs(x(:k - 1) - x(k)) <= 0.0_wp)) return
+      end do
+      value = 0.0_wp
+      do k = 1, size(x)
+         weight = 1.0_wp
+         do j = 1, size(x)
+            if (j /= k) weight = weight*(at - x(j))/(x(k) - x(j))
+         end do
+         value = value + weight*y(k)
+      end do
+   end function polynomial
+
+end module ek_wanted_number

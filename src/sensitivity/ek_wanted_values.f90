@@ -1,0 +1,309 @@
+!> The values of wanted numbers of a design, and their derivatives with respect to factors: what `solve` and `fit` work with.
+!>
+!>     call begin_values(wanted, directions, solver, self, error)          once; solves the cases that are needed
+!>     call find_values(distances, solver, self, is_valid)                 at each design: self%values, self%jacobian
+!>
+!> A factor is a direction of ek_direction: the design moves by a distance along each of them from the numbers that the solver has
+!> when begin_values is called.
+!>
+!> All numbers are differentiated in one way. ek_derivatives gives the derivative of every column at every state; the tables of the
+!> cases are moved along them, by steps that need no solution, and the number is read from the moved tables as from any other: its
+!> difference quotient is the derivative. So a fitted slope, a value between two states, a maximum and whatever number is read
+!> from tables tomorrow need no formula here.
+module ek_wanted_values
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ek_kinds, only: wp
+   use ek_error, only: error_t, message_list_t, fail, exit_model, exit_convergence
+   use ek_text, only: quoted, str
+   use ek_table, only: name_length, column_index
+   use ek_case_result, only: failure_of
+   use ek_key_number, only: nothing, largest_of_all
+   use ek_number_reach, only: lacks_state
+   use ek_design_solver, only: design_solver_t, put_numbers, solve_case_fully
+   use ek_direction, only: direction_t, move_along
+   use ek_derivatives, only: begin_derivatives, refuse_case
+   use ek_case_slopes, only: case_slopes_t, solve_with_slopes, move_table
+   use ek_stencil, only: stencils, differentiate
+   use ek_wanted_number, only: wanted_number_t, read_number
+   implicit none(type, external)
+   private
+   public :: wanted_values_t, begin_values, find_values
+
+   !> A case that is solved.
+   type, extends(case_slopes_t) :: needed_t
+      logical :: is_used = .false.                           !! a number is read from it
+   end type needed_t
+
+   !> Wanted numbers and their values at a design.
+   type :: wanted_values_t
+      type(wanted_number_t), allocatable :: wanted(:)
+      type(direction_t), allocatable :: directions(:)
+      real(wp), allocatable :: values(:)                     !! in their units
+      real(wp), allocatable :: jacobian(:, :)                !! (number, direction): per unit of the direction
+      logical, allocatable :: can_move(:)                    !! the number of the deck may change at this design
+      integer :: sweeps = 0                                  !! designs that were solved
+      logical, private :: is_fresh = .false.                 !! begin_values has solved the design at distance 0
+      real(wp), allocatable, private :: start(:)             !! numbers of the deck at distance 0
+      type(needed_t), allocatable, private :: needed(:)
+   end type wanted_values_t
+
+contains
+
+   !> Solves the needed cases at the present numbers of the solver and prepares their derivatives. Makes texts.
+   subroutine begin_values(wanted, directions, solver, self, error)
+      type(wanted_number_t), intent(in) :: wanted(:)
+      type(direction_t), intent(in) :: directions(:)
+      type(design_solver_t), intent(inout) :: solver
+      type(wanted_values_t), intent(out) :: self
+      type(error_t), allocatable, intent(out) :: error       !! exit_usage, exit_model, exit_convergence: a number has no value
+      type(message_list_t) :: mistakes
+      integer :: n, j, code
+
+      self%wanted = wanted
+      self%directions = directions
+      self%start = solver%x
+      allocate (self%needed(count_cases(wanted)))
+      allocate (self%values(size(wanted)), self%jacobian(size(wanted), size(directions)))
+      allocate (self%can_move(size(directions)), source=.true.)
+      do n = 1, size(wanted)
+         do j = 1, size(wanted(n)%cases)
+            call add_need(wanted(n), j, self%needed)
+         end do
+      end do
+      code = exit_model
+      do n = 1, size(wanted)
+         call settle(self%wanted(n), self%needed, solver, error)
+         if (.not. allocated(error)) cycle
+         code = error%code
+         call mistakes%add(quoted(wanted(n)%name)//': '//error%message)
+         deallocate (error)
+      end do
+      if (mistakes%count() > 0) then
+         call fail(error, code, mistakes%text())
+         return
+      end if
+      call mark_used(self)
+      self%sweeps = 1
+      self%is_fresh = .true.
+      do j = 1, size(self%needed)
+         associate (this => self%needed(j))
+            if (.not. this%is_used) cycle
+            allocate (this%derivatives)
+            call begin_derivatives(solver, this%case, this%options%columns, directions, this%derivatives)
+         end associate
+      end do
+   end subroutine begin_values
+
+   !> Adds what a number needs of a case to the list of these.
+   subroutine add_need(wanted, source, needed)
+      type(wanted_number_t), intent(in) :: wanted
+      integer, intent(in) :: source
+      type(needed_t), intent(inout) :: needed(:)             !! the last ones are not yet in use
+      integer :: j, wheel
+
+      j = needed_number(wanted%cases(source), needed)
+      if (j == 0) then
+         j = needed_number(0, needed)
+         needed(j)%case = wanted%cases(source)
+         allocate (needed(j)%options%columns(0))
+         needed(j)%options%has_remarks = .false.
+         needed(j)%options%reach = 0.0_wp
+      end if
+      associate (options => needed(j)%options)
+         options%reach = max(options%reach, wanted%reach(source))
+         call add(wanted%column)
+         call add(wanted%over)
+         if (.not. allocated(wanted%key)) return
+         do wheel = 1, 2
+            call add(wanted%key%sources(source)%column(wheel))
+            call add(wanted%key%sources(source)%over(wheel))
+         end do
+      end associate
+
+   contains
+
+      subroutine add(name)
+         character(name_length), intent(in) :: name
+         if (name == '' .or. any(needed(j)%options%columns == name)) return
+         needed(j)%options%columns = [character(name_length) :: needed(j)%options%columns, name]
+      end subroutine add
+
+   end subroutine add_need
+
+   !> How many cases the numbers need.
+   pure integer function count_cases(wanted) result(many)
+      type(wanted_number_t), intent(in) :: wanted(:)
+      integer, allocatable :: cases(:)
+      integer :: n, j
+
+      allocate (cases(0))
+      do n = 1, size(wanted)
+         do j = 1, size(wanted(n)%cases)
+            if (.not. any(cases == wanted(n)%cases(j))) cases = [cases, wanted(n)%cases(j)]
+         end do
+      end do
+      many = size(cases)
+   end function count_cases
+
+   pure integer function needed_number(case, needed) result(j)
+      integer, intent(in) :: case
+      type(needed_t), intent(in) :: needed(:)
+
+      do j = 1, size(needed)
+         if (needed(j)%case == case) return
+      end do
+      j = 0
+   end function needed_number
+
+   !> Finds the case from which a number is read, and solves it. A key number is read in the first test that has a value.
+   subroutine settle(wanted, needed, solver, error)
+      type(wanted_number_t), intent(inout) :: wanted
+      type(needed_t), intent(inout) :: needed(:)
+      type(design_solver_t), intent(inout) :: solver
+      type(error_t), allocatable, intent(out) :: error
+      real(wp) :: value
+      integer :: j, n
+
+      value = nothing()
+      do j = 1, size(wanted%cases)
+         n = needed_number(wanted%cases(j), needed)
+         if (allocated(error)) deallocate (error)
+         call refuse_case(solver%cases(wanted%cases(j))%case, error)
+         if (.not. allocated(error)) call solve_first(needed(n), wanted%reach(j), solver, error)
+         if (allocated(error)) cycle
+         wanted%case = wanted%cases(j)
+         call read_number(wanted, j, needed(n)%table, value)
+         if (wanted%column /= '') then
+            ! an entry of the compliance matrix is no column of the table of the case
+            if (.not. ieee_is_finite(value) .and. column_index(needed(n)%table, trim(wanted%column)) > 0) &
+               call fail(error, exit_model, 'no value at '//trim(wanted%over)//' = '//str(wanted%at)//' in case '// &
+               quoted(solver%cases(wanted%case)%case%name))
+            return
+         end if
+         if (.not. ieee_is_finite(value)) cycle
+         if (wanted%key%how == largest_of_all) cycle
+         wanted%source = j
+         return
+      end do
+      if (ieee_is_finite(value)) then
+         if (allocated(error)) deallocate (error)
+      else if (.not. allocated(error)) then
+         call fail(error, exit_model, 'the model does not define it')
+      end if
+   end subroutine settle
+
+   !> Solves a case for the first time, unless this was done.
+   subroutine solve_first(this, reach, solver, error)
+      type(needed_t), intent(inout) :: this
+      real(wp), intent(in) :: reach                          !! as far as this number needs the path
+      type(design_solver_t), intent(inout) :: solver
+      type(error_t), allocatable, intent(out) :: error
+      logical :: is_done
+
+      if (.not. allocated(this%table%columns)) then
+         call solve_case_fully(this%case, this%options, solver, is_done, error)
+         if (.not. allocated(error) .and. .not. is_done) call fail(error, exit_model, 'its numbers give no model')
+         if (allocated(error)) return
+         if (solver%cases(this%case)%result%is_run()) this%table = solver%cases(this%case)%result%table
+      end if
+      associate (result => solver%cases(this%case)%result)
+         if (.not. lacks_state(result, reach)) return
+         call failure_of(result, error)
+         if (.not. allocated(error)) call fail(error, exit_convergence, 'case '//quoted(result%case%name)// &
+            ' lacks a state that it needs')
+      end associate
+   end subroutine solve_first
+
+   !> Cases from which no number is read are not solved again.
+   subroutine mark_used(self)
+      type(wanted_values_t), intent(inout) :: self
+      integer :: j, k, n
+
+      do n = 1, size(self%wanted)
+         do j = 1, size(self%wanted(n)%cases)
+            if (self%wanted(n)%source > 0 .and. j /= self%wanted(n)%source) cycle
+            k = needed_number(self%wanted(n)%cases(j), self%needed)
+            self%needed(k)%is_used = self%needed(k)%is_used .or. allocated(self%needed(k)%table%columns)
+         end do
+      end do
+   end subroutine mark_used
+
+   !> Values and derivatives of a design. is_valid is .false. where a number has no value: the design has a defect, a number of
+   !> the deck is outside its range, or a state that is needed was not found.
+   subroutine find_values(distances, solver, self, is_valid)
+      real(wp), intent(in) :: distances(:)                   !! along the directions, in their units
+      type(design_solver_t), intent(inout) :: solver
+      type(wanted_values_t), intent(inout) :: self
+      logical, intent(out) :: is_valid
+      real(wp) :: x(size(self%start))
+      integer :: j, p
+
+      self%is_fresh = self%is_fresh .and. all(abs(distances) <= 0.0_wp)
+      if (.not. self%is_fresh) then
+         self%sweeps = self%sweeps + 1
+         x = self%start
+         do p = 1, size(distances)
+            call move_along(self%directions(p), distances(p), x)
+         end do
+         call put_numbers(x, solver)
+      end if
+      self%values = nothing()
+      self%jacobian = nothing()
+      do j = 1, size(self%needed)
+         if (.not. self%needed(j)%is_used) cycle
+         call solve_with_slopes(self%is_fresh, self%needed(j)%case_slopes_t, solver, is_valid)
+         if (.not. is_valid) return
+      end do
+      self%is_fresh = .false.
+      self%can_move = .true.
+      do j = 1, size(self%needed)
+         if (self%needed(j)%is_used) self%can_move = self%can_move .and. self%needed(j)%derivatives%can_move
+      end do
+      call read_values(self, .false., self%values)
+      is_valid = all(ieee_is_finite(self%values))
+      if (is_valid) call differentiate_values(self)
+      if (is_valid) is_valid = all(ieee_is_finite(self%jacobian))
+   end subroutine find_values
+
+   !> Reads all numbers from the tables.
+   subroutine read_values(self, is_moved, values)
+      type(wanted_values_t), intent(in) :: self
+      logical, intent(in) :: is_moved                        !! from the moved tables
+      real(wp), intent(out) :: values(:)
+      integer :: j, k, n
+
+      values = nothing()
+      do n = 1, size(self%wanted)
+         do j = 1, size(self%wanted(n)%cases)
+            if (self%wanted(n)%source > 0 .and. j /= self%wanted(n)%source) cycle
+            k = needed_number(self%wanted(n)%cases(j), self%needed)
+            if (.not. self%needed(k)%is_used) cycle
+            if (is_moved) then
+               call read_number(self%wanted(n), j, self%needed(k)%moved, values(n))
+            else
+               call read_number(self%wanted(n), j, self%needed(k)%table, values(n))
+            end if
+         end do
+      end do
+   end subroutine read_values
+
+   !> The Jacobian: all numbers read from the tables moved along each direction. A number that cannot move has no effect.
+   !> Equation (E.3) of docs/theory/derivatives.md.
+   subroutine differentiate_values(self)
+      type(wanted_values_t), intent(inout) :: self
+      real(wp) :: y(size(self%wanted), 4), errors(size(self%wanted)), h
+      integer :: j, k, p
+
+      do p = 1, size(self%directions)
+         h = self%directions(p)%step
+         do k = 1, 4
+            do j = 1, size(self%needed)
+               if (self%needed(j)%is_used) call move_table(p, stencils(1)%at(k)*h, self%needed(j)%case_slopes_t)
+            end do
+            call read_values(self, .true., y(:, k))
+         end do
+         call differentiate(stencils(1), h, self%values, y, self%jacobian(:, p), errors)
+      end do
+   end subroutine differentiate_values
+
+end module ek_wanted_values

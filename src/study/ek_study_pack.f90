@@ -1,0 +1,87 @@
+!> The designs of a study in packs: their numbers are changed one after the other, their paths are walked together.
+!>
+!> The plan of elimination, the scale and the places of the states are those of the deck's own design, so that the result of a design
+!> does not depend on those beside it. A case that packs cannot walk (linear methods, along an arc, tables, paths that do not go
+!> through design), LAPACK as solver, and compilers whose lanes are slow leave every design to its own sweep.
+module ek_study_pack
+   use, intrinsic :: iso_fortran_env, only: compiler_version
+   use ek_lanes, only: lanes
+   use ek_pack, only: new_pack
+   use ek_pack_walk, only: walker_t, member_t, walk_pack, can_walk
+   use ek_path_states, only: new_path
+   use ek_worker, only: worker_t
+   implicit none(type, external)
+   private
+   public :: pack_space_t, begin_packs, walk_case, lanes, are_lanes_fast
+
+   !> gfortran makes vector instructions of lanes; flang calls its run-time library for them
+   logical, parameter :: are_lanes_fast = index(compiler_version(), 'GCC') > 0
+
+   !> Work space of a thread.
+   type :: pack_space_t
+      type(worker_t), allocatable :: workers(:)      !! the designs of a pack but the first, whose worker the study has
+      type(walker_t), allocatable :: walkers(:)      !! of each case
+      logical, allocatable :: is_used(:)             !! packs walk this case
+   end type pack_space_t
+
+contains
+
+   !> Prepares packs for the cases of a worker, whose design was solved.
+   subroutine begin_packs(worker, space)
+      type(worker_t), intent(in) :: worker
+      type(pack_space_t), intent(out) :: space
+      integer :: c
+
+      allocate (space%walkers(size(worker%cases)), space%is_used(size(worker%cases)))
+      do c = 1, size(worker%cases)
+         associate (result => worker%cases(c)%result)
+            space%is_used(c) = are_lanes_fast .and. result%kkt%has_plan .and. can_walk(result%case, result%path)
+            if (space%is_used(c)) call new_pack(result%suspension, result%kkt, result%path, space%walkers(c)%pack)
+         end associate
+      end do
+      allocate (space%workers(merge(lanes - 1, 0, any(space%is_used))))
+      do c = 1, size(space%workers)
+         space%workers(c) = worker
+      end do
+   end subroutine begin_packs
+
+   !> Walks the paths of case c of several designs together; is_walked: whose path is complete.
+   subroutine walk_case(c, worker, is_wanted, space, is_walked)
+      integer, intent(in) :: c
+      type(worker_t), intent(inout), target :: worker        !! of the first design
+      logical, intent(in) :: is_wanted(lanes)                !! its case is on the rig; .false.: there is no such design
+      type(pack_space_t), intent(inout), target :: space     !! with the workers of the other designs
+      logical, intent(out) :: is_walked(lanes)
+      type(member_t) :: members(lanes)
+      integer :: l, filler
+
+      is_walked = .false.
+      if (.not. space%is_used(c)) return
+      filler = findloc(is_wanted, .true., dim=1)
+      do l = 1, lanes
+         members(l)%is_wanted = is_wanted(l)
+         if (merge(l, filler, is_wanted(l)) == 1) then
+            call point_to(worker, members(l))
+         else
+            call point_to(space%workers(merge(l, filler, is_wanted(l)) - 1), members(l))
+         end if
+         if (is_wanted(l)) call new_path(members(l)%suspension, members(l)%case, members(l)%path)
+      end do
+      call walk_pack(space%walkers(c), members)
+      is_walked = members%is_walked
+
+   contains
+
+      subroutine point_to(from, member)
+         type(worker_t), intent(inout), target :: from
+         type(member_t), intent(inout) :: member
+
+         member%suspension => from%cases(c)%result%suspension
+         member%case => from%cases(c)%result%case
+         member%kkt => from%cases(c)%result%kkt
+         member%path => from%cases(c)%result%path
+      end subroutine point_to
+
+   end subroutine walk_case
+
+end module ek_study_pack

@@ -1,0 +1,213 @@
+"""Opens the page of a report in headless Chromium and uses it: hover, legend, zoom, overlay, filter, print.
+
+    report_in_a_browser.py FOLDER OTHER_DATA [--shots DIR]
+
+FOLDER has report.html, data.json and the tables; OTHER_DATA is the data.json of another report of the same tests. Requires
+playwright and axe-playwright-python (PyPI) and a Chromium in the path. Prints what it measured; exit status 1 with a line per failure.
+"""
+import json, re, sys, tempfile
+from pathlib import Path
+from playwright.sync_api import sync_playwright
+from browser import contrast, hover, new_page, number, start, table, violations
+
+folder, other = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+shots = Path(sys.argv[4]) if len(sys.argv) > 4 else None
+page_file, failures = folder / "report.html", []
+data = json.loads((folder / "data.json").read_text())
+
+
+def expect(is_good, text):
+    if not is_good:
+        failures.append(text)
+
+
+# Time per frame while the cursor moves over a chart, in ms: the mean and the slowest tenth
+frames = """(id) => new Promise((done) => {
+  const root = document.querySelector(`[id="${id}"] svg.chart`), box = root.getBoundingClientRect(), times = [], work = [];
+  let k = 0, last = performance.now();
+  const step = (now) => {
+    times.push(now - last); last = now;
+    const at = performance.now();
+    root.dispatchEvent(new PointerEvent('pointermove', { clientX: box.left + 60 + (k * 7) % (box.width - 80), clientY: box.top + 50, bubbles: true }));
+    work.push(performance.now() - at);
+    if (++k < 90) return requestAnimationFrame(step);
+    times.sort((a, b) => a - b); done([times[45], times[81]]);
+  };
+  requestAnimationFrame(step);
+})"""
+
+
+def first_chart(page):
+    chart = next(c for c in data["tests"][0]["charts"] if not c.get("level"))
+    page.locator(f'[id="{chart["id"]}"]').scroll_into_view_if_needed()
+    page.wait_for_selector(f'[id="{chart["id"]}"] svg.chart')
+    return chart
+
+
+with sync_playwright() as tool:
+    browser = start(tool)
+    messages, requests = [], []
+    page = new_page(browser, page_file, 1400, "light", messages, requests)
+    chart = first_chart(page)
+    size = page_file.stat().st_size
+    started = page.evaluate("performance.timing.domContentLoadedEventEnd - performance.timing.navigationStart")
+    expect(size < 1e6, f"report.html has {size} bytes")
+    print(f"size {size / 1e3:.0f} kB, loaded after {started} ms")
+
+    # hover: the values of the state in the table of the test
+    test, read = data["tests"][0], hover(page, chart["id"], 0.8)
+    rows, label = table(folder / test["file"]), page.locator(f'[id="{chart["id"]}"] svg.chart text').last.inner_html()
+    expect(len(read) == len(chart["curves"]) and all(read), f"no value at the cursor: {read}")
+    x = number(label.rsplit(": ", 1)[1])
+    for curve, text in zip(chart["curves"], read):
+        near = min(rows, key=lambda row: abs(float(row[curve["x"]]) - x))
+        expect(abs(float(near[curve["y"]]) - number(text)) <= 1e-4 * max(1, abs(float(near[curve["y"]]))),
+               f"{curve['y']} at {x}: {text} on the page, {near[curve['y']]} in {test['file']}")
+    print(f"hover at {x}: {read}")
+    # the cursor is common to the charts of a test
+    marked = page.locator(f'#test-{test["name"]} svg.chart .hair[visibility=visible]').count()
+    expect(marked > 1, f"the cursor is in {marked} chart")
+
+    # a click on the legend hides the curve, a second shows it
+    curves, button = page.locator(f'[id="{chart["id"]}"] path.curve'), page.locator(f'[id="{chart["id"]}"] .keys button').first
+    before = curves.count()
+    button.click()
+    expect(curves.count() == before - 1, "the legend does not hide a curve")
+    button.click()
+    expect(curves.count() == before, "the legend does not show a curve again")
+
+    # zoom by dragging, and back
+    box = page.locator(f'[id="{chart["id"]}"] svg.chart').bounding_box()
+    wide = page.locator(f'[id="{chart["id"]}"] path.curve').first.get_attribute("d")
+    page.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 90)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 90, steps=4)
+    page.mouse.up()
+    expect(page.locator(f'[id="{chart["id"]}"] path.curve').first.get_attribute("d") != wide, "a drag does not zoom")
+    page.mouse.dblclick(box["x"] + 0.5 * box["width"], box["y"] + 90)
+    expect(page.locator(f'[id="{chart["id"]}"] path.curve').first.get_attribute("d") == wide, "a double click does not zoom back")
+    # the keyboard moves the cursor
+    page.mouse.move(5, 5)
+    page.locator(f'[id="{chart["id"]}"] svg.chart').focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(120)
+    expect(page.locator(f'[id="{chart["id"]}"] .keys output').first.inner_text() != "", "an arrow key does not move the cursor")
+
+    mean, slow = min(page.evaluate(frames, chart["id"]) for _ in range(3))        # the machine has other work
+    print(f"cursor: {mean:.1f} ms per frame, nine of ten within {slow:.1f} ms")
+    expect(mean < 40, f"{mean:.1f} ms per frame while the cursor moves")
+
+    # overlay
+    page.set_input_files("input[type=file]", str(other))
+    page.wait_for_selector(f'[id="{chart["id"]}"] path.curve.other')
+    expect(curves.count() == 2 * before, f"{curves.count()} curves with another report, {2 * before} expected")
+    read = hover(page, chart["id"], 0.8)
+    expect(all("Δ" in text for text in read), f"no difference at the cursor: {read}")
+    print(f"overlay: {read}")
+    said, mine, theirs = page.locator("[role=status]").inner_text(), dict(data["deck"]), dict(json.loads(other.read_text())["deck"])
+    steps = [f"{path} {mine[path]} → {theirs[path]}" for path in mine if mine[path] != theirs[path]]
+    expect(steps and steps[0] in said, f"the overlay does not say what was changed: {said}")
+    if shots:
+        page.screenshot(path=str(shots / "overlay.png"))
+    wrong = Path(tempfile.mkdtemp()) / "wrong.json"
+    wrong.write_text("{}")
+    page.set_input_files("input[type=file]", str(wrong))
+    page.locator("[role=status]", has_text="cannot be overlaid").wait_for()      # a function would need eval, which the page forbids
+    page.get_by_text("Remove overlay").click()
+    expect(curves.count() == before, "the overlay is not removed")
+
+    # the turntable: a drag turns it, a slider takes a state of the travel, in which the wheel centre is where the table has it
+    space, canvas = data["turntable"], page.locator("#turntable canvas")
+    canvas.scroll_into_view_if_needed()
+    page.wait_for_timeout(100)
+    drawn = [canvas.screenshot()]
+    box = canvas.bounding_box()
+    page.mouse.move(box["x"] + 300, box["y"] + 150)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 180, box["y"] + 180, steps=4)
+    page.mouse.up()
+    page.wait_for_timeout(100)
+    drawn.append(canvas.screenshot())
+    for m, motion in enumerate(space["motions"]):
+        slider = page.locator("#turntable input").nth(2 + m)
+        slider.focus()
+        page.keyboard.press("End")
+        page.wait_for_timeout(100)
+        drawn.append(canvas.screenshot())
+        own = next(t for t in data["tests"] if t["name"] == motion["test"])
+        expect(abs(number(page.locator("#turntable output").nth(2 + m).inner_text()) - motion["values"][-1]) < 1e-3 * abs(motion["values"][-1]),
+               f"the turntable does not show {motion['values'][-1]} {motion['label']}")
+        if m == 0:
+            wheel = page.evaluate("""() => { const own = document.getElementById('turntable').table, last = own.state, line = own.lines.find((l) => l.kind === 'wheel');
+              const middle = (state) => { own.state = state; const p = own.points_of(line).slice(1); return [0, 1, 2].map((k) => p.reduce((sum, q) => sum + q[k], 0) / p.length); };
+              const from = middle(own.own.motions[0].design), to = middle(last); return to.map((v, k) => v - from[k]); }""")
+            rows = table(folder / own["file"])
+            near = min(rows, key=lambda row: abs(float(row["left_wheel_travel_mm"]) - motion["values"][-1]))
+            wanted = [float(near[f"left_wheel_centre_{axis}_mm"]) for axis in "xyz"]
+            print(f"turntable at {motion['values'][-1]:.3f} mm: wheel centre from design {[round(v, 3) for v in wheel]}, table {wanted}")
+            expect(max(abs(a - b) for a, b in zip(wheel, wanted)) < 1e-2, f"wheel centre moved by {wheel} on the turntable, {wanted} in the table")
+    expect(len(set(drawn)) == len(drawn), "the turntable does not move")
+
+    # filter
+    page.fill("input[type=search]", "ackermann")
+    titles = [t.inner_text() for t in page.locator("figure.live:visible figcaption b").all()]
+    expect(titles and all("ackermann" in t.lower() for t in titles), f"the filter for ackermann shows {titles}")
+    print(f"filter ackermann: {titles}")
+    page.fill("input[type=search]", "")
+    worst = {"light": page.evaluate(contrast)}
+    # every fold open: axe-core passes over what is hidden
+    page.evaluate("document.querySelectorAll('details').forEach((d) => { d.open = true; })")
+    serious = violations(page)
+    expect(not serious, f"axe-core: {serious[:5]}")
+    page.evaluate("document.querySelectorAll('details').forEach((d) => { d.open = false; })")
+
+    pdf = page.pdf(format="A4")
+    pages = len(re.findall(rb"/Type\s*/Page[^s]", pdf))
+    expect(pages <= 10, f"{pages} pages on paper")
+    if shots:
+        (shots / "print.pdf").write_bytes(pdf)
+    page.close()
+
+    for width in (1400, 800, 390):
+        for scheme in ("light", "dark"):
+            page = new_page(browser, page_file, width, scheme, messages, requests)
+            needs = page.evaluate("document.documentElement.scrollWidth")
+            expect(needs <= width, f"needs {needs} pixels on a screen {width} pixels wide")
+            page.evaluate("scrollTo(0, 3000)")
+            expect(page.locator("input[type=search]").bounding_box()["y"] < 900, f"the contents do not stay at {width} pixels")
+            page.evaluate("scrollTo(0, 0)")
+            if scheme == "dark" and width == 1400:
+                first_chart(page)
+                worst["dark"] = page.evaluate(contrast)
+            if shots:
+                page.screenshot(path=str(shots / f"top_{width}_{scheme}.png"))
+                first_chart(page)
+                page.wait_for_timeout(300)
+                page.screenshot(path=str(shots / f"charts_{width}_{scheme}.png"))
+            page.close()
+
+    # from the address to the first chart, where the address shows the first test; the best of three
+    first, busy = 1e9, {}
+    for _ in range(3):
+        page = browser.new_page(viewport={"width": 1400, "height": 900})
+        metrics = page.context.new_cdp_session(page)
+        metrics.send("Performance.enable")
+        page.goto(f'{page_file.as_uri()}#test-{data["tests"][0]["name"]}')
+        page.wait_for_selector("svg.chart")
+        took = int(page.evaluate("document.documentElement.dataset.firstChart"))
+        if took < first:
+            first, busy = took, {m["name"]: m["value"] for m in metrics.send("Performance.getMetrics")["metrics"]}
+        page.close()
+    print(f"up to then the page worked {1e3 * busy['TaskDuration']:.0f} ms, of which {1e3 * busy['ScriptDuration']:.0f} ms script")
+    expect(first < 1000, f"first chart after {first} ms")
+    browser.close()
+
+for scheme, (ratio, node) in worst.items():
+    expect(ratio >= 4.5, f"contrast {ratio:.2f} ({scheme}): {node}")
+expect(not messages, f"console: {messages[:3]}")
+expect(all(r == page_file.as_uri() or r.startswith("data:") for r in requests), f"requests: {sorted(set(requests))[:5]}")
+print(f"first chart after {first} ms, {pages} pages on paper, {len(serious)} serious by axe-core, contrast "
+      + ", ".join(f"{ratio:.1f} {scheme}" for scheme, (ratio, _) in worst.items()))
+for text in failures:
+    print(f"FAILED {page_file}: {text}")
+sys.exit(1 if failures else 0)
