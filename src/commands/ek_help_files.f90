@@ -6,7 +6,7 @@ module ek_help_files
    use ek_file, only: join_path, make_folder, write_whole
    use ek_command_line, only: command_t, option_t
    use ek_man_page, only: main_page, command_page
-   use ek_completion, only: bash_completion, zsh_completion, fish_completion
+   use ek_shell_completion, only: bash_completion, zsh_completion, fish_completion
    implicit none(type, external)
    private
    public :: write_help_files

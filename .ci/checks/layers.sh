@@ -1,0 +1,95 @@
+# shellcheck shell=bash
+# Checks of the layers.
+
+# A file, a module of a layer above it that it must not use, the library of the file
+upward_uses() {
+  cat <<'END'
+base/ek_kinds.f90 ek_path ek_base
+base/ek_kinds.f90 ek_rotation ek_base
+math/ek_rotation.f90 ek_measure ek_math
+model/ek_case.f90 ek_deck ek_model
+model/ek_case.f90 ek_path ek_model
+equilibrium/ek_state.f90 ek_deck ek_equilibrium
+deck/ek_record.f90 ek_path ek_deck
+formats/ek_kin.f90 ek_deck ek_formats
+formats/ek_property.f90 ek_law ek_formats
+results/ek_table.f90 ek_path ek_results
+kandc/ek_attitude.f90 ek_study ek_kandc
+math/ek_curve.f90 ek_law ek_math
+model/ek_element_force.f90 ek_reader_elements ek_model
+model/ek_law.f90 ek_kkt ek_model
+deck/ek_mirror.f90 ek_rig ek_deck
+deck/ek_namelist.f90 ek_load_deck ek_deck
+equilibrium/ek_schedule.f90 ek_rig ek_equilibrium
+results/ek_text_table.f90 ek_suspension ek_results
+results/ek_test_result.f90 ek_gradient ek_results
+results/ek_json.f90 ek_report ek_results
+kandc/ek_compliance.f90 ek_deck ek_kandc
+kandc/ek_rig.f90 ek_reader ek_kandc
+kandc/ek_gradient.f90 ek_report ek_kandc
+study/ek_study.f90 ek_report ek_study
+base/ek_writer.f90 ek_table ek_base
+math/ek_lapack.F90 ek_kkt ek_math
+deck/ek_reader_bodies.f90 ek_balance ek_deck
+equilibrium/ek_branch.f90 ek_compliance ek_equilibrium
+equilibrium/ek_orientation.f90 ek_reader ek_equilibrium
+results/ek_table.f90 ek_rig ek_results
+kandc/ek_plausible_shape.f90 ek_reader ek_kandc
+study/ek_response.f90 ek_run ek_study
+api/ek_session.f90 ek_run ek_api
+study/ek_worker.f90 ek_derivatives ek_study
+sensitivity/ek_derivatives.f90 ek_session ek_sensitivity
+export/ek_kandc_map.f90 ek_export_settings ek_export
+report/ek_key_numbers.f90 ek_named_numbers ek_report
+api/ek_named_numbers.f90 ek_load_deck ek_api
+END
+}
+
+# Every `use` points downwards, and tools/check_layers.sh notices one that does not, an unknown module, and two modules of one name
+uses_point_downwards() {
+  local copy=$logs/uses file module wrong=0
+  tools/check_layers.sh || return 1
+  rm -rf "$copy"
+  mkdir -p "$copy"
+  cp -r src "$copy"
+  noticed() { # noticed FILE SED-EXPRESSION WORDS: a copy with this change must be rejected
+    cp "$copy/src/$1" "$copy/kept.f90"
+    sed -i "$2" "$copy/src/$1"
+    tools/check_layers.sh "$copy" >"$logs/uses.txt" && { echo "accepted: $1: $2"; wrong=1; }
+    grep -F "$3" "$logs/uses.txt" || { echo "not noticed in $1: $2"; wrong=1; }
+    cp "$copy/kept.f90" "$copy/src/$1"
+  }
+  while read -r file module _; do
+    noticed "$file" "0,/^module .*/s//&\n   use $module/" "may not use $module of"
+  done < <(upward_uses)
+  noticed main.f90 '0,/^program .*/s//&\n   use ek_unknown/' 'there is no module ek_unknown'
+  noticed math/ek_curve.f90 's/^module ek_curve/module ek_rotation/' 'module ek_rotation stands in'
+  return $wrong
+}
+
+# In a copy of the sources each layer gets a `use` of a layer above it, which must not compile
+upward_use_does_not_compile() {
+  local work=$logs/layering file module target wrong=0
+  rm -rf "$work"
+  mkdir -p "$work"
+  cp -r CMakeLists.txt src "$work"
+  cmake -S "$work" -B "$work/build" -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=Quick -DCMAKE_Fortran_FLAGS_QUICK=-O0 || return 1
+  # everything compiles first, so that the module files exist that must not be found
+  cmake --build "$work/build" --parallel "$EK_JOBS" || return 1
+  while read -r file module target; do
+    cp "$work/src/$file" "$work/kept.f90"
+    sed -i "0,/^module .*/s//&\n   use $module/" "$work/src/$file"
+    if cmake --build "$work/build" --target "$target" >"$work/said.txt" 2>&1; then
+      echo "$file may use $module"
+      wrong=1
+    elif ! grep -q "Cannot open module file .$module.mod." "$work/said.txt"; then
+      echo "$file with $module fails for another reason:"
+      cat "$work/said.txt"
+      wrong=1
+    else
+      echo "$file may not use $module"
+    fi
+    cp "$work/kept.f90" "$work/src/$file"
+  done < <(upward_uses)
+  return $wrong
+}

@@ -1,0 +1,87 @@
+# shellcheck shell=bash
+# Checks of the text of sources, scripts and documents.
+
+scripts_are_sound() {
+  shellcheck tools/*.sh packaging/*.sh studies/*/*.sh studies/*/*.sbatch tests/support/*.sh docs/pictures/*.sh tests/support/selftest/*.sh tests/attacks/*.sh \
+    examples/drivers/dakota/*.sh .ci/run .ci/deep .ci/*.sh .ci/checks/*.sh
+}
+
+# House rules that a linter can check: implicit none(type, external), private by default, intent, `use ..., only`,
+# no variable saved by its initial value, kinds, no unreachable statement, no trailing blanks
+fortran_is_tidy() {
+  local tools=$logs/venv
+  if [ ! -x "$tools/bin/fortitude" ]; then
+    if ! python3 -m venv "$tools" || ! "$tools/bin/pip" install --quiet fortitude-lint==0.10.0; then
+      skip "fortitude-lint could not be installed from PyPI"
+      return
+    fi
+  fi
+  "$tools/bin/fortitude" check --output-format concise \
+    --select C001,C003,C021,C022,C051,C061,C081,C091,C092,C121,C122,C131,C161,C191,E,S101 src
+}
+
+# The tutorial in an empty folder, letter by letter; the snippets of the gallery of joints stand in their decks; the figures are drawn
+tutorial_works() {
+  PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py docs/tutorial.md || return 1
+  tests/support/check_snippets.py docs/joints.md || return 1
+  rm -rf "$logs/pictures"
+  docs/pictures/draw.sh "$logs/pictures" || return 1
+  diff <(cd docs/pictures && ls ./*.svg) <(cd "$logs/pictures" && ls ./*.svg)
+}
+
+# The site of the documentation, with the reports of the library: every link and anchor exists; in the browser no page asks another server
+# for anything, writes to the console, or is wider than a phone
+site() {
+  local tools=$logs/venv_site folder=$logs/site
+  if ! python_with venv_site -r docs/site/requirements.txt playwright; then
+    skip "MkDocs and playwright could not be installed from PyPI"
+    return
+  fi
+  rm -rf "$folder"
+  EK_REPORTS=$logs/reports "$tools/bin/mkdocs" build --strict --site-dir "$folder" || return 1
+  if ! command -v chromium >/dev/null && ! tools/setup.sh chromium; then
+    skip "not opened, chromium could not be installed"
+    return
+  fi
+  "$tools/bin/python" tests/support/check_site.py "$folder" "$logs/site_pictures"
+}
+
+# Documents, messages and comments use the terms of the field: tools/check_language.sh contains the list
+plain_english() {
+  tools/check_language.sh
+}
+
+# Every equation of docs/theory names its procedures and every procedure its equations; the check notices a wrong number,
+# a renamed procedure and a lost reference
+theory_and_code() {
+  local copy=$logs/theory wrong=0
+  tools/check_theory.sh || return 1
+  break_theory() { # break_theory WHAT FILE SED-EXPRESSION: a copy with this change must be rejected
+    rm -rf "$copy"
+    mkdir -p "$copy"
+    cp -r docs src tests tools input studies "$copy"
+    sed -i "$3" "$copy/$2"
+    cmp -s "$2" "$copy/$2" && { echo "$1: nothing was changed"; wrong=1; }
+    tools/check_theory.sh "$copy" >"$logs/theory.txt" && { echo "not noticed: $1"; wrong=1; }
+    sed "s/^/rejected as intended ($1): /" "$logs/theory.txt"
+  }
+  break_theory 'a number that does not exist' src/model/ek_block.f90 's/Equation (M\.2)/Equation (M.99)/'
+  break_theory 'another number' src/model/ek_block.f90 's/Equation (M\.2)/Equation (M.4)/'
+  break_theory 'a lost reference' src/kandc/ek_port_response.f90 '/Equation (C\.6)/d'
+  break_theory 'a renamed procedure' src/equilibrium/ek_motion.f90 's/largest_motion/longest_motion/g'
+  break_theory 'an equation without code' docs/theory/measures.md '/^Code of (M\.2)/d'
+  break_theory 'a lost equation' docs/theory/kkt.md 's/ .tag{K\.12}//'
+  rm -rf "$copy"
+  return $wrong
+}
+
+# No file contains a path on a developer's machine
+no_private_paths() {
+  ! grep -rnIE '(^|[^A-Za-z0-9._-])/(work|home|Users|root)/[A-Za-z.]' --exclude-dir=.git --exclude-dir=build \
+    --exclude-dir=out --exclude-dir=.venv --exclude=.git .
+}
+
+# Nothing that ran left a file, or changed one (tree_before: the state before the first check)
+tests_leave_no_trace() {
+  diff <(echo "$tree_before") <(tree_state)
+}
