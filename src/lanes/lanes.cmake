@@ -34,7 +34,7 @@ add_custom_command(OUTPUT ${ek_lane_kernels}
   COMMENT "Making the lane copy of the kernels"
   VERBATIM)
 set(ek_lane_layer ${ek_lane_kernels} lanes/ek_lane_copy.f90 lanes/ek_lane_instructions.f90)
-ek_layer(lanes USES equilibrium model math base SOURCES ${ek_lane_layer})
+ek_layer(lanes FAST USES equilibrium model math base SOURCES ${ek_lane_layer})
 
 # No fused multiply-add: all instruction sets give the same bits
 set(ek_lane_options -ffp-contract=off -fopenmp-simd)
@@ -52,7 +52,4 @@ if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
   endif()
 endif()
 target_compile_options(ek_lanes PRIVATE ${ek_lane_options})
-# One file, so nothing is left to be inlined at link time
-set_target_properties(ek_lanes PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
-
 include(${CMAKE_CURRENT_SOURCE_DIR}/lanes/loaded_lanes.cmake)

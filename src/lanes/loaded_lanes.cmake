@@ -46,8 +46,7 @@ message(STATUS "Instruction sets of packs: x86-64 and x86-64-v3, chosen by the l
 function(ek_loaded_copy target folder)
   add_library(${target} SHARED ${ARGN})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME elastokin_lanes LINKER_LANGUAGE Fortran
-    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/${folder}
-    INTERPROCEDURAL_OPTIMIZATION OFF)
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/${folder})
   # -Bsymbolic: calls of the library to itself go nowhere else
   target_link_options(${target} PRIVATE -Wl,-Bsymbolic)
   install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/${folder} COMPONENT runtime)

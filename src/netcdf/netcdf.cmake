@@ -42,7 +42,7 @@ function(ek_add_netcdf)
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
     Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/netcdf)
   target_compile_options(elastokin-netcdf PRIVATE ${flags})
-  target_link_libraries(elastokin-netcdf PRIVATE ek_study ${libraries})
+  target_link_libraries(elastokin-netcdf PRIVATE ${ek_program_kernel} ek_study ${libraries})
   # optional: a build of the target elastokin alone can be installed too
   install(TARGETS elastokin-netcdf RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT netcdf OPTIONAL)
   string(TIMESTAMP ek_date "%Y-%m-%d" UTC)

@@ -21,7 +21,7 @@ module ek_column_observer
       character(name_length), allocatable :: columns(:)    !! quantities, then entries
       integer, private :: quantities = 0
       integer, allocatable, private :: entries(:)          !! their numbers among compliance_columns
-      type(observer_t), private :: observer
+      class(observer_t), allocatable, private :: observer      !! a class as in worker_case_t
       type(compliance_t), private :: compliance
       type(attitude_t), allocatable, private :: wheels(:)
       real(wp), allocatable, private :: work(:), matrix(:)
@@ -38,6 +38,7 @@ contains
       character(name_length), allocatable :: names(:)
       integer :: j
 
+      allocate (self%observer)
       call make_observer(suspension, case, self%observer, columns)
       self%columns = quantity_columns(self%observer)
       self%quantities = size(self%columns)

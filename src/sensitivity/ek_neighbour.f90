@@ -21,7 +21,7 @@ module ek_neighbour
    !> A design close to another one.
    type :: neighbour_t
       integer :: case = 0                                  !! number of the case in the solver
-      type(design_solver_t) :: solver                      !! the same deck, at the numbers of the neighbour
+      class(design_solver_t), allocatable :: solver        !! the same deck, at the numbers of the neighbour (a class as in worker_case_t)
       real(wp), allocatable :: x(:)
       type(schedule_t), private :: here, schedule          !! of the design, of the neighbour
       type(path_t), private :: path
@@ -43,7 +43,8 @@ contains
       type(neighbour_t), intent(inout) :: self
 
       self%case = k
-      self%solver = solver
+      if (allocated(self%solver)) deallocate (self%solver)
+      allocate (self%solver, source=solver)
       ! they keep the reference points of the design, also of bodies for which the deck names a point that moves
       self%solver%design%plan%bodies%origin = 0
       self%x = solver%x

@@ -19,8 +19,9 @@ module ek_study_pack
 
    !> Work space of a thread.
    type :: pack_space_t
-      type(worker_t), allocatable :: workers(:)      !! the designs of a pack but the first, whose worker the study has
-      type(walker_t), allocatable :: walkers(:)      !! of each case
+      ! classes for the reason given at worker_case_t
+      class(worker_t), allocatable :: workers(:)     !! the designs of a pack but the first, whose worker the study has
+      class(walker_t), allocatable :: walkers(:)     !! of each case
       logical, allocatable :: is_used(:)             !! packs walk this case
    end type pack_space_t
 
@@ -39,10 +40,7 @@ contains
             if (space%is_used(c)) call new_pack(result%suspension, result%kkt, result%path, space%walkers(c)%pack)
          end associate
       end do
-      allocate (space%workers(merge(lanes - 1, 0, any(space%is_used))))
-      do c = 1, size(space%workers)
-         space%workers(c) = worker
-      end do
+      allocate (space%workers(merge(lanes - 1, 0, any(space%is_used))), source=worker)
    end subroutine begin_packs
 
    !> Walks the paths of case c of several designs together; is_walked: whose path is complete.

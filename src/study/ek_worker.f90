@@ -39,8 +39,8 @@ module ek_worker
       type(case_t) :: case                        !! of the present design, as in the deck
       integer :: number = 0                       !! in the deck; 0: a standard test
       type(known_case_t) :: known                 !! what the first design has proved about the others
-      type(observer_t), allocatable :: observer   !! of the columns of its results, for solve_case
-      class(case_result_t), allocatable :: result !! of the present design; change_design puts the case on the rig. A class:
+      class(observer_t), allocatable :: observer  !! of the columns of its results, for solve_case
+      class(case_result_t), allocatable :: result !! of the present design; change_design puts the case on the rig. Classes:
                                                   !! gfortran copies a type that holds one by calling a procedure; otherwise it
                                                   !! writes out the copy at each use, and the program grows
    end type worker_case_t

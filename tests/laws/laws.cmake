@@ -22,7 +22,6 @@ add_library(ek_test_laws STATIC
   ${ek_laws_dir}/ek_exported.f90
   ${ek_laws_dir}/ek_probe.f90)
 set_target_properties(ek_test_laws PROPERTIES
-  Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws
-  INTERPROCEDURAL_OPTIMIZATION OFF)
+  Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
 target_include_directories(ek_test_laws PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/modules/laws)
 target_link_libraries(ek_test_laws PUBLIC ek_study ek_export ek_kandc ek_deck ek_equilibrium)

@@ -49,8 +49,7 @@ function(ek_add_test name)
     ek_add_stand_in_test(${name} ${pf_file} ${arg_WORKING_DIRECTORY} "${arg_OTHER_SOURCES}" "${arg_LINK}")
     set(all_well "[0-9]+ passed, 0 failed")
   endif()
-  # A hundred programs optimised over the whole library as they are linked take ten minutes; the objects hold plain code too
-  set_target_properties(${name} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+  # A test that links without the object of the kernel would be optimised across files again, for minutes
   if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
     target_link_options(${name} PRIVATE -fno-lto)
   endif()
