@@ -18,8 +18,8 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
         if (match(line, / USES [a-z ]+/)) {
           text = substr(line, RSTART + 6, RLENGTH - 6)
           sub(/ SOURCES.*/, "", text)
-          m = split(text, words, " ")
-          for (j = 1; j <= m; j++) may[layer, words[j]]
+          m = split(text, part, " ")
+          for (j = 1; j <= m; j++) may[layer, part[j]]
         }
       }
     # what stands below a layer below
@@ -40,10 +40,10 @@ find . -name '*.[fF]90' | sort | sed 's|^\./||' | awk -v tables='CMakeLists.txt 
       row++
       line = tolower(line)
       if (match(line, /^ *module +ek_[a-z0-9_]+ *(!.*)?$/)) {
-        split(line, words, " ")
-        if (words[2] in place) {print "src/" file ":" row ": module " words[2] " stands in src/" place[words[2]] " too"; wrong = 1}
-        place[words[2]] = file
-        from[words[2]] = layer
+        split(line, part, " ")
+        if (part[2] in place) {print "src/" file ":" row ": module " part[2] " stands in src/" place[part[2]] " too"; wrong = 1}
+        place[part[2]] = file
+        from[part[2]] = layer
       } else if (match(line, /^ *use *(, *(non_)?intrinsic)?( *:: *| +)ek_[a-z0-9_]+/)) {
         used = substr(line, RSTART, RLENGTH)
         sub(/.*[ :]/, "", used)

@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Hostile input, kills, mutated files.
 
 # Hostile input, full disks and resource limits, each as a small scenario

@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Checks of the code under other compilers, options and tools, each with a build of its own.
 
 # -fcheck=all, signalling NaN, floating-point traps; warnings are errors, also in the tests

@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Checks of programs that call elastokin: C, Fortran, Python, and one process for each design.
 
 compile_c() { # compile_c PROGRAM SOURCE [OPTION...]: against the installed library in build/ci/prefix

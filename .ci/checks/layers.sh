@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Checks of the layers.
 
 # A file, a module of a layer above it that it must not use, the library of the file
@@ -52,7 +52,7 @@ uses_point_downwards() {
   rm -rf "$copy"
   mkdir -p "$copy"
   cp -r src "$copy"
-  noticed() { # noticed FILE SED-EXPRESSION WORDS: a copy with this change must be rejected
+  noticed() { # noticed FILE SED-EXPRESSION MESSAGE: a copy with this change must be rejected
     cp "$copy/src/$1" "$copy/kept.f90"
     sed -i "$2" "$copy/src/$1"
     tools/check_layers.sh "$copy" >"$logs/uses.txt" && { echo "accepted: $1: $2"; wrong=1; }

@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Checks of what is installed: libraries, man pages, packages, recipes.
 
 # A project outside this folder finds and uses the installed library

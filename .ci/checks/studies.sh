@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Checks of studies, and of numbers that take long.
 
 # studies/paper from its own folder by one command: figures, table of key numbers, and nothing made again the second time

@@ -1,4 +1,4 @@
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2154
 # Checks of the text of sources, scripts and documents.
 
 scripts_are_sound() {
@@ -81,7 +81,7 @@ no_private_paths() {
     --exclude-dir=out --exclude-dir=.venv --exclude=.git .
 }
 
-# Nothing that ran left a file, or changed one (tree_before: the state before the first check)
+# Nothing that ran left a file, or changed one (tree_before.txt: the state before the first check)
 tests_leave_no_trace() {
-  diff <(echo "$tree_before") <(tree_state)
+  diff "$logs/tree_before.txt" <(tree_state)
 }
