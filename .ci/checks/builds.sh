@@ -120,6 +120,21 @@ END
   return $wrong
 }
 
+# Processor seconds of the slowest files of a clean build of elastokin, as multiples of those of ek_kkt.f90 in the same run
+compile_times() {
+  local folder=$logs/compile_times start=$SECONDS
+  rm -rf "$folder" "$folder.txt"
+  cmake -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_Fortran_COMPILER_LAUNCHER="$top/tests/support/time_compilation.sh" || return 1
+  EK_TIMES=$folder.txt cmake --build "$folder" --target elastokin --parallel "$EK_JOBS" || return 1
+  start=$((SECONDS - start))
+  sort -rn "$folder.txt" | awk '{sub(/.*\//, "", $2); seconds[NR] = $1; name[NR] = $2; if ($2 == "ek_kkt.f90") unit = $1; sum += $1}
+    END {if (!unit || NR < 300) exit 1
+      for (k = 1; k <= 20; k++) printf "%6.1f  %s\n", seconds[k]/unit, name[k]
+      printf "remark: %d files, %.0f s of processor time, the slowest %s: %.0f times ek_kkt.f90 (%.2f s)\n", NR, sum, name[1], seconds[1]/unit, unit}' ||
+    return 1
+  echo "remark: clean build of elastokin: $start s"
+}
+
 # The loader takes the best copy of the kernels of packs, and each gives the same bits: tables of a study, and the tests of lanes and packs.
 # LD_LIBRARY_PATH selects the copy for every processor; a tunable of glibc would also change the functions of libm.
 packs_on_instruction_sets() {
