@@ -78,7 +78,7 @@ int ek_case_count(ek_model *model);
 const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);
 
-/* ---- solving; the results stay until the next solution ---- */
+/* ---- solving; the results stay until the next solution, also when numbers or texts are changed, reset, or key numbers are read ---- */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
                                                     /* name NULL or "": the first case. n_columns 0: all columns; otherwise `state`,
                                                        `factor`, these (in the order of the program's tables), and the last columns on convergence */

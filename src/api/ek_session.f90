@@ -44,8 +44,9 @@ module ek_session
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
       type(prepared_t), allocatable :: prepared(:)  !! of each case
-      class(design_solver_t), allocatable :: other  !! of the deck with the numbers as text, for one solution
-      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution, if it is not that of `other`
+      class(design_solver_t), allocatable :: other  !! has the last solution if `solver` has not: of the deck with the numbers as text,
+      !!                                               or of the deck before set_text or reset
+      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
       class(derived_t), allocatable :: derived      !! ek_session_derivatives
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers that were asked for last
@@ -126,7 +127,8 @@ contains
       call begin_solver(session)
    end subroutine begin_opened
 
-   !> Takes another deck; the session stays as it was if the deck has mistakes.
+   !> Takes another deck; the session stays as it was if the deck has mistakes. The last solution stays in either case: its solver is
+   !> kept until the next one.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
@@ -137,6 +139,7 @@ contains
       call begin_design_solver(deck, solver, error)
       if (allocated(error)) return
       session%deck = deck
+      if (session%solved > 0 .and. .not. allocated(session%other)) call move_alloc(session%solver, session%other)
       call move_alloc(solver, session%solver)
       call begin_solver(session)
    end subroutine begin
@@ -150,6 +153,7 @@ contains
       call begin_numbers(session%solver%design, session%numbers)
       session%numbers%is_new = .false.                     ! the solver was made with them
       session%is_named_ready = .false.
+      if (allocated(session%derived)) deallocate (session%derived)
    end subroutine begin_solver
 
    !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. A value outside its
