@@ -29,8 +29,9 @@ typedef struct ek_model ek_model;
 
 enum {
   EK_OK = 0,
-  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside its range; a null pointer */
-  EK_DECK = 2,        /* mistakes of the deck, or a value outside its legal range: all of them in the message */
+  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside the list; a value that is not a finite number or, in
+                         ek_set_text, is of the wrong type; a null pointer where this file does not allow one */
+  EK_DECK = 2,        /* mistakes of the deck, or a number outside its legal range: all of them in the message */
   EK_MODEL = 3,       /* a mechanism, or redundant constraints: nothing was solved */
   EK_CONVERGENCE = 4, /* some states did not converge: their rows have converged = 0 and NaN, key numbers that need them are NaN;
                          the others are good */
@@ -38,13 +39,14 @@ enum {
 };
 
 /* ---- the library ---- */
-const char *ek_version(void);                       /* "0.2.0" */
+const char *ek_version(void);                       /* of the library, as "0.1.0" */
 int ek_use_one_thread(void);                          /* sets the OpenBLAS of this process to one thread, if it is the LAPACK: matrices are
                                                        small here, and threads would only wait. Other users of it are affected */
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck */
-int ek_open_text(const char *text, const char *name, ek_model **model);     /* name: for messages; its folder is that of included files */
+int ek_open_text(const char *text, const char *name, ek_model **model);     /* name: for messages; its folder is that of included files.
+                                                                               NULL: "deck" */
 void ek_close(ek_model *model);                     /* NULL is allowed */
 const char *ek_message(ek_model *model);            /* of the last call; "" if it succeeded */
 const char *ek_name(ek_model *model);               /* of the model */
@@ -58,7 +60,10 @@ int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* ---- parameters: every number of the deck ---- */
+/* ---- parameters: every number of the deck.
+ * A number outside its legal range (input/README.md) is refused when it is set: EK_DECK, and no number is changed, in ek_set_all
+ * neither. Legal numbers that together define no valid model (two points that coincide, a case from 1 to 1) are kept; ek_solve and
+ * ek_numbers report them. ek_set_text reads the deck again and refuses every mistake. ---- */
 int ek_parameter_count(ek_model *model);
 const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
 const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" without dimension */

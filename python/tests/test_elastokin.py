@@ -132,10 +132,16 @@ class Numbers(unittest.TestCase):
         self.assertIn(PATH, self.model)
 
     def test_a_value_outside_its_range_is_a_deck_error(self) -> None:
-        with self.assertRaisesRegex(elastokin.DeckError, "radius"):
-            self.model["wheel.left.radius"] = -1
-            self.model.solve("parallel_travel")
-        self.model.reset()
+        before, checksum = self.model.x, self.model.checksum
+        for path, value in (("wheel.left.radius", -1), ("wheel.left.radius", "*-1"), ("spring.coil.rate", -5), ("spring.right_coil.rate", -5)):
+            with self.assertRaisesRegex(elastokin.DeckError, "radius|rate"):
+                self.model[path] = value
+        x = before.copy()
+        x[list(self.model.parameters.paths).index("spring.left_coil.rate")] = -5
+        with self.assertRaisesRegex(elastokin.DeckError, "spring.left_coil.rate=-5: "):
+            self.model.x = x
+        np.testing.assert_array_equal(self.model.x, before)
+        self.assertEqual(self.model.checksum, checksum)
         self.assertTrue(self.model.solve("parallel_travel", ["left_toe_deg"]).converged)
 
     def test_deleting_takes_a_change_back_and_keeps_the_others(self) -> None:
@@ -199,6 +205,13 @@ class Solving(unittest.TestCase):
         self.assertEqual(some.columns[:2], ("state", "factor"))
         for name in some.columns:
             np.testing.assert_array_equal(some[name], every[name], name)
+
+    def test_a_result_stays_readable_after_a_text_is_set(self) -> None:
+        result = self.model.solve("parallel_travel", columns=["left_toe_deg"])
+        first = result.compliance(3)
+        self.model["spring.coil.rate"] = "*1.1"
+        self.assertEqual(result.compliance(4).shape, first.shape)
+        self.assertEqual(result.derivatives("left_toe_deg", PATH, 3).values.shape, (1, 1))
 
     def test_a_change_changes_the_result_and_the_checksum_but_not_the_earlier_result(self) -> None:
         before = self.model.solve("parallel_travel")

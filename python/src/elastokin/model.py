@@ -197,7 +197,8 @@ class Model:
         """Changes a number in the unit of the deck, as --set: on both sides of a mirrored axle, `*` in the path for any letters.
 
         A text is a word of the deck, or a change of the present number: "*1.1" scales it, "+2" adds to it. The deck is then read again, which
-        takes some milliseconds. Some values outside their legal range are only reported by the next solution.
+        takes some milliseconds. A number outside its legal range raises DeckError and changes nothing. Legal numbers that together define no
+        valid model are reported by the next solution.
         """
         with self._lock:
             if isinstance(value, str):
