@@ -165,6 +165,45 @@ class Numbers(unittest.TestCase):
         with self.assertRaises(KeyError):
             parameters["no_such"]
 
+    def test_common_paths_lead_to_both_sides(self) -> None:
+        pairs = self.model.parameters.common_paths
+        self.assertEqual(pairs["spring.coil.rate"], ("spring.left_coil.rate", "spring.right_coil.rate"))
+        self.assertGreater(len(pairs), 100)
+        for path, (left, right) in pairs.items():
+            self.assertEqual(self.model[path], self.model[left], path)
+            self.assertEqual(abs(self.model[path]), abs(self.model[right]), path)
+        self.assertEqual(Model.from_file(CORNER).parameters.common_paths, {})
+
+    def test_wrong_types_and_counts_are_told_in_terms_of_python(self) -> None:
+        calls = {
+            "a path must be a str, found int": lambda: self.model[3],
+            "the name of a key number must be a str, found list": lambda: self.model.numbers(["left_bump_toe"]),
+            "needs at least one name": lambda: self.model.numbers(),
+            "the name of a case must be a str, found int": lambda: self.model.solve(3),
+            "the name of a column must be a str, found int": lambda: self.model.solve("roll", columns=[3]),
+            "a deck must be a str, found bytes": lambda: Model.from_text(b"&model /"),
+        }
+        for words, call in calls.items():
+            with self.assertRaisesRegex(TypeError, words):
+                call()
+        with self.assertRaises(TypeError):
+            self.model[3] = 1.0
+        with self.assertRaisesRegex(ValueError, f"x needs {self.model.x.size} numbers.*found 3"):
+            self.model.x = [1, 2, 3]
+
+    def test_a_nul_in_a_text_is_refused(self) -> None:
+        for call in (
+            lambda: Model.from_file(f"{AXLE}\0b"), lambda: Model.from_text(AXLE.read_text() + "\0", str(AXLE)),
+            lambda: Model.from_text(AXLE.read_text(), f"{AXLE}\0"), lambda: self.model[PATH + "\0x"],
+            lambda: self.model.numbers("left_bump_toe\0"), lambda: self.model.solve("roll\0"),
+            lambda: self.model.solve("roll", columns=["left_toe_deg\0"]),
+        ):
+            with self.assertRaisesRegex(elastokin.UsageError, "NUL"):
+                call()
+        with self.assertRaisesRegex(elastokin.UsageError, "NUL"):
+            self.model["spring.coil.rate"] = "30\0 0"
+        self.assertNotIn(PATH + "\0", self.model)
+
     def test_all_numbers_are_an_array(self) -> None:
         x = self.model.x.copy()
         k = next(k for k, p in enumerate(self.model.parameters.paths) if p.endswith("lca_front.kt(1)"))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import errors
-from ._library import lib, text_of, texts_for
+from ._library import bytes_for, lib, text_of, texts_for, without_nul
 from .parameters import Parameters
 from .result import Heading, Remark, Result
 
@@ -39,7 +39,7 @@ class Model:
         """Reads a deck from a file. Raises FileError, DeckError, ModelError. Issues one ModelWarning if there are `remarks`."""
         name = os.fspath(path)
         handle = c_void_p()
-        model = cls._opened(handle, lib.ek_open_file(os.fsencode(name), byref(handle)), os.path.abspath(name), "")
+        model = cls._opened(handle, lib.ek_open_file(without_nul(os.fsencode(name), "a file name"), byref(handle)), os.path.abspath(name), "")
         with open(name, encoding="utf-8", errors="surrogateescape", newline="") as file:
             model._text = file.read()
         model._warn()
@@ -58,7 +58,8 @@ class Model:
     @classmethod
     def _from_text(cls, text: str, name: str) -> Model:
         handle = c_void_p()
-        return cls._opened(handle, lib.ek_open_text(text.encode("utf-8", "surrogateescape"), os.fsencode(name), byref(handle)), name, text)
+        content, file = bytes_for(text, "a deck"), without_nul(os.fsencode(name), "a file name")
+        return cls._opened(handle, lib.ek_open_text(content, file, byref(handle)), name, text)
 
     @classmethod
     def _opened(cls, handle: c_void_p, code: int, source: str, text: str) -> Model:
@@ -190,7 +191,7 @@ class Model:
         """A number of the deck in the unit of the deck; NaN if the path leads to several different numbers."""
         value = c_double()
         with self._lock:
-            self._check(lib.ek_get(self._open, path.encode(), byref(value)))
+            self._check(lib.ek_get(self._open, bytes_for(path, "a path"), byref(value)))
         return value.value
 
     def __setitem__(self, path: str, value: float | str) -> None:
@@ -200,13 +201,14 @@ class Model:
         takes some milliseconds. A number outside its legal range raises DeckError and changes nothing. Legal numbers that together define no
         valid model are reported by the next solution.
         """
+        name = bytes_for(path, "a path")
         with self._lock:
             if isinstance(value, str):
-                self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
+                self._check(lib.ek_set_text(self._open, name, bytes_for(value, "a value")))
                 self._forget()
             else:
                 value = float(value)
-                self._check(lib.ek_set(self._open, path.encode(), value))
+                self._check(lib.ek_set(self._open, name, value))
                 if path not in self._paths:     # the library may have read the deck again with it
                     self._forget()
                     self._paths.add(path)
@@ -226,7 +228,7 @@ class Model:
             self._changes = others
 
     def __contains__(self, path: object) -> bool:
-        if not isinstance(path, str):
+        if not isinstance(path, str) or "\0" in path:
             return False
         value = c_double()
         with self._lock:
@@ -291,6 +293,9 @@ class Model:
         if x.ndim != 1:
             raise errors.UsageError(f"x needs one dimension, found {x.ndim}")
         with self._lock:
+            n = lib.ek_parameter_count(self._open)
+            if x.size != n:
+                raise errors.UsageError(f"x needs {n} numbers, one for each of parameters.paths, found {x.size}")
             self._check(lib.ek_set_all(self._open, x.size, x.ctypes.data))
             self._changes = [change for change in self._changes if isinstance(change[1], str)]
             self._changes.append(("", x))
@@ -311,10 +316,12 @@ class Model:
         if isinstance(columns, str):
             columns = [columns]
         wanted = list(columns) if columns is not None else []
+        name = bytes_for(case, "the name of a case") if case is not None else b""
+        heads = texts_for(wanted, "the name of a column") if wanted else None
         with self._lock:
             handle = self._open
             self._serial += 1
-            status = lib.ek_solve(handle, (case or "").encode(), len(wanted), texts_for(wanted) if wanted else None)
+            status = lib.ek_solve(handle, name, len(wanted), heads)
             message = ""
             if status == errors.CONVERGENCE:
                 message = text_of(lib.ek_message(handle))
@@ -365,8 +372,8 @@ class Model:
                 raise errors.UsageError("the model has solved another case since; solve again before derivatives are read")
             self._check(
                 lib.ek_derivatives(
-                    self._open, row, len(columns), texts_for(columns), len(numbers), texts_for(numbers), slopes.ctypes.data,
-                    doubts.ctypes.data
+                    self._open, row, len(columns), texts_for(columns, "the name of a column"), len(numbers),
+                    texts_for(numbers, "a path"), slopes.ctypes.data, doubts.ctypes.data
                 )
             )
         return slopes, doubts
@@ -380,9 +387,12 @@ class Model:
         that did not converge (states outside the window of a slope do not matter), or if the model does not define it; a
         ConvergenceWarning then names all such numbers. The others are good.
         """
+        if not names:
+            raise TypeError("numbers() needs at least one name, as in numbers('left_bump_toe'); key_numbers() returns all numbers")
+        wanted = texts_for(list(names), "the name of a key number")
         values = np.empty(len(names))
         with self._lock:
-            code = lib.ek_numbers(self._open, len(names), texts_for(list(names)), values.ctypes.data)
+            code = lib.ek_numbers(self._open, len(names), wanted, values.ctypes.data)
             message = ""
             if code == errors.CONVERGENCE:
                 message = text_of(lib.ek_message(self._handle))
@@ -394,7 +404,8 @@ class Model:
 
     def key_numbers(self) -> dict[str, float]:
         """All key numbers that this model has."""
-        return self.numbers(*self.number_names)
+        names = self.number_names
+        return self.numbers(*names) if names else {}
 
     @property
     def number_names(self) -> tuple[str, ...]:
