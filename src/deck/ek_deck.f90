@@ -73,6 +73,8 @@ contains
       else
          call read_whole(path, text, error, may_stream=.true.)
       end if
+      if (.not. allocated(error) .and. len(text) > max_letters) call fail(error, exit_file, 'cannot read '//quoted(name)// &
+         ': it has '//str(len(text)/1000000)//' MB, expected at most '//str(max_letters/1000000)//' MB')
       if (.not. allocated(error)) call parse_deck(text, name, deck, error, is_study)
    end subroutine read_deck
 
@@ -239,7 +241,6 @@ contains
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
-      integer, parameter :: most = 1000000000                !! twice this length would overflow a default integer
       type(buffer_t) :: buffer
       character(4096) :: chunk
       integer :: status, got
@@ -249,8 +250,8 @@ contains
          if (status /= 0 .and. status /= iostat_eor) exit
          call buffer%add(chunk(:got))
          if (status == iostat_eor) call buffer%add(new_line('a'))
-         if (buffer%length() > most) then
-            call fail(error, exit_file, 'cannot read standard input: it is longer than 1 GB')
+         if (buffer%length() > max_letters) then
+            call fail(error, exit_file, 'cannot read standard input: it is longer than '//str(max_letters/1000000)//' MB')
             return
          end if
       end do
