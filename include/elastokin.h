@@ -53,6 +53,15 @@ const char *ek_name(ek_model *model);               /* of the model */
 const char *ek_checksum(ek_model *model);           /* of the deck with its present numbers, 16 hexadecimal digits */
 int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
 
+/* ---- copies. A copy is what was opened: no file is read again. ek_copy gives it the same changes, and no solution; *copy exists also
+ * after a mistake, as in ek_open_file. The files are the deck, then all that it names (included files, hardpoints, property files, load
+ * tables), with their content when the deck was opened; ek_open_files opens a deck from them, for instance in another process. ---- */
+int ek_copy(ek_model *model, ek_model **copy);
+int ek_file_count(ek_model *model);
+const char *ek_file_path(ek_model *model, int k);   /* as it was read; NULL outside the list */
+const char *ek_file_text(ek_model *model, int k);
+int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);     /* the first is the deck */
+
 /* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
  * touches the ground, implausible values ("plausible? …"), preloads found by balance, or why no case can be solved. ek_model_remarks examines
  * the model with its present numbers, solves no case, and stores how many there are; the list stays until it is called again ---- */

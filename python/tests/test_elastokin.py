@@ -5,6 +5,7 @@ import importlib.util
 import math
 import multiprocessing
 import pickle
+import tempfile
 import threading
 import unittest
 import warnings
@@ -398,6 +399,29 @@ class Copies(unittest.TestCase):
             del other[PATH]
             self.assertEqual(other[PATH], 700.0)
         self.assertEqual(model[PATH], 500.0)
+
+    def test_a_copy_is_what_was_opened_whatever_became_of_the_files(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            parts, deck = Path(folder) / "parts.nml", Path(folder) / "deck.nml"
+            text = CORNER.read_text()
+            first = text.index("&point")
+            head, body = text[:first], text[first:]
+            self.assertIn("rate = ", body)
+            parts.write_text(body)
+            deck.write_text(head + "\n&include file = 'parts.nml' /\n")
+            model = Model.from_file(deck)
+            model["spring.coil.rate"] = "*1.1"
+            wanted = model.checksum, model.x.tolist()
+            state = pickle.dumps(model)
+            for change in (lambda: parts.write_text(body.replace("rate = ", "rate = 1")), parts.unlink, deck.unlink):
+                change()
+                for other in (model.copy(), copy.copy(model), copy.deepcopy(model), pickle.loads(state), pickle.loads(pickle.dumps(model))):
+                    self.assertEqual((other.checksum, other.x.tolist()), wanted)
+                    del other["spring.coil.rate"]
+                    other["spring.coil.rate"] = "*1.1"          # the deck is parsed again, from what was opened
+                    self.assertEqual((other.checksum, other.x.tolist()), wanted)
+            model["spring.coil.rate"] = "*1.1"
+            self.assertNotEqual(model.checksum, wanted[0])
 
     def test_processes_give_the_same_numbers(self) -> None:
         model = self.changed()

@@ -19,7 +19,7 @@ module ek_session
    private
    public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, set_number, set_text
    public :: get_number, set_all, reset
-   public :: take_new_numbers, changed_deck, checksum_of, without_option
+   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_solver, empty_session
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -41,7 +41,7 @@ module ek_session
       type(deck_t) :: deck                          !! with the settings of set_text
       class(design_solver_t), allocatable :: solver !! of this deck; allocated when opened. A class as in worker_case_t
       type(design_numbers_t) :: numbers             !! changed since
-      logical, private :: is_text_changed = .false.
+      logical :: is_text_changed = .false.
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
       type(prepared_t), allocatable :: prepared(:)  !! of each case

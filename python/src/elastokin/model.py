@@ -28,7 +28,7 @@ class Model:
 
     Open one with `Model.from_file` or `Model.from_text`. Each model may be used by several threads: one waits for the other;
     different models are solved at the same time. A model can be copied and pickled, for instance for
-    `multiprocessing`: the copy is opened from the same text and receives the same changes.
+    `multiprocessing`: the copy has the files as they were when the model was opened, and the same changes.
     """
 
     def __init__(self) -> None:
@@ -39,9 +39,8 @@ class Model:
         """Reads a deck from a file. Raises FileError, DeckError, ModelError. Issues one ModelWarning if there are `remarks`."""
         name = os.fspath(path)
         handle = c_void_p()
-        model = cls._opened(handle, lib.ek_open_file(without_nul(os.fsencode(name), "a file name"), byref(handle)), os.path.abspath(name), "")
-        with open(name, encoding="utf-8", errors="surrogateescape", newline="") as file:
-            model._text = file.read()
+        code = lib.ek_open_file(without_nul(os.fsencode(name), "a file name"), byref(handle))
+        model = cls._opened(handle, code, os.path.abspath(name))
         model._warn()
         return model
 
@@ -59,15 +58,14 @@ class Model:
     def _from_text(cls, text: str, name: str) -> Model:
         handle = c_void_p()
         content, file = bytes_for(text, "a deck"), without_nul(os.fsencode(name), "a file name")
-        return cls._opened(handle, lib.ek_open_text(content, file, byref(handle)), name, text)
+        return cls._opened(handle, lib.ek_open_text(content, file, byref(handle)), name)
 
     @classmethod
-    def _opened(cls, handle: c_void_p, code: int, source: str, text: str) -> Model:
+    def _opened(cls, handle: c_void_p, code: int, source: str) -> Model:
         model = cls.__new__(cls)
         model._handle = handle.value
         model._lock = threading.RLock()
         model._source = source
-        model._text = text
         model._changes = []
         model._serial = 0
         model._columns = {}
@@ -83,7 +81,6 @@ class Model:
     _handle: int | None
     _lock: threading.RLock      # held during a call and until its texts and values are copied
     _source: str                # path of the deck, or name of the text
-    _text: str                  # of the deck, for copies
     _changes: list[_Change]
     _serial: int                # of the last solution
     _columns: dict[tuple[str | None, ...], tuple[tuple[str, ...], tuple[Heading, ...]]]     # of a case with these columns
@@ -428,9 +425,13 @@ class Model:
     # ---- copies ----
 
     def copy(self) -> Model:
-        """Another model with the same text and the same changes, for instance for another thread."""
+        """Another model with the same deck and the same changes, for instance for another thread. No file is read again."""
+        handle = c_void_p()
         with self._lock:
-            return _copy_of(self._text, self._source, list(self._changes))
+            code = lib.ek_copy(self._open, byref(handle))
+            model = Model._opened(handle, code, self._source)
+            model._changes = list(self._changes)
+        return model
 
     __copy__ = copy
 
@@ -439,11 +440,22 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         with self._lock:
-            return _copy_of, (self._text, self._source, list(self._changes))
+            handle = self._open
+            files = [(lib.ek_file_path(handle, k), lib.ek_file_text(handle, k)) for k in range(lib.ek_file_count(handle))]
+            return _from_files, (files, self._source, list(self._changes))
 
 
-def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
-    model = Model._from_text(text, name)
+def _from_files(files: list[tuple[bytes, bytes]], source: str, changes: list[_Change]) -> Model:
+    """A model from the files that it was opened from."""
+    handle = c_void_p()
+    n = len(files)
+    paths, texts = ((ctypes.c_char_p * n)(*column) for column in zip(*files))
+    model = Model._opened(handle, lib.ek_open_files(n, paths, texts, byref(handle)), source)
     model._make(changes)
     model._changes = changes
     return model
+
+
+def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
+    """What pickles of earlier versions call: they do not have the included files."""
+    raise errors.UsageError(f"{name}: this model was pickled by an earlier version of elastokin; open its deck and pickle it again")
