@@ -184,6 +184,16 @@ endless_include() {
   mkfifo pipe && echo "&include file = 'pipe' /" >pipe.nml
   run 2 "$program" check pipe.nml && says 'not a regular file'
 }
+endless_files() { # a device, a pipe into which nobody writes or that never ends, and endless standard input
+  local command
+  for command in check run report 'export --to csv' bench study plot merge import 'run '"$tiny"' --set-file'; do
+    # shellcheck disable=SC2086
+    run 5 "$program" $command /dev/zero && says 'not a regular file or a pipe' || return 1
+  done
+  mkfifo silent && run 5 "$program" check silent && says 'no program writes' || return 1
+  run 5 bash -c "'$program' check <(cat /dev/zero)" && says 'longer than 100 MB' || return 1
+  run 5 bash -c "'$program' check - </dev/zero" && says 'longer than 50 MB'
+}
 
 # ---- gnuplot -----------------------------------------------------------------------------------
 
@@ -460,7 +470,7 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   file_with_a_whole_path column_that_leaves_the_folder column_with_a_quote pipe_in_a_report endless_table_in_a_report
   link_under_a_temporary_name link_under_the_name_of_a_result link_that_looks_stale pipe_under_the_name_of_a_result
   cdpath_leads_elsewhere control_characters_of_a_deck settings_of_a_user words_for_a_shell_in_a_path commands_in_a_title
-  bomb_of_includes endless_include gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
+  bomb_of_includes endless_include endless_files gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
   reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed
