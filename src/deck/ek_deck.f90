@@ -18,6 +18,7 @@ module ek_deck
       add_record, place_of
    use ek_scanner, only: scan_text
    use ek_mirror, only: mirror_records
+   use ek_attachment, only: path_of
    use ek_hardpoint_records, only: attach_hardpoints
    use ek_property_records, only: attach_properties
    use ek_setting, only: apply_setting, split_setting
@@ -202,7 +203,7 @@ contains
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
-   !> notes, titles, layout and the file of a group are ignored; settings are included.
+   !> notes, titles, layout and the file of a group are ignored; settings and load tables are included.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -211,8 +212,24 @@ contains
 
       call finish_deck(deck, whole)
       call include_records(whole%records(:whole%used), sum)
+      call include_tables(whole%records(:whole%used), sum)
       digits = digits_of(sum)
    end function deck_checksum
+
+   !> Adds the load tables that cases name to a checksum, byte for byte. One that cannot be read adds nothing: its case cannot be run.
+   subroutine include_tables(records, sum)
+      type(record_t), intent(in) :: records(:)
+      type(checksum_t), intent(inout) :: sum
+      type(error_t), allocatable :: unread
+      character(:), allocatable :: text
+      integer :: k
+
+      do k = 1, size(records)
+         if (records(k)%group /= 'case' .or. .not. is_given(records(k), 'file')) cycle
+         call read_whole(path_of(records(k), element(records(k), 'file', 1)), text, unread)
+         if (.not. allocated(unread)) call include(sum, '<'//str(len(text))//'>'//text)
+      end do
+   end subroutine include_tables
 
    !> Adds the groups, keys and values of records to a checksum, without titles, notes and the format of a study's results.
    subroutine include_records(records, sum)
