@@ -163,6 +163,8 @@ contains
       call run_chunks(this%study, this%plan, this%deck, this%out, hold, options, this%designer, ranks, state, show_state, error)
       call end_state(state)
       if (allocated(error)) return
+      if (state%idle > 0) call print_note(is_quiet, 'the memory did not suffice for '//plural(state%idle, 'more thread', &
+         'more threads')//' (a limit of the machine or of ulimit -v)')
       if (state%before > 0) call print_note(is_quiet, str(state%before)//' of '// &
          plural(state%wanted, 'design was', 'designs were')//' done before')
       if (state%is_stopped) then

@@ -9,7 +9,7 @@ module ek_netcdf_store
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use netcdf, only: nf90_create, nf90_def_dim, nf90_def_var, nf90_put_att, nf90_put_var, nf90_enddef, nf90_close, nf90_strerror, &
       nf90_netcdf4, nf90_clobber, nf90_noerr, nf90_global, nf90_double, nf90_int, nf90_byte, nf90_char
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
    use ek_file, only: join_path
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, status_names, design_invalid
@@ -52,6 +52,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       type(file_t) :: file
       type(chunk_t) :: chunk
+      integer(i8) :: next                                  ! design
       integer :: k
       logical :: is_good
 
@@ -59,15 +60,17 @@ contains
       if (file%fault == nf90_noerr) then
          call define(store, file)
          call write_names(store, file)
+         next = 1
          do k = 1, store%chunks
             if (file%fault /= nf90_noerr) exit
-            call read_chunk(join_path(folder, chunk_name(k)), store%identity, chunk, is_good)
+            call read_chunk(join_path(folder, chunk_name(k)), store%identity, next, chunk, is_good)
             if (is_good) is_good = fits(store, chunk)
             if (.not. is_good) then
                call fail(error, exit_file, join_path(folder, chunk_name(k))//': the chunk is missing or damaged')
                exit
             end if
             call write_chunk(store, chunk, file)
+            next = next + size(chunk%status)
          end do
          ! after a failure the file is not closed: HDF5 would try again to write what it holds, and may crash
          if (file%fault == nf90_noerr .and. .not. allocated(error)) call note(file%fault, nf90_close(file%id))

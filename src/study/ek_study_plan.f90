@@ -16,7 +16,7 @@ module ek_study_plan
    use ek_chunk, only: chunk_t, new_chunk
    implicit none(type, external)
    private
-   public :: study_plan_t, new_plan, plan_sampler, begin_chunk
+   public :: study_plan_t, new_plan, plan_sampler, begin_chunk, first_of
 
    integer, parameter :: max_designs = 2000000000
    integer, parameter :: usual_chunks = 400       !! of a large study
@@ -144,6 +144,13 @@ contains
       if (size(rows, 2) == 0) call fail(error, exit_file, path//': there is no design')
    end subroutine read_list
 
+   !> The first design of a chunk.
+   pure integer(i8) function first_of(plan, number)
+      type(study_plan_t), intent(in) :: plan
+      integer, intent(in) :: number               !! of the chunk, from 1
+      first_of = int(number - 1, i8)*plan%chunk + 1
+   end function first_of
+
    !> An empty chunk with the factors of its designs.
    subroutine begin_chunk(plan, number, chunk)
       type(study_plan_t), intent(in) :: plan
@@ -152,7 +159,7 @@ contains
       integer(i8) :: first
       integer :: k
 
-      first = int(number - 1, i8)*plan%chunk + 1
+      first = first_of(plan, number)
       call new_chunk(first, int(min(int(plan%chunk, i8), plan%designs - first + 1)), factors_of(plan%sampler), size(plan%heads), &
          plan%columns, plan%states, chunk)
       do k = 1, size(chunk%status)
