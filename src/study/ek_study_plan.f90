@@ -7,7 +7,7 @@ module ek_study_plan
    use ek_version, only: version
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_deck, only: deck_t, deck_checksum
-   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of
+   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered
    use ek_sampler_kind, only: list_kind
    use ek_sampler_settings, only: sampler_settings_t, factor_t
    use ek_study, only: study_t, define_factor
@@ -68,6 +68,7 @@ contains
       plan%deck_sum = deck_checksum(deck)
       sum = study%sum
       call include(sum, version//' '//plan%deck_sum//' '//str(plan%designs)//' '//str(plan%chunk))
+      if (is_ordered(plan%sampler)) call include(sum, ' ordered by rank')      ! not the designs of earlier versions
       call include_numbers(settings%rows)
       do k = 1, size(designer%readings)
          call include_numbers(designer%readings(k)%curve)
