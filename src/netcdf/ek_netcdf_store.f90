@@ -2,7 +2,8 @@
 !>
 !> Factors and responses are variables over design, the swept value and the columns of the curves over (design, state). Chunks are
 !> read one after the other, and the sizes of the blocks in the file are fixed: the memory does not grow with the number of
-!> designs, and two stores of the same results have the same bytes.
+!> designs, and two stores of the same results have the same bytes. Each block has a checksum (fletcher32), so that one that was
+!> damaged cannot be read.
 module ek_netcdf_store
    use, intrinsic :: iso_fortran_env, only: int8, int64
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_float
@@ -121,7 +122,8 @@ contains
       call over_designs('design', nf90_int, file%design_number)
       call put_text(file, file%design_number, 'long_name', 'number of the design')
       if (store%states > 0) then
-         call note(file%fault, nf90_def_var(file%id, 'state', nf90_int, [file%state], file%state_number))
+         call note(file%fault, nf90_def_var(file%id, 'state', nf90_int, [file%state], file%state_number, &
+            chunksizes=[store%states], fletcher32=.true.))
          call put_text(file, file%state_number, 'long_name', 'number of the state of a design')
       end if
       allocate (file%variables(size(store%variables)), source=0)
@@ -156,7 +158,7 @@ contains
          integer, intent(in) :: kind
          integer, intent(out) :: variable
          call note(file%fault, nf90_def_var(file%id, name, kind, [file%design], variable, chunksizes=[length], shuffle=.true., &
-            deflate_level=level))
+            deflate_level=level, fletcher32=.true.))
          call set_cache(8*length, variable)
       end subroutine over_designs
 
@@ -169,7 +171,7 @@ contains
          integer :: designs
          designs = max(1, min(length, block_bytes/(entries*bytes)))
          call note(file%fault, nf90_def_var(file%id, name, kind, [second, file%design], variable, chunksizes=[entries, designs], &
-            shuffle=.true., deflate_level=level))
+            shuffle=.true., deflate_level=level, fletcher32=.true.))
          call set_cache(entries*designs*bytes, variable)
       end subroutine over_two
 
@@ -265,7 +267,8 @@ contains
          end do
          call note(file%fault, nf90_def_dim(file%id, name, n, dimension))
          call note(file%fault, nf90_def_dim(file%id, name//'_length', length, text))
-         call note(file%fault, nf90_def_var(file%id, name//'_name', nf90_char, [text, dimension], list))
+         call note(file%fault, nf90_def_var(file%id, name//'_name', nf90_char, [text, dimension], list, &
+            chunksizes=[length, n], fletcher32=.true.))
          call put_text(file, list, 'long_name', 'name of the variable of each '//name)
          call put_text(file, list, '_Encoding', 'utf-8')
          call note(file%fault, nf90_enddef(file%id))
