@@ -1,7 +1,7 @@
 !> elastokin study: runs a study, writes its tables, and draws its figures; elastokin merge: the tables of a study whose shards ran
 !> as separate jobs.
 module ek_study_command
-   use ek_error, only: error_t, fail, exit_usage, exit_convergence, message_list_t
+   use ek_error, only: error_t, fail, exit_usage, exit_file, exit_stopped, message_list_t
    use ek_text, only: str, plural
    use ek_file, only: make_folder, join_path, file_exists
    use ek_interrupt, only: watch_for_stop
@@ -95,13 +95,13 @@ contains
       results = join_path(this%out, results_name(this))
       if (done == 0 .and. this%plan%designs > 0) then
          if (file_exists(results)) then
-            call fail(error, exit_convergence, 'merge: nothing is to be merged: there is '//results// &
+            call fail(error, exit_file, 'merge: nothing is to be merged: there is '//results// &
                ', and no finished design in '//parts_folder(this%study, this%out))
             return
          end if
       end if
       if (done < this%plan%designs) then
-         call fail(error, exit_convergence, 'merge: '//str(this%plan%designs - done)//' of '//plural(this%plan%designs, &
+         call fail(error, exit_stopped, 'merge: '//str(this%plan%designs - done)//' of '//plural(this%plan%designs, &
             'design is', 'designs are')//' missing in '//this%out//'; run the shards that did not end (a run computes only '// &
             'what is missing), or elastokin study '//line%files%line(1))
          return
@@ -109,7 +109,7 @@ contains
       call expand_study(this, error)
       if (allocated(error)) return
       call open_parts(this%study, this%plan, this%out, hold, error)
-      if (.not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
+      if (.not. allocated(error)) call write_results(line, this, hold, tables, is_missing, error)
       call end_scratch(hold)
       call show_results(line, this, tables, error)
    end subroutine run_merge_command
@@ -131,10 +131,10 @@ contains
       call compute(line, this, options, ranks, hold, error)
       call end_ranks(ranks)
       if (ranks%is_first .and. options%shards == 1) then
-         if (.not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
+         if (.not. allocated(error)) call write_results(line, this, hold, tables, is_missing, error)
          call end_scratch(hold)
          if (is_missing) call compute(line, this, options, alone, hold, error)         ! another run has removed them
-         if (is_missing .and. .not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
+         if (is_missing .and. .not. allocated(error)) call write_results(line, this, hold, tables, is_missing, error)
       end if
       call end_scratch(hold)
    end subroutine run_designs
@@ -163,10 +163,12 @@ contains
       call run_chunks(this%study, this%plan, this%deck, this%out, hold, options, this%designer, ranks, state, show_state, error)
       call end_state(state)
       if (allocated(error)) return
+      if (state%idle > 0) call print_note(is_quiet, 'the memory did not suffice for '//plural(state%idle, 'more thread', &
+         'more threads')//' (a limit of the machine or of ulimit -v)')
       if (state%before > 0) call print_note(is_quiet, str(state%before)//' of '// &
          plural(state%wanted, 'design was', 'designs were')//' done before')
       if (state%is_stopped) then
-         call fail(error, exit_convergence, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
+         call fail(error, exit_stopped, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
             'designs are')//' done and kept; the same command goes on from there')
          if (ranks%count == 1) return
          call print_note(is_quiet, error%message)          ! a launcher that was stopped may not let this process end in order

@@ -225,7 +225,7 @@ contains
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
-   !> notes, titles, layout and the file of a group are ignored; settings are included.
+   !> notes, titles, layout and the file of a group are ignored; settings and load tables are included.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -234,8 +234,25 @@ contains
 
       call finish_deck(deck, whole)
       call include_records(whole%records(:whole%used), sum)
+      call include_tables(whole%kept, whole%records(:whole%used), sum)
       digits = digits_of(sum)
    end function deck_checksum
+
+   !> Adds the load tables that cases name to a checksum, byte for byte. One that cannot be read adds nothing: its case cannot be run.
+   subroutine include_tables(files, records, sum)
+      type(kept_files_t), intent(in) :: files      !! which are not read again
+      type(record_t), intent(in) :: records(:)
+      type(checksum_t), intent(inout) :: sum
+      type(error_t), allocatable :: unread
+      character(:), allocatable :: text
+      integer :: k
+
+      do k = 1, size(records)
+         if (records(k)%group /= 'case' .or. .not. is_given(records(k), 'file')) cycle
+         call read_kept(files, path_of(records(k), element(records(k), 'file', 1)), text, unread)
+         if (.not. allocated(unread)) call include(sum, '<'//str(len(text))//'>'//text)
+      end do
+   end subroutine include_tables
 
    !> Adds the groups, keys and values of records to a checksum, without titles, notes and the format of a study's results.
    subroutine include_records(records, sum)
