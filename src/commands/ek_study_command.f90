@@ -16,7 +16,8 @@ module ek_study_command
    use ek_tolerance_outcome, only: expand_study
    use ek_study_progress, only: show_state, end_state, print_status
    use ek_study_outcome, only: write_results, write_step_size, show_results
-   use ek_console, only: print_note
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
+   use ek_console, only: print_note, print_model_remarks
    use ek_run_log, only: drop_log
    implicit none(type, external)
    private
@@ -62,6 +63,7 @@ contains
       if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
       if (has_designs .and. .not. asks_status .and. ranks%is_first .and. options%shards == 1 .and. .not. allocated(error)) &
          call expand_study(this, error)
+      if (has_designs .and. .not. asks_status .and. ranks%is_first .and. .not. allocated(error)) call print_doubts(this)
       call agree(ranks, error)
       if (allocated(error)) return
       if (asks_status) then
@@ -73,6 +75,17 @@ contains
       end if
       call show_results(line, this, tables, error)
    end subroutine run_as_rank
+
+   !> Prints the warnings and remarks on the design of the deck.
+   subroutine print_doubts(this)
+      type(opened_study_t), intent(in) :: this
+      type(model_remarks_t) :: remarks
+
+      associate (worker => this%designer%worker)
+         call find_model_remarks(worker%suspension, worker%design%cases, worker%cases%case, .true., remarks)
+      end associate
+      call print_model_remarks(.true., remarks)            ! no preloads
+   end subroutine print_doubts
 
    !> Merges the chunks of a study into its tables.
    subroutine run_merge_command(line, error)
