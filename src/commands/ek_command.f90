@@ -39,6 +39,7 @@ module ek_command
       'Reads a deck, reports every error with file and line, and examines the model: bodies, unknowns,'//nl// &
       'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points. A remark points'//nl// &
       'out a value that no road vehicle has, with a likely cause (disable with plausible = .false. in &model).'//nl// &
+      'The last line is OK, or the number of errors, warnings and remarks with the worst of them.'//nl// &
       'Exit status 3 if the model cannot be solved.', ''), &
       command_t('report', 'report DECK [options]', 'report DECK', 'one page with curves, gradients and key numbers of a deck', &
       'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
@@ -128,6 +129,7 @@ module ek_command
       option_t('run', '--quiet', quiet_help), &
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
       option_t('check', '--set-file FILE', ''), &
+      option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
@@ -282,7 +284,8 @@ contains
          do k = 1, size(commands)
             text = text//nl//'  '//commands(k)%brief//trim(commands(k)%summary)
          end do
-         text = text//nl//nl//'elastokin COMMAND --help describes a command. elastokin --version prints the version.'
+         text = text//nl//nl//'elastokin COMMAND --help, or elastokin help COMMAND, describes a command. '// &
+            'elastokin --version prints the version.'
          return
       end if
       text = 'elastokin '//trim(commands(n)%usage)

@@ -122,6 +122,8 @@ contains
          word = argument(k)
          if (len(word) > 1 .and. index(word, '-') == 1) then
             call take_option(options, word, k, line, error)
+         else if (n == 0 .and. word == 'help' .and. .not. line%has('--help')) then      ! help COMMAND: as COMMAND --help
+            call take_option(options, '--help', k, line, error)
          else if (n == 0) then
             line%command = word
             n = findloc(commands%name == word, .true., dim=1)

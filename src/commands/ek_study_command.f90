@@ -7,6 +7,7 @@ module ek_study_command
    use ek_interrupt, only: watch_for_stop
    use ek_writer, only: scratch_t, end_scratch
    use ek_study, only: step_size_kind
+   use ek_factor_remark, only: factor_remarks
    use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder
    use ek_store, only: choose_store
@@ -16,7 +17,8 @@ module ek_study_command
    use ek_tolerance_outcome, only: expand_study
    use ek_study_progress, only: show_state, end_state, print_status
    use ek_study_outcome, only: write_results, write_step_size, show_results
-   use ek_console, only: print_note
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
+   use ek_console, only: print_note, print_warning, print_model_remarks
    use ek_run_log, only: drop_log
    implicit none(type, external)
    private
@@ -62,6 +64,7 @@ contains
       if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
       if (has_designs .and. .not. asks_status .and. ranks%is_first .and. options%shards == 1 .and. .not. allocated(error)) &
          call expand_study(this, error)
+      if (has_designs .and. .not. asks_status .and. ranks%is_first .and. .not. allocated(error)) call print_doubts(this)
       call agree(ranks, error)
       if (allocated(error)) return
       if (asks_status) then
@@ -73,6 +76,23 @@ contains
       end if
       call show_results(line, this, tables, error)
    end subroutine run_as_rank
+
+   !> Prints the remarks on the factors, and the warnings and remarks on the design of the deck.
+   subroutine print_doubts(this)
+      type(opened_study_t), intent(in) :: this
+      type(model_remarks_t) :: remarks
+      type(message_list_t) :: words
+      integer :: k
+
+      associate (worker => this%designer%worker)
+         call factor_remarks(this%study, worker%design, this%designer%paths, words)
+         call find_model_remarks(worker%suspension, worker%design%cases, worker%cases%case, .true., remarks)
+      end associate
+      do k = 1, words%count()
+         call print_warning(words%line(k))
+      end do
+      call print_model_remarks(.true., remarks)            ! no preloads
+   end subroutine print_doubts
 
    !> Merges the chunks of a study into its tables.
    subroutine run_merge_command(line, error)
