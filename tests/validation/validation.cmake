@@ -1,0 +1,11 @@
+# Published numbers of other programs beside those of this one: for the tests of this folder, and for docs/validation.md
+# (docs/validation.py runs validation_numbers).
+set(ek_validation_dir ${CMAKE_CURRENT_LIST_DIR})
+add_library(ek_validation STATIC EXCLUDE_FROM_ALL
+  ${ek_validation_dir}/ek_comparison.f90
+  ${ek_validation_dir}/ek_published_adams.f90
+  ${ek_validation_dir}/ek_published_small.f90)
+set_target_properties(ek_validation PROPERTIES
+  Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/validation)
+target_include_directories(ek_validation PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/modules/validation)
+target_link_libraries(ek_validation PUBLIC ek_test_laws)
