@@ -50,6 +50,8 @@ callers_agree() {
   local folder=$logs/callers
   python_with venv_numpy numpy || { skip "numpy could not be installed from PyPI"; return; }
   mkdir -p "$folder"
+  # the prefix is where the library was installed, also after the tree was moved
+  [ "$(PKG_CONFIG_PATH=$logs/prefix/lib/pkgconfig pkg-config --variable=libdir elastokin)" -ef "$logs/prefix/lib" ] || return 1
   compile_c "$folder/fit_c" examples/fit.c && compile_c "$folder/callers_c" tests/api/callers.c -pthread || return 1
   cmake -S tests/api -B "$folder" -DCMAKE_PREFIX_PATH="$logs/prefix" && cmake --build "$folder" || return 1
   EK_LIBRARY=$logs/prefix/lib/libelastokin.so.0 PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 "$logs/venv_numpy/bin/python" \
