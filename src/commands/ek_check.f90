@@ -5,6 +5,8 @@ module ek_check
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_console, only: print_text
+   use ek_deck, only: deck_t
+   use ek_deck_writer, only: write_deck_as_used
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
@@ -32,16 +34,18 @@ contains
       type(buffer_t) :: findings
 
       call read_deck_settings(line, settings)
-      call examine(settings, findings, error)
+      call examine(settings, line%value('--write-deck'), findings, error)
       call print_text(findings%text(), unprinted)
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
 
    !> Collects the findings, including those made before an error.
-   subroutine examine(settings, findings, error)
+   subroutine examine(settings, deck_path, findings, error)
       type(deck_settings_t), intent(in) :: settings
+      character(*), intent(in) :: deck_path                !! where the deck as it was used is written; '': nowhere
       type(buffer_t), intent(inout) :: findings
       type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: deck
       type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
       type(mounted_case_t) :: mounted
@@ -52,7 +56,9 @@ contains
       type(message_list_t) :: found
       integer :: k
 
-      call load_deck(settings, base, cases, checksum, error, needs_tables=.true.)
+      call load_deck(settings, base, cases, checksum, error, needs_tables=.true., used_deck=deck)
+      if (allocated(error)) return
+      if (deck_path /= '') call write_deck_as_used(deck, deck_path, error)
       if (allocated(error)) return
       allocate (chosen(0))
       if (size(cases) > 0) then
