@@ -28,6 +28,7 @@ python_package() {
   rm -rf "$logs/venv_wheel"
   python_with venv_wheel "$logs"/wheels/repaired/elastokin-*.whl || return 1
   "$logs/venv_wheel/bin/python" examples/fit.py $deck || wrong=1
+  wheel_of_finished_build || wrong=1
   if compile_c "$logs/loop" tests/api/loop.c; then
     # the library as a wheel for users has it: that of this check is not inlined across files, which saves minutes
     EK_LIBRARY=$logs/prefix/lib/libelastokin.so.0 "$tools/python" tests/support/python_checks.py build/release/bin/elastokin "$logs/loop" || wrong=1
@@ -36,6 +37,19 @@ python_package() {
   fi
   echo "remark: $(cd "$logs/wheels/repaired" && du -h ./*.whl | awk '{print $2 " of " $1}')"
   return $wrong
+}
+
+# A wheel takes the library of a finished build of the same sources, and installs in an empty environment in at most 20 s
+wheel_of_finished_build() {
+  local python=$logs/venv_finished/bin start=$SECONDS
+  git diff --quiet HEAD || { echo "remark: no wheel of the finished build, as files are changed"; return 0; }
+  rm -rf "$logs/venv_finished" "$logs/wheels/finished"
+  python3 -m venv "$logs/venv_finished" || return 1
+  EK_FINISHED_BUILD=$top/build/release "$logs/venv_python/bin/pip" wheel --quiet --no-deps --wheel-dir "$logs/wheels/finished" ./python || return 1
+  "$python/pip" install --quiet "$logs"/wheels/finished/elastokin-*.whl || return 1
+  "$python/python" -c 'import elastokin; print(elastokin.__version__)' || return 1
+  echo "remark: wheel of the finished build made and installed in $((SECONDS - start)) s: $logs/wheels/finished"
+  [ $((SECONDS - start)) -le 20 ]
 }
 
 # The tests of the Python package with the library of the release build

@@ -1,5 +1,5 @@
 !> The deck as it was used: one file with all records after included files, hardpoints, property files, both sides and settings. Each
-!> record has its place as a comment, each value that was set its setting, and numbers that are not given follow as comments. The file
+!> record has its file and line as a comment, each value that was set its setting, and numbers that are not given follow as comments. The file
 !> gives the same results as the deck from which it was made.
 module ek_deck_writer
    use ek_error, only: error_t, fail, exit_usage
@@ -105,7 +105,7 @@ contains
       text = lines%text()
    end subroutine make_text
 
-   !> One record: its place, a line for each key, and the numbers that it does not give.
+   !> One record: its file and line, a line for each key, and the numbers that it does not give.
    subroutine add_record(record, number, parameters, prefix, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number
