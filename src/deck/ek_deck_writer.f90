@@ -1,6 +1,6 @@
-!> The deck as it was used: one file with all records after included files, hardpoints, property files, both sides and settings. Each
-!> record has its file and line as a comment, each value that was set its setting, and numbers that are not given follow as comments. The file
-!> gives the same results as the deck from which it was made.
+!> The deck as it was used: one file with all records after included files, hardpoints, property files, both sides and settings.
+!> Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are not given.
+!> The file gives the same results as the deck from which it was made.
 module ek_deck_writer
    use ek_error, only: error_t, fail, exit_usage
    use ek_text, only: str, quoted
