@@ -61,6 +61,9 @@ int ek_file_count(ek_model *model);
 const char *ek_file_path(ek_model *model, int k);   /* as it was read; NULL outside the list */
 const char *ek_file_text(ek_model *model, int k);
 int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);     /* the first is the deck */
+/* the deck with its present numbers as one text, which gives the same results: included files, hardpoints, property files, both sides and
+ * changes are written out, load tables by their whole paths. NULL with a message if the numbers define no valid model */
+const char *ek_deck_as_used(ek_model *model);
 
 /* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
  * touches the ground, implausible values ("plausible? …"), preloads found by balance, or why no case can be solved. ek_model_remarks examines

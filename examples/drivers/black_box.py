@@ -1,6 +1,6 @@
 """black_box.py DECK: the fit of dakota/dakota.in by scipy, with one process per design in place of the package.
 
-For optimisers that know programs and files only: the values go into a copy of dakota/settings.template, the key numbers come from a file with
+For optimisers that know programs and files only: the values go into a copy of settings.template, the key numbers come from a file with
 lines `value name`. A design costs the start of a program and the reading of the deck in addition; fit_by_scipy.py does without.
 """
 
@@ -14,7 +14,7 @@ from scipy.optimize import least_squares
 
 FACTORS = {"bushing_kt": (450.0, 200.0, 1500.0), "tie_rod_z": (-55.0, -65.0, -45.0)}        # start, lower, upper
 TARGETS = {"left_braking_deflection": 6.0, "left_bump_steer": 1.0}                          # mm/kN, deg/m
-TEMPLATE = (Path(__file__).parent / "dakota" / "settings.template").read_text()
+TEMPLATE = (Path(__file__).parent / "settings.template").read_text()
 
 
 def key_numbers(deck: str, values: dict[str, float], folder: Path) -> dict[str, float]:

@@ -423,6 +423,17 @@ class Copies(unittest.TestCase):
             model["spring.coil.rate"] = "*1.1"
             self.assertNotEqual(model.checksum, wanted[0])
 
+    def test_the_deck_as_it_was_used_gives_the_same_numbers(self) -> None:
+        model = self.changed()
+        text = model.deck
+        self.assertIn("set: bushing.lca_front.kt(1)=500", text)
+        other = Model.from_text(text, "elsewhere/deck.nml")
+        self.assertEqual(toe(other), toe(model))
+        np.testing.assert_array_equal(other.solve("roll").values, model.solve("roll").values)
+        model["case.roll.to"] = model["case.roll.from"]
+        with self.assertRaises(elastokin.DeckError):
+            model.deck
+
     def test_processes_give_the_same_numbers(self) -> None:
         model = self.changed()
         with multiprocessing.get_context("spawn").Pool(1) as pool:

@@ -24,7 +24,7 @@ module ek_api
    use ek_table, only: table_t, column, column_index
    use ek_case_result, only: case_result_t
    use ek_session, only: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, checksum_of
-   use ek_session_copy, only: copy_session, opened_files, open_files
+   use ek_session_copy, only: copy_session, opened_files, open_files, used_deck
    use ek_kept_files, only: kept_files_t
    use ek_session_solution, only: solve, result_of, read_remark, compliance_at
    use ek_session_derivatives, only: find_slopes
@@ -35,6 +35,7 @@ module ek_api
    private
    public :: wp, error_t, table_t, column, column_index, case_result_t, session_t, open_file, open_text, set_number, set_text, &
       get_number, set_all, reset, checksum_of, solve, result_of, read_remark, compliance_at, find_slopes, &
-      read_key_numbers, find_remarks, model_remarks_t, read_model_remark, copy_session, opened_files, open_files, kept_files_t
+      read_key_numbers, find_remarks, model_remarks_t, read_model_remark, copy_session, opened_files, open_files, &
+      kept_files_t, used_deck
 
 end module ek_api

@@ -3,12 +3,12 @@ module ek_c_copy
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_null_ptr, c_ptr
    use ek_error, only: error_t
    use ek_kept_files, only: kept_files_t, add_file
-   use ek_session_copy, only: copy_session, open_files
+   use ek_session_copy, only: copy_session, open_files, used_deck
    use ek_c_handle, only: handle_t, open_handle, take_handle, finish, refuse, say, from_c, is_position, ek_ok
    use ek_c_model, only: new_handle
    implicit none(type, external)
    private
-   public :: ek_copy, ek_file_count, ek_file_path, ek_file_text, ek_open_files
+   public :: ek_copy, ek_file_count, ek_file_path, ek_file_text, ek_open_files, ek_deck_as_used
 
 contains
 
@@ -103,5 +103,18 @@ contains
       handle%code = code
       handle%is_open = code == ek_ok
    end function ek_open_files
+
+   type(c_ptr) function ek_deck_as_used(model) bind(c) result(address)
+      type(c_ptr), value :: model
+      type(handle_t), pointer :: handle
+      type(error_t), allocatable :: error
+      character(:), allocatable :: text
+
+      handle => open_handle(model)
+      address = c_null_ptr
+      if (.not. associated(handle)) return
+      call used_deck(handle%session, text, error)
+      if (finish(handle, error) == ek_ok) address = say(handle, text)
+   end function ek_deck_as_used
 
 end module ek_c_copy

@@ -154,7 +154,7 @@ contains
       call begin_numbers(session%solver%design, session%numbers)
       session%numbers%is_new = .false.                     ! the solver was made with them
       session%is_named_ready = .false.
-      if (allocated(session%derived)) deallocate (session%derived)
+      if (allocated(session%derived)) session%derived%derivatives%case = 0      ! of another solver: kept as room
    end subroutine begin_solver
 
    !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. Legal numbers that

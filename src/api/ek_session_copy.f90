@@ -4,12 +4,13 @@
 module ek_session_copy
    use ek_error, only: error_t, fail, exit_usage
    use ek_kept_files, only: kept_files_t
-   use ek_deck, only: parse_deck
+   use ek_deck, only: deck_t, parse_deck
+   use ek_deck_writer, only: deck_as_used
    use ek_design_solver, only: begin_design_solver
-   use ek_session, only: session_t, begin_opened, begin_solver, empty_session
+   use ek_session, only: session_t, begin_opened, begin_solver, empty_session, changed_deck, without_option
    implicit none(type, external)
    private
-   public :: copy_session, opened_files, open_files
+   public :: copy_session, opened_files, open_files, used_deck
 
 contains
 
@@ -57,5 +58,20 @@ contains
       if (.not. allocated(error)) call begin_opened(session, error)
       !$omp end critical (ek_words)
    end subroutine open_files
+
+   !> The deck with its present numbers as one text: included files, hardpoints, property files, both sides and changes are written out.
+   subroutine used_deck(session, text, error)
+      type(session_t), intent(in) :: session
+      character(:), allocatable, intent(out) :: text
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: the present numbers define no valid model
+      type(deck_t) :: changed
+
+      !$omp critical (ek_words)
+      call changed_deck(session, changed, error)
+      if (.not. allocated(error)) call deck_as_used(changed, text, error)
+      call without_option(error)
+      !$omp end critical (ek_words)
+      if (.not. allocated(text)) text = ''
+   end subroutine used_deck
 
 end module ek_session_copy

@@ -36,7 +36,7 @@ contains
       session%solved = 0
       if (allocated(session%other)) then
          deallocate (session%other)
-         if (allocated(session%derived)) deallocate (session%derived)      ! perhaps of it
+         if (allocated(session%derived)) session%derived%derivatives%case = 0      ! perhaps of it: kept as room
       end if
       allocate (asked(0))
       if (present(columns)) asked = columns

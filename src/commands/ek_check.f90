@@ -5,6 +5,8 @@ module ek_check
    use ek_text, only: str, quoted, plural
    use ek_buffer, only: buffer_t
    use ek_console, only: print_text
+   use ek_deck, only: deck_t
+   use ek_deck_writer, only: write_deck_as_used
    use ek_element, only: element_kinds
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, default_tolerance
@@ -36,7 +38,7 @@ contains
       character(:), allocatable :: model, checksum
 
       call read_deck_settings(line, settings)
-      call examine(settings, findings, messages, model, checksum, error)
+      call examine(settings, line%value('--write-deck'), findings, messages, model, checksum, error)
       if (line%has('--json')) then
          call print_text(check_json(messages, settings%file, model, checksum, status_of(error)), unprinted)
       else
@@ -53,12 +55,14 @@ contains
    end function status_of
 
    !> Collects the findings, including those made before an error.
-   subroutine examine(settings, findings, messages, model, checksum, error)
+   subroutine examine(settings, deck_path, findings, messages, model, checksum, error)
       type(deck_settings_t), intent(in) :: settings
+      character(*), intent(in) :: deck_path                !! where the deck as it was used is written; '': nowhere
       type(buffer_t), intent(inout) :: findings
       type(check_messages_t), intent(inout) :: messages
       character(:), allocatable, intent(out) :: model, checksum      !! '' if the deck cannot be read
       type(error_t), allocatable, intent(out) :: error
+      type(deck_t) :: deck
       type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
       type(mounted_case_t) :: mounted
@@ -69,8 +73,9 @@ contains
       integer :: k
 
       model = ''
-      call load_deck(settings, base, cases, checksum, error, needs_tables=.true.)
+      call load_deck(settings, base, cases, checksum, error, needs_tables=.true., used_deck=deck)
       if (.not. allocated(checksum)) checksum = ''
+      if (.not. allocated(error) .and. deck_path /= '') call write_deck_as_used(deck, deck_path, error)
       allocate (chosen(0))
       if (.not. allocated(error)) then
          model = base%name

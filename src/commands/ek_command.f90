@@ -130,6 +130,8 @@ module ek_command
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
       option_t('check', '--set-file FILE', ''), &
       option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
+      option_t('check', '--write-deck FILE', 'write the deck as it was used, with included, property and hardpoint files,'// &
+      indent//'both sides and settings written out; its load tables in the same folder'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &

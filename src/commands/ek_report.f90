@@ -21,6 +21,7 @@ module ek_report
    use ek_deck_file, only: write_deck_file
    use ek_deck, only: deck_t
    use ek_deck_values, only: list_values
+   use ek_deck_writer, only: write_deck_as_used
    use ek_planned_test, only: planned_tests
    use ek_key_numbers, only: key_numbers
    use ek_key_number_table, only: write_key_numbers
@@ -50,6 +51,7 @@ module ek_report
    private
    public :: report, run_planned
 
+   character(*), parameter :: used_deck_file = 'deck_as_used.nml'     !! in the folder of a report
    integer, parameter :: most_live = 24      ! rates: more make the page slow and large
 
    type, extends(deck_settings_t) :: settings_t
@@ -102,6 +104,7 @@ contains
       call remove_file(join_path(page%folder, contents_file))
       call remove_file(join_path(page%folder, compliance_file))
       call remove_file(join_path(page%folder, deck_file))
+      call remove_file(join_path(page%folder, used_deck_file))
       call remove_loads(page%folder)
 
       if (settings%has_loads) then
@@ -142,6 +145,9 @@ contains
          page%deck_texts, error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, deck_file), unprinted)
+      call write_deck_as_used(deck, join_path(page%folder, used_deck_file), error)
+      if (allocated(error)) return
+      call print_path(join_path(page%folder, used_deck_file), unprinted)
       call write_whole(join_path(page%folder, 'data.json'), report_data(page), error)
       if (allocated(error)) return
       call print_path(join_path(page%folder, 'data.json'), unprinted)

@@ -1,4 +1,4 @@
-/* cycles DECK CASE N: opens, changes, solves and closes a deck N times, with a mistake in between, and prints by how many bytes the memory
+/* cycles DECK CASE N: opens, changes, solves, copies and closes a deck N times, with a mistake in between, and prints by how many bytes the memory
  * grew after the first tenth. Status 0 if the heap grew by less than a byte per cycle. */
 #include <elastokin.h>
 #include <malloc.h>
@@ -23,7 +23,8 @@ static void require(int holds, const char *what, ek_model *model) {
 }
 
 static void cycle(const char *deck, const char *name, double *values, int room) {
-  ek_model *model;
+  ek_model *model, *copy, *other;
+  const char *number, *column, *path, *text;
   double value;
   int n, k;
 
@@ -37,6 +38,21 @@ static void cycle(const char *deck, const char *name, double *values, int room) 
   require(n > 0 && n <= room && ek_values(model, n, values) == EK_OK, "values", model);
   for (k = 0; k < ek_column_count(model); k++) require(ek_column_name(model, k) && ek_column_unit(model, k), "column", model);
   require(ek_compliance(model, 0, 36 * ek_wheel_count(model) * ek_wheel_count(model), values) == EK_OK, "compliance", model);
+  number = ek_parameter_path(model, 0);
+  column = ek_column_name(model, 2);
+  require(ek_derivatives(model, 0, 1, &column, 1, &number, &value, NULL) != EK_FILE, "derivatives", model);
+  require(ek_set_text(model, "bushing.*.kt(1)", "*1.1") == EK_OK, "a text after a solution", model);
+  require(ek_values(model, n, values) == EK_OK, "values stay", model);
+  require(ek_derivatives(model, 0, 1, &column, 1, &number, &value, NULL) != EK_FILE, "derivatives stay", model);
+  require(ek_solve(model, name, 0, NULL) == EK_OK, "solve again", model);
+  require(ek_set(model, "bushing.*.kt(1)", -1.0) == EK_DECK, "an illegal number", model);
+  require(ek_copy(model, &copy) == EK_OK, "copy", model);
+  require(ek_deck_as_used(copy) != NULL, "deck as used", copy);
+  path = ek_file_path(copy, 0);
+  text = ek_file_text(copy, 0);
+  require(ek_open_files(1, &path, &text, &other) == EK_OK, "open files", other);
+  ek_close(other);
+  ek_close(copy);
   require(ek_reset(model) == EK_OK, "reset", model);
   require(ek_solve(model, "no such case", 0, NULL) == EK_USAGE, "an unknown case", model);
   ek_close(model);

@@ -25,6 +25,7 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_file_path": (c_char_p, [c_void_p, c_int]),
     "ek_file_text": (c_char_p, [c_void_p, c_int]),
     "ek_open_files": (c_int, [c_int, _TEXTS, _TEXTS, POINTER(c_void_p)]),
+    "ek_deck_as_used": (c_char_p, [c_void_p]),
     "ek_close": (None, [c_void_p]),
     "ek_message": (c_char_p, [c_void_p]),
     "ek_name": (c_char_p, [c_void_p]),

@@ -146,6 +146,19 @@ class Model:
             return text_of(lib.ek_checksum(self._open))
 
     @property
+    def deck(self) -> str:
+        """The deck with its present numbers as one text, which gives the same results.
+
+        Included files, hardpoints, property files, both sides and changes are written out, load tables by their whole paths.
+        Raises DeckError if the numbers define no valid model.
+        """
+        with self._lock:
+            text: bytes | None = lib.ek_deck_as_used(self._open)
+            if text is None:
+                raise errors.DeckError(text_of(lib.ek_message(self._handle)))
+        return text.decode("utf-8", "surrogateescape")
+
+    @property
     def wheels(self) -> int:
         """Number of wheels: 0, 1 or 2; left before right."""
         with self._lock:

@@ -1,0 +1,206 @@
+!> The deck as it was used: one file with all records after included files, hardpoints, property files, both sides and settings.
+!> Comments give the file and the line of each record, the setting of each value that was set, and the numbers that are not given.
+!> The file gives the same results as the deck from which it was made.
+module ek_deck_writer
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_text, only: str, quoted
+   use ek_buffer, only: buffer_t
+   use ek_file, only: write_whole, join_path, folder_name, base_name
+   use ek_kept_files, only: read_kept
+   use ek_record, only: record_t, entry_t
+   use ek_system, only: working_folder, facts_t, facts_of, regular_file
+   use ek_parameter, only: parameters_t, value_path
+   use ek_attachment, only: path_of, text_of
+   use ek_deck, only: deck_t, deck_checksum
+   use ek_reader, only: design_t, read_design
+   use ek_version, only: version
+   implicit none(type, external)
+   private
+   public :: deck_as_used, write_deck_as_used
+
+   character(*), parameter :: written_out(3) = [character(10) :: 'include', 'hardpoints', 'mirror']
+   character(*), parameter :: replaced(4) = [character(15) :: 'property_file', 'property_scale', 'property_offset', 'property_kind']
+   character(*), parameter :: nl = new_line('a')
+
+   !> A load table that a record names.
+   type :: table_t
+      character(:), allocatable :: path, name      !! where it was read, what the written deck calls it
+   end type table_t
+
+contains
+
+   !> Writes a deck, and beside it the load tables that it names: DECK_TABLE.csv.
+   subroutine write_deck_as_used(deck, path, error)
+      type(deck_t), intent(in) :: deck                     !! without mistakes
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_file; exit_deck if it has mistakes
+      type(table_t), allocatable :: tables(:)
+      character(:), allocatable :: text, content
+      integer :: k
+
+      call refuse_own_files(deck, path, error)
+      if (allocated(error)) return
+      call make_text(deck, base_name(path)//'_', text, tables, error)
+      if (.not. allocated(error)) call write_whole(path, text, error)
+      do k = 1, size(tables)
+         if (allocated(error)) return
+         call read_kept(deck%kept, tables(k)%path, content, error)
+         if (.not. allocated(error)) call write_whole(join_path(folder_name(path), tables(k)%name), content, error)
+      end do
+   end subroutine write_deck_as_used
+
+   !> Refuses to write over a file from which the deck was read.
+   subroutine refuse_own_files(deck, path, error)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: path
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      type(facts_t) :: target, own
+      integer :: k
+
+      if (path == '-') then
+         call fail(error, exit_usage, 'the deck as it was used needs a file, found -')
+         return
+      end if
+      target = facts_of(path, follow=.true.)
+      if (target%kind /= regular_file) return
+      do k = 1, deck%kept%count()
+         own = facts_of(deck%kept%path(k), follow=.true.)
+         if (own%kind /= regular_file .or. own%inode /= target%inode .or. own%device /= target%device) cycle
+         call fail(error, exit_usage, quoted(path)//' is a file from which the deck was read; give another file for the deck '// &
+            'as it was used')
+         return
+      end do
+   end subroutine refuse_own_files
+
+   !> The text of a deck as it was used. Load tables stay where they are, with their whole paths.
+   subroutine deck_as_used(deck, text, error)
+      type(deck_t), intent(in) :: deck
+      character(:), allocatable, intent(out) :: text
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: it has mistakes
+      type(table_t), allocatable :: tables(:)
+
+      call make_text(deck, '', text, tables, error)
+   end subroutine deck_as_used
+
+   subroutine make_text(deck, prefix, text, tables, error)
+      type(deck_t), intent(in) :: deck
+      character(*), intent(in) :: prefix                   !! of the names of tables; '': their paths
+      character(:), allocatable, intent(out) :: text
+      type(table_t), allocatable, intent(out) :: tables(:)
+      type(error_t), allocatable, intent(out) :: error
+      type(design_t) :: design
+      type(buffer_t) :: lines
+      integer :: k
+
+      text = ''
+      allocate (tables(0))
+      call read_design(deck, design, error)
+      if (allocated(error)) return
+      call lines%line('! The deck '//deck%file//' as elastokin '//version//' used it, checksum '//deck_checksum(deck)//':')
+      call lines%line('! included files, hardpoints, property files, both sides and settings are written out')
+      do k = 1, size(design%records)
+         if (any(written_out == design%records(k)%group)) cycle
+         call add_record(design%records(k), k, design%parameters, prefix, tables, lines)
+      end do
+      text = lines%text()
+   end subroutine make_text
+
+   !> One record: its file and line, a line for each key, and the numbers that it does not give.
+   subroutine add_record(record, number, parameters, prefix, tables, lines)
+      type(record_t), intent(in) :: record
+      integer, intent(in) :: number
+      type(parameters_t), intent(in) :: parameters
+      character(*), intent(in) :: prefix
+      type(table_t), allocatable, intent(inout) :: tables(:)
+      type(buffer_t), intent(inout) :: lines
+      character(:), allocatable :: line
+      integer :: e, k
+
+      call lines%line('')
+      call lines%line('&'//record%group//'   ! '//record%file//':'//str(record%line))
+      do e = 1, record%used
+         associate (entry => record%entries(e))
+            if (any(replaced == entry%key)) cycle
+            if (entry%key == 'file') then
+               line = '  file = '//in_quotes(table_name(record, prefix, tables))
+            else
+               line = '  '//entry_text(entry)
+            end if
+            if (allocated(entry%setting)) then
+               line = line//'   ! set: '//entry%setting
+            else if (entry%line > 0 .and. entry%line /= record%line) then
+               line = line//'   ! line '//str(entry%line)
+            end if
+         end associate
+         call lines%line(line)
+      end do
+      do k = 1, parameters%used
+         associate (this => parameters%list(k))
+            if (this%record /= number .or. this%is_given) cycle
+            line = value_path(record, trim(this%key), this%at)
+            call lines%line('  ! '//line(index(line, '.', back=.true.) + 1:)//' = '// &
+               str(parameters%x(k)/this%unit, 15)//'   by default')
+         end associate
+      end do
+      call lines%line('/')
+   end subroutine add_record
+
+   !> 'kt = 700, 700, 150', 'kt(2) = 5', "bodies = 'chassis', 'lca'".
+   function entry_text(entry) result(text)
+      type(entry_t), intent(in) :: entry
+      character(:), allocatable :: text
+      integer :: v
+
+      text = entry%key
+      if (entry%first /= 1) text = text//'('//str(entry%first)//')'
+      text = text//' ='
+      do v = 1, entry%used
+         if (v > 1) text = text//','
+         if (entry%values(v)%is_string) then
+            text = text//' '//in_quotes(entry%values(v)%text)
+         else
+            text = text//' '//entry%values(v)%text
+         end if
+      end do
+   end function entry_text
+
+   !> A text in quotes; a quote inside is doubled.
+   function in_quotes(text) result(words)
+      character(*), intent(in) :: text
+      character(:), allocatable :: words
+      integer :: k
+
+      words = "'"
+      do k = 1, len(text)
+         words = words//text(k:k)
+         if (text(k:k) == "'") words = words//"'"
+      end do
+      words = words//"'"
+   end function in_quotes
+
+   !> What the written deck calls the table of a case, which is added to the list. Tables of one name in two folders get numbers.
+   function table_name(record, prefix, tables) result(name)
+      type(record_t), intent(in) :: record
+      character(*), intent(in) :: prefix
+      type(table_t), allocatable, intent(inout) :: tables(:)
+      character(:), allocatable :: name
+      type(table_t) :: this
+      integer :: k, same
+
+      this%path = path_of(record, text_of(record, 'file'))
+      name = join_path(working_folder(), this%path)
+      if (prefix == '') return
+      same = 0
+      do k = 1, size(tables)
+         name = tables(k)%name
+         if (tables(k)%path == this%path) return
+         if (base_name(tables(k)%path) == base_name(this%path)) same = same + 1
+      end do
+      name = prefix//base_name(this%path)
+      if (same > 0) name = name//'_'//str(same + 1)
+      name = name//'.csv'
+      this%name = name
+      tables = [tables, this]
+   end function table_name
+
+end module ek_deck_writer
