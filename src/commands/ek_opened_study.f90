@@ -10,6 +10,7 @@ module ek_opened_study
    use ek_study_each, only: expand_factors, expand_columns
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
+   use ek_study_run, only: chunk_of_parts
    use ek_study_tables, only: responses_name
    use ek_store, only: store_texts_t, keep_texts, store_name
    use ek_tolerance, only: tolerance_t
@@ -51,12 +52,17 @@ contains
    end subroutine open_study
 
    !> The design of the deck, against which the study is checked, and the plan.
-   subroutine plan_study(this, error)
+   subroutine plan_study(this, error, shards)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
+      integer, intent(in), optional :: shards        !! of this run, default 1
+      integer :: n
 
+      n = 1
+      if (present(shards)) n = shards
       call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
-      if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
+      if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error, &
+         n, chunk_of_parts(this%study, this%out))
       if (allocated(error)) return
       this%texts%swept = this%designer%worker%cases(1)%result%case%place_name
       this%texts%swept_unit = this%designer%worker%cases(1)%result%case%unit_name

@@ -55,7 +55,7 @@ contains
       if (.not. allocated(error)) call open_study(line, this, error)
       has_designs = .not. allocated(error)
       if (has_designs) has_designs = this%study%kind /= step_size_kind
-      if (has_designs) call plan_study(this, error)
+      if (has_designs) call plan_study(this, error, options%shards)
       asks_status = has_designs .and. line%has('--status')
       if (has_designs .and. .not. asks_status .and. .not. allocated(error)) &
          call choose_store(this%study, this%plan, this%has_store, error)

@@ -172,9 +172,10 @@ contains
 
    !> Reads a chunk. is_good is .false. if the file is absent, damaged, of another study, or of other designs: a file that was
    !> renamed is not the chunk of its name.
-   subroutine read_chunk(path, identity, first, self, is_good)
+   subroutine read_chunk(path, identity, first, designs, self, is_good)
       character(*), intent(in) :: path, identity
       integer(i8), intent(in) :: first             !! design of the chunk
+      integer, intent(in) :: designs               !! of the chunk; 0: not known
       type(chunk_t), intent(inout) :: self
       logical, intent(out) :: is_good
       character(:), allocatable :: text
@@ -194,7 +195,7 @@ contains
       at = len(mark) + len(identity) + 3
       k = index(text(at:), line_end)
       read (text(at:at + k - 2), *, iostat=status) sizes
-      if (status /= 0 .or. sizes(1) /= first) return
+      if (status /= 0 .or. sizes(1) /= first .or. (designs > 0 .and. sizes(2) /= designs)) return
       at = at + k
       call new_chunk(int(sizes(1), i8), sizes(2), sizes(3), sizes(4), sizes(5), 0, self)
       call take(1)

@@ -19,11 +19,12 @@ module ek_study_run
    use ek_study, only: study_t
    use ek_study_design, only: designer_t, solve_designs
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
-   use ek_study_plan, only: study_plan_t, begin_chunk, first_of
+   use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
    implicit none(type, external)
    private
-   public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, remove_parts
+   public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, &
+      remove_parts, chunk_of_parts
    public :: nobody, this_machine, other_machine
 
    character(*), parameter :: identity_name = 'study.txt'
@@ -120,6 +121,26 @@ contains
       end function content
 
    end subroutine open_parts
+
+   !> The number of designs per chunk of the folder that is there; 0 if there is none. Shards may have chosen smaller chunks.
+   integer function chunk_of_parts(study, out) result(chunk)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: out
+      character(*), parameter :: words = ' in chunks of '
+      character(:), allocatable :: path, text
+      type(error_t), allocatable :: unread
+      integer :: at, status
+
+      chunk = 0
+      path = join_path(parts_folder(study, out), identity_name)
+      if (.not. file_exists(path)) return
+      call read_whole(path, text, unread)
+      at = index(text, words)
+      status = 1
+      if (at > 0) read (text(at + len(words):), *, iostat=status) chunk
+      if (status /= 0) chunk = 0
+      chunk = max(0, chunk)
+   end function chunk_of_parts
 
    !> The designs whose chunks are there and whole.
    subroutine count_parts(study, plan, out, done)
@@ -220,10 +241,11 @@ contains
 
       is_pending = .false.
       do k = options%shard, plan%chunks, options%shards
-         designs = min(plan%chunk, plan%designs - (k - 1)*plan%chunk)
+         designs = designs_in(plan, k)
          shared%state%wanted = shared%state%wanted + designs
          is_good = file_exists(join_path(shared%folder, chunk_name(k)))
-         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), chunk, is_good)
+         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), &
+            designs_in(plan, k), chunk, is_good)
          is_pending(k) = .not. is_good
          if (is_good) shared%state%before = shared%state%before + designs
       end do

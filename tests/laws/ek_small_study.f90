@@ -60,7 +60,7 @@ contains
       end do
       call make_folder(folder, error)
       if (.not. allocated(error)) call new_designer(study, deck, '', designer, error)
-      if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error)
+      if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error, 1, 0)
       if (.not. allocated(error)) call open_parts(study, plan, folder, hold, error)
       if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, hold, options, designer, ranks, state, &
          be_silent, error)
