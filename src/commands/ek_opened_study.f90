@@ -29,6 +29,7 @@ module ek_opened_study
       type(study_plan_t) :: plan
       logical :: has_store = .false.                 !! the results go into a NetCDF file
       type(store_texts_t) :: texts
+      character(:), allocatable :: build             !! of this program
       type(tolerance_t), allocatable :: tolerance    !! of a tolerance study, by derivatives
    end type opened_study_t
 
@@ -40,6 +41,8 @@ contains
       type(opened_study_t), intent(out) :: this
       type(error_t), allocatable, intent(out) :: error
 
+      this%build = ''
+      if (allocated(line%build)) this%build = line%build
       this%home = folder_name(line%files%line(1))
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
@@ -62,7 +65,7 @@ contains
       if (present(shards)) n = shards
       call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
       if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error, &
-         n, chunk_of_parts(this%study, this%out))
+         n, chunk_of_parts(this%study, this%out), this%build)
       if (allocated(error)) return
       this%texts%swept = this%designer%worker%cases(1)%result%case%place_name
       this%texts%swept_unit = this%designer%worker%cases(1)%result%case%unit_name

@@ -6,6 +6,7 @@ module ek_study_plan
    use ek_text, only: str, quoted
    use ek_checksum, only: checksum_t, include, digits_of
    use ek_version, only: version
+   use ek_loaded_library, only: text_from_library
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_deck, only: deck_t, deck_checksum
    use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered
@@ -35,13 +36,15 @@ module ek_study_plan
       integer :: columns = 0                                 !! of a row of the curves: the swept value and those of the study
       integer :: states = 0                                  !! of a design, usually
       character(:), allocatable :: deck_sum                  !! checksum of the deck
-      character(:), allocatable :: identity                  !! two studies with the same one have the same results
+      character(:), allocatable :: identity                  !! two studies with the same one have the same results, to rounding
+      character(:), allocatable :: build                     !! of the program: part of the identity
+      character(:), allocatable :: kernel                    !! of the BLAS on this processor, 'Haswell'; '' if it does not name it
    end type study_plan_t
 
 contains
 
    !> Makes the plan, from a designer that has the design of the deck.
-   subroutine new_plan(study, deck, home, designer, plan, error, shards, chunk)
+   subroutine new_plan(study, deck, home, designer, plan, error, shards, chunk, build)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home                     !! folder of the study with its slash
@@ -49,6 +52,7 @@ contains
       type(study_plan_t), intent(out) :: plan
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
       integer, intent(in) :: shards                        !! of this run
+      character(*), intent(in) :: build                    !! of this program: version, commit, compiler, options
       integer, intent(in) :: chunk                         !! designs of the chunks that are there; 0: there are none
       type(sampler_settings_t) :: settings
       type(checksum_t) :: sum
@@ -73,7 +77,9 @@ contains
       end do
       plan%deck_sum = deck_checksum(deck)
       sum = study%sum
-      call include(sum, version//' '//plan%deck_sum//' '//str(plan%designs))
+      plan%build = build
+      plan%kernel = text_from_library('openblas_get_corename')
+      call include(sum, version//' '//build//' '//plan%deck_sum//' '//str(plan%designs))
       if (is_ordered(plan%sampler)) call include(sum, ' ordered by rank')      ! not the designs of earlier versions
       call include_numbers(settings%rows)
       do k = 1, size(designer%readings)
