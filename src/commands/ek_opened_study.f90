@@ -1,6 +1,6 @@
 !> A study as a command opens it: the file, its deck with the settings of the command line, and the plan of its designs.
 module ek_opened_study
-   use ek_error, only: error_t, fail, exit_usage
+   use ek_error, only: error_t, fail, exit_usage, exit_file
    use ek_text, only: quoted
    use ek_file, only: join_path, folder_name
    use ek_deck, only: deck_t
@@ -48,6 +48,10 @@ contains
       call read_study(line%files%line(1), this%study, error)
       if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
+      if (allocated(error) .and. allocated(this%study%where)) then         ! a file that cannot be read: where it is named
+         if (error%code == exit_file .and. index(error%message, line%files%line(1)) == 0) &
+            error%message = this%study%where//': deck: '//error%message
+      end if
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_factors(this%study, this%deck, error)
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_columns(this%study, this%deck, error)
       if (.not. allocated(error)) call keep_texts(line%files%line(1), &

@@ -142,7 +142,10 @@ contains
       path = study%list
       if (index(path, '/') /= 1) path = home//path
       call read_csv(path, table, error, has_text=.true.)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         error%message = study%where//': list: '//error%message
+         return
+      end if
       allocate (rows(size(study%factors), size(table%values, 2)))
       do f = 1, size(study%factors)
          at = column_index(table, study%factors(f)%name)
