@@ -4,7 +4,7 @@ program elastokin
    use ek_command, only: commands, options, exit_status_text, help_text, obey
    use ek_command_line, only: command_line_t, read_command_line
    use ek_build_facts, only: build
-   use ek_version_text, only: program_name, version_text
+   use ek_version_text, only: program_name, version_text, build_text
    use ek_threads, only: use_one_thread
    use ek_system, only: prepare_surroundings
    use ek_console, only: print_error, print_text
@@ -27,6 +27,7 @@ program elastokin
       else
          call begin_log(line, error)
          if (.not. allocated(error)) call use_one_thread(error)
+         line%build = build_text(build)
          if (.not. allocated(error)) call obey(line, error)
       end if
    else

@@ -1,23 +1,31 @@
-!> SIGINT (Ctrl-C) and SIGTERM (a batch system at its time limit) as a question that a long run asks now and then.
+!> SIGINT (Ctrl-C), SIGTERM (a batch system at its time limit), SIGHUP (a terminal that was closed), SIGUSR1, SIGUSR2 and SIGXCPU
+!> (warnings of batch systems) and SIGQUIT as a question that a long run asks now and then.
 module ek_interrupt
-   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_null_funptr
+   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_intptr_t, c_null_funptr
    use ek_posix, only: c_signal
    implicit none(type, external)
    private
    public :: watch_for_stop, is_stop_asked
 
    integer(c_int), parameter :: sigint = 2, sigterm = 15
+   integer(c_int), parameter :: further(*) = [1, 3, 10, 12, 24]       !! SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU of Linux
+   integer(c_intptr_t), parameter :: is_ignored = 1                   !! SIG_IGN, as nohup sets it
    logical, volatile :: is_asked = .false.      !! set by the handler: the only memory that a signal can reach
 
 contains
 
    !> From now on these signals no longer end the process. A second one does.
    subroutine watch_for_stop()
-      type(c_funptr) :: ignored
+      type(c_funptr) :: ignored, before
+      integer :: k
 
       is_asked = .false.
       ignored = c_signal(sigint, c_funloc(note_stop))
       ignored = c_signal(sigterm, c_funloc(note_stop))
+      do k = 1, size(further)
+         before = c_signal(further(k), c_funloc(note_stop))
+         if (transfer(before, is_ignored) == is_ignored) ignored = c_signal(further(k), before)
+      end do
    end subroutine watch_for_stop
 
    !> Whether such a signal has arrived.

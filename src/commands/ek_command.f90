@@ -178,7 +178,8 @@ module ek_command
       option_t('compare', '--static', 'as for report'), &
       option_t('compare', '--quiet', quiet_help), &
       option_t('study', '--out DIR', 'output folder (default: out, next to the study)'), &
-      option_t('study', '--jobs N', 'threads (default: one per processor; under mpirun one per process)'), &
+      option_t('study', '--jobs N', 'threads (default: the processors, at most OMP_NUM_THREADS and SLURM_CPUS_PER_TASK;'//indent// &
+      'under mpirun one per process)'), &
       option_t('study', '--samples N', 'in place of those of the study, for a trial'), &
       option_t('study', '--shard i/n', 'only part i of n of the designs, for the tasks of a job array; then elastokin merge'), &
       option_t('study', '--time-limit TIME', 'stop in time: seconds or [hours:]minutes:seconds'), &

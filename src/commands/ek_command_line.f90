@@ -33,6 +33,7 @@ module ek_command_line
    type :: command_line_t
       character(:), allocatable :: command        !! '' if there is none
       type(message_list_t) :: files
+      character(:), allocatable :: build          !! of this program, from the main program; not allocated: unknown
       type(message_list_t), private :: names, texts     !! of the options in order, and their values
    contains
       procedure :: has, value => last_value, values => all_values, number => number_of

@@ -1,6 +1,6 @@
 !> A study as a command opens it: the file, its deck with the settings of the command line, and the plan of its designs.
 module ek_opened_study
-   use ek_error, only: error_t, fail, exit_usage
+   use ek_error, only: error_t, fail, exit_usage, exit_file
    use ek_text, only: quoted
    use ek_file, only: join_path, folder_name
    use ek_deck, only: deck_t
@@ -10,6 +10,7 @@ module ek_opened_study
    use ek_study_each, only: expand_factors, expand_columns
    use ek_study_design, only: designer_t, new_designer
    use ek_study_plan, only: study_plan_t, new_plan
+   use ek_study_run, only: chunk_of_parts
    use ek_study_tables, only: responses_name
    use ek_store, only: store_texts_t, keep_texts, store_name
    use ek_tolerance, only: tolerance_t
@@ -28,6 +29,7 @@ module ek_opened_study
       type(study_plan_t) :: plan
       logical :: has_store = .false.                 !! the results go into a NetCDF file
       type(store_texts_t) :: texts
+      character(:), allocatable :: build             !! of this program
       type(tolerance_t), allocatable :: tolerance    !! of a tolerance study, by derivatives
    end type opened_study_t
 
@@ -39,11 +41,17 @@ contains
       type(opened_study_t), intent(out) :: this
       type(error_t), allocatable, intent(out) :: error
 
+      this%build = ''
+      if (allocated(line%build)) this%build = line%build
       this%home = folder_name(line%files%line(1))
       this%out = line%value('--out', join_path(this%home, 'out'))
       call read_study(line%files%line(1), this%study, error)
       if (.not. allocated(error) .and. line%has('--samples')) call set_samples(line%number('--samples'), this%study, error)
       if (.not. allocated(error)) call read_changed(join_path(this%home, this%study%deck), line%values('--set'), this%deck, error)
+      if (allocated(error) .and. allocated(this%study%where)) then         ! a file that cannot be read: where it is named
+         if (error%code == exit_file .and. index(error%message, line%files%line(1)) == 0) &
+            error%message = this%study%where//': deck: '//error%message
+      end if
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_factors(this%study, this%deck, error)
       if (.not. allocated(error) .and. this%study%kind /= step_size_kind) call expand_columns(this%study, this%deck, error)
       if (.not. allocated(error)) call keep_texts(line%files%line(1), &
@@ -51,12 +59,17 @@ contains
    end subroutine open_study
 
    !> The design of the deck, against which the study is checked, and the plan.
-   subroutine plan_study(this, error)
+   subroutine plan_study(this, error, shards)
       type(opened_study_t), intent(inout) :: this
       type(error_t), allocatable, intent(out) :: error
+      integer, intent(in), optional :: shards        !! of this run, default 1
+      integer :: n
 
+      n = 1
+      if (present(shards)) n = shards
       call new_designer(this%study, this%deck, join_path(this%home, ''), this%designer, error)
-      if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error)
+      if (.not. allocated(error)) call new_plan(this%study, this%deck, join_path(this%home, ''), this%designer, this%plan, error, &
+         n, chunk_of_parts(this%study, this%out), this%build)
       if (allocated(error)) return
       this%texts%swept = this%designer%worker%cases(1)%result%case%place_name
       this%texts%swept_unit = this%designer%worker%cases(1)%result%case%unit_name

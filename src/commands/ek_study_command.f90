@@ -9,7 +9,8 @@ module ek_study_command
    use ek_study, only: step_size_kind
    use ek_factor_remark, only: factor_remarks
    use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
-   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder
+   use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder, &
+      check_parts
    use ek_store, only: choose_store
    use ek_command_line, only: command_line_t
    use ek_study_options, only: read_options
@@ -57,7 +58,7 @@ contains
       if (.not. allocated(error)) call open_study(line, this, error)
       has_designs = .not. allocated(error)
       if (has_designs) has_designs = this%study%kind /= step_size_kind
-      if (has_designs) call plan_study(this, error)
+      if (has_designs) call plan_study(this, error, options%shards)
       asks_status = has_designs .and. line%has('--status')
       if (has_designs .and. .not. asks_status .and. .not. allocated(error)) &
          call choose_store(this%study, this%plan, this%has_store, error)
@@ -110,6 +111,7 @@ contains
          'merge: a study of kind ''step_size'' has no shards')
       if (.not. allocated(error)) call plan_study(this, error)
       if (.not. allocated(error)) call choose_store(this%study, this%plan, this%has_store, error)
+      if (.not. allocated(error)) call check_parts(this%study, this%plan, this%out, error)
       if (allocated(error)) return
       call count_parts(this%study, this%plan, this%out, done)
       results = join_path(this%out, results_name(this))

@@ -8,7 +8,7 @@ module ek_study_outcome
    use ek_drawing, only: run_plot_script
    use ek_study, only: study_t, step_size_kind
    use ek_study_run, only: remove_parts, parts_folder, this_machine, other_machine
-   use ek_study_tables, only: study_counts_t, write_tables, count_designs, curves_name, has_limits
+   use ek_study_tables, only: study_counts_t, write_tables, count_designs, curves_name, has_limits, kernels_text
    use ek_store, only: write_store
    use ek_chunk, only: status_names, design_invalid
    use ek_step_size, only: step_size_text
@@ -51,6 +51,9 @@ contains
          '; it removes that folder')
       if (user == other_machine) call print_note(is_quiet, parts_folder(this%study, this%out)//' is kept: a run on another '// &
          'machine is at work in it, or died there within a day; remove it if there is none')
+      if (counts%kernels%count() > 1) call print_warning('the designs were computed with different BLAS kernels ('// &
+         kernels_text(counts)//'): on processors of one kind all would be equal to the last digit; OPENBLAS_CORETYPE='// &
+         counts%kernels%line(1)//' makes them so everywhere')
       name = results_name(this)
       if (this%plan%columns > 0 .and. .not. this%has_store) call tables%add(curves_name(this%study))
       call tables%add(name)

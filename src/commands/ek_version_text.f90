@@ -11,7 +11,7 @@ module ek_version_text
    use ek_study_pack, only: lanes, are_lanes_fast
    implicit none(type, external)
    private
-   public :: build_t, program_name, version_text
+   public :: build_t, program_name, version_text, build_text
 
    !> What CMake knows of a build (src/ek_build_facts.f90.in). It is handed over by the main program, so that a new commit compiles
    !> nothing else again.
@@ -32,6 +32,13 @@ contains
       text = 'elastokin '//version
       if (build%commit /= '') text = text//' (commit '//trim(build%commit)//')'
    end function program_name
+
+   !> What makes the numbers of two builds differ: version, commit, compiler and its options, in one line.
+   pure function build_text(build) result(text)
+      type(build_t), intent(in) :: build
+      character(:), allocatable :: text
+      text = program_name(build)//', '//trim(build%compiler)//', '//trim(build%options)
+   end function build_text
 
    !> The version in the first line, then one fact per line.
    function version_text(build) result(text)

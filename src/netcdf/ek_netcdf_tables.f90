@@ -15,7 +15,7 @@ module ek_netcdf_tables
    use ek_namelist, only: is_legal_name
    use ek_table, only: table_t, new_table, name_length, csv_head, csv_row
    use ek_writer, only: writer_t, begin_file
-   use ek_study_tables, only: quoted_field, tables_of, repeated_factors
+   use ek_study_tables, only: quoted_field, tables_of, repeated_factors, kernel_words
    implicit none(type, external)
    private
    public :: write_store_tables
@@ -143,17 +143,19 @@ contains
       character(*), intent(in) :: last(:)
       type(writer_t), intent(inout) :: table_file
       type(table_t) :: table
-      character(:), allocatable :: study, kind, source, deck_sum, identity
+      character(:), allocatable :: study, kind, source, deck_sum, identity, kernels
 
       call get_text(file, nf90_global, 'study', study)
       call get_text(file, nf90_global, 'kind', kind)
       call get_text(file, nf90_global, 'source', source)
       call get_text(file, nf90_global, 'deck_checksum', deck_sum)
       call get_text(file, nf90_global, 'identity', identity)
+      kernels = ''
+      if (has(file, nf90_global, 'blas_kernels')) call get_text(file, nf90_global, 'blas_kernels', kernels)
       if (file%fault /= nf90_noerr) return
       table = new_table([character(name_length) :: 'design', file%heads(variables), last], 0)
       call table%header%add('study '//study//', kind '//kind//', '//plural(file%designs, 'design', 'designs'))
-      call table%header%add(source//', deck checksum '//deck_sum//', study '//identity)
+      call table%header%add(source//', deck checksum '//deck_sum//', study '//identity//kernel_words(kernels))
       call table_file%add(csv_head(table))
    end subroutine add_head
 

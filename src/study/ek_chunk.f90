@@ -1,6 +1,6 @@
 !> A chunk of a study: designs that are computed, written and resumed together, and its file.
 !>
-!> The file begins with lines of text (what it is, the study to which it belongs, its sizes), then the numbers as bytes, then the
+!> The file begins with lines of text (what it is, the study to which it belongs, the BLAS kernel, its sizes), then the numbers as bytes, then the
 !> reasons of failed designs, and ends with a checksum of everything before. It is written under a temporary name and renamed when
 !> it is whole, so that a file under its own name is a finished chunk; one that is damaged afterwards is recognised and computed
 !> again.
@@ -13,7 +13,7 @@ module ek_chunk
    use ek_writer, only: writer_t, begin_file
    implicit none(type, external)
    private
-   public :: chunk_t, new_chunk, add_reason, put_error, reason_of, write_chunk, read_chunk, chunk_name, design_solved, &
+   public :: chunk_t, new_chunk, add_reason, put_error, reason_of, write_chunk, read_chunk, kernel_of, chunk_name, design_solved, &
       design_incomplete, design_unsolvable, design_invalid, status_names
 
    ! how a design ended
@@ -23,7 +23,7 @@ module ek_chunk
    integer, parameter :: design_invalid = 3        !! its numbers make no model
    character(*), parameter :: status_names(0:3) = [character(12) :: 'solved', 'incomplete', 'not_solvable', 'invalid']
 
-   character(*), parameter :: mark = 'elastokin chunk 1'
+   character(*), parameter :: mark = 'elastokin chunk 2'
    character(*), parameter :: line_end = new_line('a')
 
    !> Why a design failed.
@@ -120,10 +120,11 @@ contains
    end function chunk_name
 
    !> Writes a chunk: the whole file, or none.
-   subroutine write_chunk(self, path, identity, error)
+   subroutine write_chunk(self, path, identity, kernel, error)
       type(chunk_t), intent(in) :: self
       character(*), intent(in) :: path
       character(*), intent(in) :: identity        !! of the study
+      character(*), intent(in) :: kernel          !! of the BLAS; '': unknown
       type(error_t), allocatable, intent(out) :: error
       type(writer_t) :: writer
       type(checksum_t) :: sum
@@ -133,7 +134,7 @@ contains
       ! without waiting for the disk, up to a millisecond of all threads: a chunk that a power cut damages is computed again
       call begin_file(writer, path, error, can_be_redrawn=.true.)
       if (allocated(error)) return
-      call put(mark//line_end//identity//line_end)
+      call put(mark//line_end//identity//line_end//kernel//line_end)
       call put(line_of(self)//line_end)
       call put(bytes_of(real([1], wp)))                     ! a machine of another byte order reads another number
       call put(bytes_of(real(self%status, wp)))
@@ -172,9 +173,10 @@ contains
 
    !> Reads a chunk. is_good is .false. if the file is absent, damaged, of another study, or of other designs: a file that was
    !> renamed is not the chunk of its name.
-   subroutine read_chunk(path, identity, first, self, is_good)
+   subroutine read_chunk(path, identity, first, designs, self, is_good)
       character(*), intent(in) :: path, identity
       integer(i8), intent(in) :: first             !! design of the chunk
+      integer, intent(in) :: designs               !! of the chunk; 0: not known
       type(chunk_t), intent(inout) :: self
       logical, intent(out) :: is_good
       character(:), allocatable :: text
@@ -192,9 +194,10 @@ contains
       call include(sum, text(:at))
       if (text(at + 1:) /= digits_of(sum)//line_end) return
       at = len(mark) + len(identity) + 3
+      at = at + index(text(at:), line_end)        ! after the kernel
       k = index(text(at:), line_end)
       read (text(at:at + k - 2), *, iostat=status) sizes
-      if (status /= 0 .or. sizes(1) /= first) return
+      if (status /= 0 .or. sizes(1) /= first .or. (designs > 0 .and. sizes(2) /= designs)) return
       at = at + k
       call new_chunk(int(sizes(1), i8), sizes(2), sizes(3), sizes(4), sizes(5), 0, self)
       call take(1)
@@ -237,6 +240,23 @@ contains
       end subroutine take
 
    end subroutine read_chunk
+
+   !> The BLAS kernel by which a chunk was computed; '' if it is unknown, or there is no such file.
+   function kernel_of(path) result(kernel)
+      character(*), intent(in) :: path
+      character(:), allocatable :: kernel
+      character(80) :: lines(3)
+      integer :: unit, status, ignored, k
+
+      kernel = ''
+      open (newunit=unit, file=path, action='read', status='old', iostat=status)
+      if (status /= 0) return
+      do k = 1, size(lines)
+         if (status == 0) read (unit, '(a)', iostat=status) lines(k)
+      end do
+      close (unit, iostat=ignored)
+      if (status == 0) kernel = trim(lines(3))
+   end function kernel_of
 
    !> The bytes of some numbers.
    pure function bytes_of(numbers) result(text)

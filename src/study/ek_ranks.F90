@@ -11,7 +11,7 @@ module ek_ranks
    use ek_text, only: str
 #ifndef EK_MPI
    use ek_system, only: program_folder
-   use ek_file, only: join_path
+   use ek_file, only: join_path, file_exists
    use ek_process, only: go_on_as
 #else
    use, intrinsic :: iso_c_binding, only: c_ptr, c_f_pointer
@@ -52,7 +52,13 @@ contains
       logical :: is_launched
 
       call look_for_launcher(is_launched, launched)
-      if (.not. is_launched) return
+      if (.not. is_launched) then
+         if (launched > 1) call fail(error, exit_usage, 'srun started this as one of '//str(launched)// &
+            ' tasks that do not know of each other: each would compute the whole study. Use '// &
+            'srun --mpi=pmix, mpirun, --ntasks=1 or --shard. '// &
+            'In a shell that srun --pty started: env -u SLURM_STEP_NUM_TASKS elastokin …')
+         return
+      end if
 #ifdef EK_MPI
       call start_mpi(ranks)
       if (ranks%count == 1 .and. launched > 1) then
@@ -63,16 +69,30 @@ contains
 #else
       if (program_folder() /= '') call go_on_as(join_path(program_folder(), mpi_program))
       if (launched > 1) call fail(error, exit_usage, 'started as one of '//str(launched)// &
-         ' processes, but there is no '//mpi_program//' beside this program (compiled without MPI); use --jobs, or --shard and '// &
-         'elastokin merge')
+         ' processes, but '//why_no_mpi()//'; use --jobs, or --shard and elastokin merge')
 #endif
    end subroutine start_ranks
 
-   !> Whether mpirun or srun started this process, and as one of how many (1 if that is not known).
+#ifndef EK_MPI
+   !> Why this program does not go on as the program with MPI.
+   function why_no_mpi() result(text)
+      character(:), allocatable :: text
+
+      text = 'there is no '//mpi_program//' beside this program (compiled without MPI)'
+      if (program_folder() == '') return
+      if (file_exists(join_path(program_folder(), mpi_program))) text = join_path(program_folder(), mpi_program)// &
+         ' cannot be started (is it executable?)'
+   end function why_no_mpi
+#endif
+
+   !> Whether mpirun or srun started this process with MPI, and as one of how many (1 if that is not known). srun without --mpi gives
+   !> the number of tasks only.
    subroutine look_for_launcher(is_launched, launched)
       logical, intent(out) :: is_launched
       integer, intent(out) :: launched
-      character(*), parameter :: names(*) = [character(20) :: 'OMPI_COMM_WORLD_SIZE', 'PMI_SIZE', 'PMI_RANK', 'PMIX_RANK']
+      character(*), parameter :: of_slurm = 'SLURM_STEP_NUM_TASKS'
+      character(*), parameter :: names(*) = [character(20) :: 'OMPI_COMM_WORLD_SIZE', 'PMI_SIZE', 'PMI_RANK', 'PMIX_RANK', &
+         of_slurm]
       character(20) :: text
       integer :: k, length, status, number
 
@@ -81,8 +101,9 @@ contains
       do k = 1, size(names)
          call get_environment_variable(trim(names(k)), text, length, status)
          if (status /= 0 .or. length == 0) cycle
-         is_launched = .true.
-         if (index(names(k), 'SIZE') == 0) cycle
+         if (names(k) /= of_slurm) is_launched = .true.
+         if (index(names(k), 'RANK') > 0) cycle
+         if (names(k) == of_slurm .and. launched > 1) cycle       ! that of mpirun, which srun has started once per node
          read (text, *, iostat=status) number
          if (status == 0) launched = max(launched, number)
       end do

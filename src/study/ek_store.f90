@@ -14,7 +14,7 @@ module ek_store
    use ek_sampler_kind, only: sampler_kinds
    use ek_study_plan, only: study_plan_t
    use ek_study_run, only: parts_folder
-   use ek_study_tables, only: study_counts_t, has_limits
+   use ek_study_tables, only: study_counts_t, has_limits, kernels_text
    use ek_store_description, only: store_t, store_variable_t, write_description, description_name, factor_role, response_role, &
       curve_role, whole_kind, real_kind
    implicit none(type, external)
@@ -200,6 +200,7 @@ contains
          if (sampler_kinds(study%kind)%has_seed) call list%add('seed', str(int(study%settings%seed)), whole_kind)
          call list%add('identity', plan%identity)
          call list%add('deck_checksum', plan%deck_sum)
+         if (kernels_text(counts) /= '') call list%add('blas_kernels', kernels_text(counts))
          call list%add('study_text', texts%study)
          call list%add('deck_text', texts%deck)
          if (texts%changes /= '') call list%add('deck_changes', texts%changes)

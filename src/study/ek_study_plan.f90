@@ -1,10 +1,12 @@
 !> The plan of a study: the designs by number, how they are divided into chunks, and what identifies them.
 module ek_study_plan
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_deck, exit_file
    use ek_text, only: str, quoted
    use ek_checksum, only: checksum_t, include, digits_of
    use ek_version, only: version
+   use ek_loaded_library, only: text_from_library
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_deck, only: deck_t, deck_checksum
    use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered
@@ -16,11 +18,12 @@ module ek_study_plan
    use ek_chunk, only: chunk_t, new_chunk
    implicit none(type, external)
    private
-   public :: study_plan_t, new_plan, plan_sampler, begin_chunk, first_of
+   public :: study_plan_t, new_plan, plan_sampler, begin_chunk, first_of, designs_in
 
    integer, parameter :: max_designs = 2000000000
    integer, parameter :: usual_chunks = 400       !! of a large study
    integer, parameter :: min_chunk = 50, max_chunk = 5000       !! designs
+   integer, parameter :: chunks_of_a_shard = 4    !! at least, so that shards have equal numbers of designs but for a quarter
    integer, parameter :: most_numbers = 4000000   !! of the curves of a chunk: 32 MB in each thread
 
    !> What all workers of a study share.
@@ -33,19 +36,24 @@ module ek_study_plan
       integer :: columns = 0                                 !! of a row of the curves: the swept value and those of the study
       integer :: states = 0                                  !! of a design, usually
       character(:), allocatable :: deck_sum                  !! checksum of the deck
-      character(:), allocatable :: identity                  !! two studies with the same one have the same results
+      character(:), allocatable :: identity                  !! two studies with the same one have the same results, to rounding
+      character(:), allocatable :: build                     !! of the program: part of the identity
+      character(:), allocatable :: kernel                    !! of the BLAS on this processor, 'Haswell'; '' if it does not name it
    end type study_plan_t
 
 contains
 
    !> Makes the plan, from a designer that has the design of the deck.
-   subroutine new_plan(study, deck, home, designer, plan, error)
+   subroutine new_plan(study, deck, home, designer, plan, error, shards, chunk, build)
       type(study_t), intent(in) :: study
       type(deck_t), intent(in) :: deck
       character(*), intent(in) :: home                     !! folder of the study with its slash
       type(designer_t), intent(in) :: designer
       type(study_plan_t), intent(out) :: plan
       type(error_t), allocatable, intent(out) :: error     !! exit_deck, exit_file
+      integer, intent(in) :: shards                        !! of this run
+      character(*), intent(in) :: build                    !! of this program: version, commit, compiler, options
+      integer, intent(in) :: chunk                         !! designs of the chunks that are there; 0: there are none
       type(sampler_settings_t) :: settings
       type(checksum_t) :: sum
       integer :: k
@@ -58,6 +66,8 @@ contains
       plan%states = designer%states
       if (plan%chunk == 0) plan%chunk = min(max(plan%designs/usual_chunks, min_chunk), max_chunk, &
          max(most_numbers/max(plan%states*plan%columns, 1), 1))
+      if (study%chunk == 0 .and. shards > 1) plan%chunk = max(1, min(plan%chunk, plan%designs/(chunks_of_a_shard*shards)))
+      if (study%chunk == 0 .and. chunk > 0) plan%chunk = chunk
       plan%chunks = (plan%designs + plan%chunk - 1)/plan%chunk
       plan%units = designer%units
       plan%factor_heads = designer%heads
@@ -67,7 +77,9 @@ contains
       end do
       plan%deck_sum = deck_checksum(deck)
       sum = study%sum
-      call include(sum, version//' '//plan%deck_sum//' '//str(plan%designs)//' '//str(plan%chunk))
+      plan%build = build
+      plan%kernel = text_from_library('openblas_get_corename')
+      call include(sum, version//' '//build//' '//plan%deck_sum//' '//str(plan%designs))
       if (is_ordered(plan%sampler)) call include(sum, ' ordered by rank')      ! not the designs of earlier versions
       call include_numbers(settings%rows)
       do k = 1, size(designer%readings)
@@ -125,12 +137,15 @@ contains
       type(error_t), allocatable, intent(out) :: error
       type(table_t) :: table
       character(:), allocatable :: path
-      integer :: f, at
+      integer :: f, at, bad
 
       path = study%list
       if (index(path, '/') /= 1) path = home//path
       call read_csv(path, table, error, has_text=.true.)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         error%message = study%where//': list: '//error%message
+         return
+      end if
       allocate (rows(size(study%factors), size(table%values, 2)))
       do f = 1, size(study%factors)
          at = column_index(table, study%factors(f)%name)
@@ -141,6 +156,12 @@ contains
             return
          end if
          rows(f, :) = table%values(at, :)
+         bad = findloc(ieee_is_finite(rows(f, :)), .false., dim=1)
+         if (bad > 0) then
+            call fail(error, exit_file, path//': column '//quoted(table%columns(at))//' has no number in row '//str(bad)// &
+               ' (of the rows with values)')
+            return
+         end if
       end do
       if (size(rows, 2) == 0) call fail(error, exit_file, path//': there is no design')
    end subroutine read_list
@@ -152,6 +173,13 @@ contains
       first_of = int(number - 1, i8)*plan%chunk + 1
    end function first_of
 
+   !> The number of designs of a chunk.
+   pure integer function designs_in(plan, number)
+      type(study_plan_t), intent(in) :: plan
+      integer, intent(in) :: number               !! of the chunk, from 1
+      designs_in = int(min(int(plan%chunk, i8), plan%designs - first_of(plan, number) + 1))
+   end function designs_in
+
    !> An empty chunk with the factors of its designs.
    subroutine begin_chunk(plan, number, chunk)
       type(study_plan_t), intent(in) :: plan
@@ -161,7 +189,7 @@ contains
       integer :: k
 
       first = first_of(plan, number)
-      call new_chunk(first, int(min(int(plan%chunk, i8), plan%designs - first + 1)), factors_of(plan%sampler), size(plan%heads), &
+      call new_chunk(first, designs_in(plan, number), factors_of(plan%sampler), size(plan%heads), &
          plan%columns, plan%states, chunk)
       do k = 1, size(chunk%status)
          call sample(plan%sampler, first + k - 1, chunk%factors(:, k))

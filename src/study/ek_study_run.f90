@@ -19,14 +19,15 @@ module ek_study_run
    use ek_study, only: study_t
    use ek_study_design, only: designer_t, solve_designs
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
-   use ek_study_plan, only: study_plan_t, begin_chunk, first_of
+   use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
    implicit none(type, external)
    private
-   public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, remove_parts
+   public :: run_options_t, run_state_t, report_procedure, open_parts, run_chunks, parts_folder, count_parts, &
+      remove_parts, chunk_of_parts, check_parts
    public :: nobody, this_machine, other_machine
 
-   character(*), parameter :: identity_name = 'study.txt'
+   character(*), parameter :: identity_name = 'study.txt', build_word = 'build '
    integer, parameter :: nobody = 0, this_machine = 1, other_machine = 2      !! who still needs the chunks
    real(wp), parameter :: an_hour = 3600.0_wp     !! s
    character(*), parameter :: line_end = new_line('a')
@@ -90,7 +91,7 @@ contains
       character(*), intent(in) :: out
       type(scratch_t), intent(inout) :: hold               !! while it lasts, no other run removes the chunks
       type(error_t), allocatable, intent(out) :: error     !! exit_file
-      character(:), allocatable :: folder, text
+      character(:), allocatable :: folder
       integer :: attempt
 
       folder = parts_folder(study, out)
@@ -102,24 +103,67 @@ contains
       end do
       if (allocated(error)) return
       call remove_stale(folder)
-      if (file_exists(join_path(folder, identity_name))) then
-         call read_whole(join_path(folder, identity_name), text, error)
-         if (allocated(error)) return
-         if (text /= content()) call fail(error, exit_file, folder//' holds designs of another study, deck, or version of '// &
-            'this program; remove that folder to begin anew, or choose another one with --out')
-      else
-         call write_whole(join_path(folder, identity_name), content(), error)
-      end if
-
-   contains
-
-      function content() result(lines)
-         character(:), allocatable :: lines
-         lines = 'elastokin study '//study%name//line_end//'identity '//plan%identity//line_end//'designs '// &
-            str(plan%designs)//' in chunks of '//str(plan%chunk)//line_end
-      end function content
-
+      call check_parts(study, plan, out, error)
+      if (allocated(error) .or. file_exists(join_path(folder, identity_name))) return
+      call write_whole(join_path(folder, identity_name), content_of(study, plan), error)
    end subroutine open_parts
+
+   !> Refuses a folder of chunks that holds another study, or designs that another build of this program has computed.
+   subroutine check_parts(study, plan, out, error)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(error_t), allocatable, intent(out) :: error     !! exit_file
+      character(*), parameter :: remedy = '; remove that folder to begin anew, or choose another one with --out'
+      character(:), allocatable :: folder, text
+      integer :: at
+
+      folder = parts_folder(study, out)
+      if (.not. file_exists(join_path(folder, identity_name))) return
+      call read_whole(join_path(folder, identity_name), text, error)
+      if (allocated(error)) return
+      if (text == content_of(study, plan)) return
+      at = index(text, line_end//build_word)
+      if (at == 0) at = len(text)
+      if (text(at:) == line_end//build_word//plan%build//line_end) then
+         call fail(error, exit_file, folder//' holds designs of another study or deck'//remedy)
+      else
+         text = text(min(at + 1, len(text) + 1):)
+         call fail(error, exit_file, folder//' holds designs of another study or deck, or of another build of elastokin ('// &
+            text(len(build_word) + 1:max(len(build_word), len(text) - 1))//'; this is '//plan%build//')'//remedy)
+      end if
+   end subroutine check_parts
+
+   !> What identifies the chunks of a folder.
+   function content_of(study, plan) result(lines)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(:), allocatable :: lines
+
+      lines = 'elastokin study '//study%name//line_end//'identity '//plan%identity//line_end//'designs '// &
+         str(plan%designs)//' in chunks of '//str(plan%chunk)//line_end//build_word//plan%build//line_end
+   end function content_of
+
+   !> The number of designs per chunk of the folder that is there; 0 if there is none. Shards may have chosen smaller chunks.
+   integer function chunk_of_parts(study, out) result(chunk)
+      type(study_t), intent(in) :: study
+      character(*), intent(in) :: out
+      character(*), parameter :: words = ' in chunks of '
+      character(:), allocatable :: path, text
+      type(error_t), allocatable :: unread
+      integer :: at, status
+
+      chunk = 0
+      path = join_path(parts_folder(study, out), identity_name)
+      if (.not. file_exists(path)) return
+      call read_whole(path, text, unread)
+      at = index(text, words)
+      status = 1
+      if (at > 0) at = at + len(words)
+      if (at > 0) read (text(at:at + index(text(at:), line_end) - 2), *, iostat=status) chunk
+      if (status /= 0) chunk = 0
+      chunk = max(0, chunk)
+   end function chunk_of_parts
 
    !> The designs whose chunks are there and whole.
    subroutine count_parts(study, plan, out, done)
@@ -220,10 +264,11 @@ contains
 
       is_pending = .false.
       do k = options%shard, plan%chunks, options%shards
-         designs = min(plan%chunk, plan%designs - (k - 1)*plan%chunk)
+         designs = designs_in(plan, k)
          shared%state%wanted = shared%state%wanted + designs
          is_good = file_exists(join_path(shared%folder, chunk_name(k)))
-         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), chunk, is_good)
+         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), &
+            designs_in(plan, k), chunk, is_good)
          is_pending(k) = .not. is_good
          if (is_good) shared%state%before = shared%state%before + designs
       end do
@@ -321,7 +366,7 @@ contains
          call count_up(ranks, stopped_counter, 1, before)
          return
       end if
-      call write_chunk(chunk, join_path(shared%folder, chunk_name(number)), plan%identity, error)
+      call write_chunk(chunk, join_path(shared%folder, chunk_name(number)), plan%identity, plan%kernel, error)
       if (allocated(error)) then
          if (.not. allocated(shared%error)) call move_alloc(error, shared%error)
          return

@@ -12,14 +12,14 @@ module ek_study_tables
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
    use ek_factor_paths, only: label_of
-   use ek_study_plan, only: study_plan_t, first_of
+   use ek_study_plan, only: study_plan_t, first_of, designs_in
    use ek_study_run, only: parts_folder
-   use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, design_invalid
+   use ek_chunk, only: chunk_t, read_chunk, kernel_of, chunk_name, reason_of, design_invalid
    use ek_store_description, only: keeps
    implicit none(type, external)
    private
-   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, repeated_factors, &
-      quoted_field
+   public :: study_counts_t, write_tables, count_designs, responses_name, curves_name, has_limits, tables_of, &
+      repeated_factors, kernels_text, kernel_words, quoted_field
 
    integer, parameter :: max_reasons = 10        !! that are printed; all are in the table
    integer, parameter :: most_repeated = 10      !! factors that the table of states repeats in each row
@@ -31,6 +31,7 @@ module ek_study_tables
       logical :: is_missing = .false.                        !! a chunk is missing or damaged: no table was written
       type(message_list_t) :: reasons                        !! of the first failed designs, with the settings that make them
       integer :: states = 0                                  !! most of any design
+      type(message_list_t) :: kernels                        !! of the BLAS, by which the chunks were computed
       integer :: reason = 0                                  !! length of the longest reason
    end type study_counts_t
 
@@ -81,11 +82,13 @@ contains
 
       is_begun = .false.
       has_curves = plan%columns > 0
+      call list_kernels(study, plan, out, counts)
       call begin_file(rows, join_path(out, responses_name(study)), error)
       if (.not. allocated(error) .and. has_curves) call begin_file(curves, join_path(out, curves_name(study)), error)
       if (.not. allocated(error)) then
-         call rows%add(head_of(study, plan, [character(name_length) :: plan%factor_heads, plan%heads, last_columns(study)]))
-         if (has_curves) call curves%add(head_of(study, plan, [character(name_length) :: &
+         call rows%add(head_of(study, plan, counts, [character(name_length) :: plan%factor_heads, plan%heads, &
+            last_columns(study)]))
+         if (has_curves) call curves%add(head_of(study, plan, counts, [character(name_length) :: &
             plan%factor_heads(:repeated_factors(size(plan%factor_heads))), 'factor', study%columns]))
          do k = 1, plan%chunks
             call load_chunk(study, plan, out, k, chunk, error)
@@ -112,6 +115,7 @@ contains
       type(chunk_t) :: chunk
       integer :: k
 
+      call list_kernels(study, plan, out, counts)
       do k = 1, plan%chunks
          call load_chunk(study, plan, out, k, chunk, error)
          counts%is_missing = allocated(error)
@@ -119,6 +123,47 @@ contains
          call count_chunk(study, chunk, counts)
       end do
    end subroutine count_designs
+
+   !> The BLAS kernels by which the chunks were computed, each once, in the order of the chunks.
+   subroutine list_kernels(study, plan, out, counts)
+      type(study_t), intent(in) :: study
+      type(study_plan_t), intent(in) :: plan
+      character(*), intent(in) :: out
+      type(study_counts_t), intent(inout) :: counts
+      character(:), allocatable :: kernel
+      integer :: j, k
+
+      do k = 1, plan%chunks
+         kernel = kernel_of(join_path(parts_folder(study, out), chunk_name(k)))
+         if (kernel == '') cycle
+         do j = 1, counts%kernels%count()
+            if (counts%kernels%line(j) == kernel) exit
+         end do
+         if (j > counts%kernels%count()) call counts%kernels%add(kernel)
+      end do
+   end subroutine list_kernels
+
+   !> 'Haswell', 'Haswell and SkylakeX'; '' if none is known.
+   function kernels_text(counts) result(text)
+      type(study_counts_t), intent(in) :: counts
+      character(:), allocatable :: text
+      integer :: k
+
+      text = ''
+      do k = 1, counts%kernels%count()
+         if (k > 1) text = text//' and '
+         text = text//counts%kernels%line(k)
+      end do
+   end function kernels_text
+
+   !> ', BLAS kernel Haswell'; '' if none is known.
+   pure function kernel_words(kernels) result(text)
+      character(*), intent(in) :: kernels            !! of kernels_text
+      character(:), allocatable :: text
+
+      text = ''
+      if (kernels /= '') text = ', BLAS kernel '//kernels
+   end function kernel_words
 
    !> Reads chunk k.
    subroutine load_chunk(study, plan, out, k, chunk, error)
@@ -132,7 +177,7 @@ contains
       logical :: is_good
 
       path = join_path(parts_folder(study, out), chunk_name(k))
-      call read_chunk(path, plan%identity, first_of(plan, k), chunk, is_good)
+      call read_chunk(path, plan%identity, first_of(plan, k), designs_in(plan, k), chunk, is_good)
       if (.not. is_good) call fail(error, exit_file, path//': the chunk is missing or damaged')
    end subroutine load_chunk
 
@@ -157,9 +202,10 @@ contains
    end subroutine count_chunk
 
    !> Header lines and column names.
-   function head_of(study, plan, columns) result(text)
+   function head_of(study, plan, counts, columns) result(text)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
+      type(study_counts_t), intent(in) :: counts
       character(*), intent(in) :: columns(:)      !! behind the number of the design
       character(:), allocatable :: text
       type(table_t) :: table
@@ -167,7 +213,8 @@ contains
       table = new_table([character(name_length) :: 'design', columns], 0)
       call table%header%add('study '//study%name//', kind '//trim(kind_names(study%kind))//', '// &
          plural(plan%designs, 'design', 'designs')//seed_of(study))
-      call table%header%add('elastokin '//version//', deck checksum '//plan%deck_sum//', study '//plan%identity)
+      call table%header%add('elastokin '//version//', deck checksum '//plan%deck_sum//', study '//plan%identity// &
+         kernel_words(kernels_text(counts)))
       text = csv_head(table)
    end function head_of
 

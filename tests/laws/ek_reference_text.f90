@@ -20,12 +20,16 @@ contains
       character(*), intent(in) :: text
       character(:), allocatable :: plain
       character(*), parameter :: mark = ', study '
-      integer :: at
+      character(*), parameter :: kernel = ', BLAS kernel '
+      integer :: at, last
 
       plain = replaced(text, scratch(''), 'SCRATCH')
       plain = replaced(plain, 'elastokin '//version, 'elastokin VERSION')
       at = index(plain, mark) + len(mark)
       if (at > len(mark) .and. index(plain, 'deck checksum') > 0) plain = plain(:at - 1)//'IDENTITY'//plain(at + 16:)
+      at = index(plain, kernel)                   ! of this processor
+      last = at + index(plain(at + 1:)//new_line('a'), new_line('a'))
+      if (at > 0) plain = plain(:at - 1)//plain(min(last, len(plain) + 1):)
       plain = rounded(undated(plain))
    end function normalised
 

@@ -45,6 +45,7 @@ contains
       type(study_counts_t), intent(out) :: counts
       type(error_t), allocatable, intent(out) :: error
       integer, intent(in), optional :: jobs              !! usually 1
+      character(*), parameter :: this_build = 'test'
       type(designer_t) :: designer
       type(study_plan_t) :: plan
       type(run_options_t) :: options
@@ -60,7 +61,7 @@ contains
       end do
       call make_folder(folder, error)
       if (.not. allocated(error)) call new_designer(study, deck, '', designer, error)
-      if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error)
+      if (.not. allocated(error)) call new_plan(study, deck, '', designer, plan, error, 1, 0, this_build)
       if (.not. allocated(error)) call open_parts(study, plan, folder, hold, error)
       if (.not. allocated(error)) call run_chunks(study, plan, deck, folder, hold, options, designer, ranks, state, &
          be_silent, error)
