@@ -5,7 +5,8 @@ module ek_text
    use ek_letters, only: visible, printable
    implicit none(type, external)
    private
-   public :: str, lower, quoted, nearest_name, suggestion, did_you_mean, is_like, vector_text, plural, printable, spaced, replace
+   public :: str, lower, quoted, nearest_name, suggestion, suggestion_by_part, did_you_mean, is_like, vector_text, plural, &
+      printable, spaced, replace
 
    !> A number as text, in the shortest form a person would write.
    interface str
@@ -165,6 +166,36 @@ contains
       end do
    end function nearest_name
 
+   !> The shortest candidate that contains a name without regard to underscores, as left_toe_deg contains lefttoe; '' if there is none.
+   pure function shortest_with(name, candidates) result(best)
+      character(*), intent(in) :: name
+      character(*), intent(in) :: candidates(:)
+      character(:), allocatable :: best
+      integer, parameter :: long_enough = 5      ! letters: shorter names are in many others
+      integer :: k
+
+      best = ''
+      if (len_trim(name) < long_enough) return
+      do k = 1, size(candidates)
+         if (index(joined(candidates(k)), joined(name)) == 0) cycle
+         if (best == '' .or. len_trim(candidates(k)) < len(best)) best = trim(candidates(k))
+      end do
+
+   contains
+
+      pure function joined(words) result(letters)
+         character(*), intent(in) :: words
+         character(:), allocatable :: letters
+         integer :: j
+
+         letters = ''
+         do j = 1, len_trim(words)
+            if (words(j:j) /= '_') letters = letters//words(j:j)
+         end do
+      end function joined
+
+   end function shortest_with
+
    !> " (did you mean 'kt'?)" if one candidate is similar, otherwise ''.
    pure function suggestion(name, candidates) result(words)
       character(*), intent(in) :: name, candidates(:)      !! blank candidates are ignored
@@ -173,6 +204,16 @@ contains
       words = nearest_name(name, candidates)
       if (words /= '') words = ' (did you mean '//quoted(words)//'?)'
    end function suggestion
+
+   !> As suggestion; a name that is part of a candidate but for its underscores is similar too.
+   pure function suggestion_by_part(name, candidates) result(words)
+      character(*), intent(in) :: name, candidates(:)      !! blank candidates are ignored
+      character(:), allocatable :: words
+
+      words = suggestion(name, candidates)
+      if (words == '') words = shortest_with(name, candidates)
+      if (words /= '' .and. words(:min(1, len(words))) /= ' ') words = ' (did you mean '//quoted(words)//'?)'
+   end function suggestion_by_part
 
    !> " (did you mean 'kt'?)" if one candidate is similar, otherwise all candidates.
    pure function did_you_mean(name, candidates) result(words)

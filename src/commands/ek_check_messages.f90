@@ -100,7 +100,7 @@ contains
 
    end function check_json
 
-   !> One message: where it points to, and its text without the place.
+   !> One message: where it points to, and its text without the location.
    subroutine add_message(json, message, severity)
       type(json_t), intent(inout) :: json
       character(*), intent(in) :: message, severity
@@ -136,7 +136,7 @@ contains
          at = index(message(first:), ':')
          if (at == 0) exit
          at = first + at - 1                                ! a file name may hold colons
-         if (index(message(:at), "'") > 0) at = 0           ! a name: the place stands ahead of it
+         if (index(message(:at), "'") > 0) at = 0           ! a name: the location stands ahead of it
          if (at == 0) exit
          next = at + verify(message(at + 1:)//' ', '0123456789')
          if (next > at + 1 .and. next <= len(message)) then

@@ -1,7 +1,7 @@
 !> run --columns a,b,c: the columns of the results that are computed and written.
 module ek_run_columns
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, suggestion, is_like
+   use ek_text, only: quoted, suggestion_by_part, is_like
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t, is_mountable
    use ek_rig, only: mount
@@ -55,7 +55,8 @@ contains
       end do
       do k = 1, size(names)
          if (is_known(k)) cycle
-         call mistakes%add(given//': the results have no column '//quoted(trim(names(k)))//suggestion(trim(names(k)), all))
+         call mistakes%add(given//': the results have no column '//quoted(trim(names(k)))// &
+            suggestion_by_part(trim(names(k)), all))
       end do
       if (size(names) == 0) call mistakes%add(given//': no column is named')
       if (mistakes%count() > 0) call fail(error, exit_usage, mistakes%text())

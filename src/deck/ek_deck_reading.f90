@@ -249,8 +249,19 @@ contains
       do j = 2, size(choices)
          list = list//', '//quoted(choices(j))
       end do
-      call complain(reading, key, key//' must be one of '//list//', found '//quoted(word))
+      call complain(reading, key, key//' must be one of '//list//', found '//quoted(word)// &
+         imperial_hint(word))
    end subroutine choose
+
+   !> A hint if a word is an imperial unit.
+   pure function imperial_hint(word) result(hint)
+      character(*), intent(in) :: word
+      character(:), allocatable :: hint
+      character(*), parameter :: units(*) = [character(6) :: 'in', 'inch', 'inches', 'ft', 'lb', 'lbf', 'kip', 'psi']
+
+      hint = ''
+      if (any(units == lower(word))) hint = '; imperial units are not supported: convert the numbers of the deck'
+   end function imperial_hint
 
    !> Makes a number of the record being read, or the first `count` elements of a list, parameters; `number` is that of the first,
    !> 0 if the key is not given and has no default.

@@ -14,7 +14,7 @@ module ek_namelist
       whole, heading
    implicit none(type, external)
    private
-   public :: check_record, value_fault, name_fault, is_legal_name
+   public :: check_record, value_fault, surplus, name_fault, is_legal_name
 
    integer, parameter :: largest_exponent = 30      !! numbers above 1e30 are mistakes and could overflow later
    integer, parameter :: smallest_exponent = -100   !! numbers below 1e-100 are mistakes too; the smallest would be read as 0
@@ -202,6 +202,7 @@ contains
          if (.not. is_fit) then
             fault = trim(types(type))//', found '//value%text
             if (type == number) fault = fault//number_hint(value%text)
+            if (type == whole .and. is_signed(value%text)) fault = 'a whole number of at most 9 digits, found '//value%text
          else if (type == number) then
             if (size_exponent(value%text) > largest_exponent) then
                fault = 'a number below 1e'//str(largest_exponent)//', found '//value%text

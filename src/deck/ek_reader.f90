@@ -4,7 +4,7 @@
 !> collected; the blueprint is complete only if there are none.
 module ek_reader
    use ek_kinds, only: wp, units_t, millimetre, degree
-   use ek_text, only: lower, did_you_mean
+   use ek_text, only: str, quoted, lower, did_you_mean
    use ek_error, only: error_t, fail, exit_deck
    use ek_record, only: single, record_t, hand_over, element, place_of, own_name
    use ek_group, only: group_names, group_number, is_deck_group, names_of_groups, model_group, point_group, body_group, &
@@ -133,6 +133,8 @@ contains
             '), not a deck; run it with: elastokin '//command//' '//reading%file)
          return
       end if
+      call refuse_doubled_deck(reading, error)
+      if (allocated(error)) return
       in_cases = 0
       do k = 1, size(reading%records)
          reading%k = k
@@ -308,6 +310,34 @@ contains
       end function doubling
 
    end subroutine check_new
+
+   !> A second &model of the same name: the deck stands twice in its file. Only this is reported, not every name that is there twice.
+   subroutine refuse_doubled_deck(reading, error)
+      type(deck_reading_t), intent(in) :: reading
+      type(error_t), allocatable, intent(out) :: error
+      integer :: k, first
+
+      first = 0
+      do k = 1, size(reading%records)
+         if (reading%records(k)%group /= 'model') cycle
+         if (first > 0) then
+            if (element(reading%records(k), 'name', 1) /= element(reading%records(first), 'name', 1)) cycle
+            call fail(error, exit_deck, reading%records(k)%file//':'//str(reading%records(k)%line)//': model '// &
+               quoted(element(reading%records(k), 'name', 1))//': a second &model of this name; the first is in '// &
+               line_of_record(reading%records(first), reading%records(k))//'. Does the file contain the deck twice?')
+            return
+         end if
+         if (first == 0) first = k
+      end do
+   end subroutine refuse_doubled_deck
+
+   !> 'line 12', or 'other.nml:12' if it is in another file.
+   pure function line_of_record(record, from) result(words)
+      type(record_t), intent(in) :: record, from
+      character(:), allocatable :: words
+      words = 'line '//str(record%line)
+      if (record%file /= from%file) words = record%file//':'//str(record%line)
+   end function line_of_record
 
    !> &model: names, units, axes.
    subroutine read_model(reading)

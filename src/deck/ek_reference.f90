@@ -67,7 +67,29 @@ contains
       reading%cards(reading%k)%is_good = .false.
       if (may_be_meant(reading, group, name)) return
       call complain(reading, key, key//': there is no '//trim(group_names(group))//' '//quoted(name)// &
-         did_you_mean(name, names_of(reading, group, name)))
+         mirror_or(did_you_mean(name, names_of(reading, group, name))))
+
+   contains
+
+      !> The hint for a name of one side in a deck without &mirror; otherwise the given one.
+      function mirror_or(hint) result(words)
+         character(*), intent(in) :: hint
+         character(:), allocatable :: words
+         integer :: first
+
+         words = hint
+         first = 0
+         if (index(name, 'left_') == 1) first = 6
+         if (index(name, 'right_') == 1) first = 7
+         if (first == 0 .or. any([(reading%records(found)%group == 'mirror', found=1, size(reading%records))])) then
+            found = 0
+            return
+         end if
+         found = 0
+         if (find_card(reading, group, name(first:)) > 0) words = ' (without &mirror the deck has only '// &
+            quoted(name(first:))//'; &mirror makes left_'//name(first:)//' and right_'//name(first:)//' of it)'
+      end function mirror_or
+
    end subroutine look_up
 
    !> Whether an unknown name may belong to a record whose own name or group was already rejected:

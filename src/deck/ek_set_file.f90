@@ -179,6 +179,9 @@ contains
       do k = 1, file%used
          associate (line => file%lines(k))
             call replace(message, '--set '//line%path//'='//line%value, line%where//': '//line%path//'='//line%value)
+            ! a message shows invisible characters by their numbers
+            call replace(message, '--set '//visible(line%path//'='//line%value), line%where//': '// &
+               visible(line%path//'='//line%value))
          end associate
       end do
    end subroutine show_set_file

@@ -18,7 +18,7 @@ module ek_setting
    use ek_record, only: record_t, entry_t, add_entry, add_value, entry_index, element
    use ek_scanner, only: scan_values
    use ek_group, only: group_names, is_single, unknown_key, longest, number, word_length
-   use ek_namelist, only: value_fault
+   use ek_namelist, only: value_fault, surplus
    use ek_parameter, only: path_t, split_path, is_meant, change_t, changed
    implicit none(type, external)
    private
@@ -171,7 +171,8 @@ contains
          last = path%first + given%used - 1
          if (path%first < 1 .or. last > key%most) then
             if (path%first < 1 .or. path%first > key%most) last = path%first
-            message = path%key//' has '//plural(key%most, 'element', 'elements')//', found element '//str(last)
+            message = path%key//' has '//plural(key%most, 'element', 'elements')//', found element '//str(last)// &
+               surplus(key, given)
          else if (.not. path%has_subscript .and. given%used < key%least) then
             message = path%key//' needs '//plural(key%least, 'value', 'values')//', found '//str(given%used)
          end if

@@ -94,7 +94,8 @@ contains
       end do
    end subroutine wheel_columns
 
-   !> One row per state: the loads on the left and on the right wheel, then the quantities of both.
+   !> One row per state: the loads on the left and on the right wheel, then the quantities of both; of a deck with one wheel, those
+   !> of this wheel only.
    function loads_table(map, loads, is_sae, checksum) result(table)
       type(kandc_map_t), intent(in) :: map
       type(load_table_result_t), intent(in) :: loads
@@ -103,12 +104,16 @@ contains
       type(table_t) :: table
       character(name_length), allocatable :: columns(:)
       real(wp) :: sizes(quantities), frame(6)
-      integer :: side, k, row
+      integer :: side, k, row, first(2)
 
       sizes = unit_sizes(is_sae)
       frame(:3) = signs(is_sae)
       frame(4:) = frame(:3)
       call wheel_columns(columns, 10)
+      first = [10, 10 + quantities]                  ! columns before those of each wheel
+      if (map%is_mirrored(1)) columns = [columns(:10), columns(11 + quantities:)]
+      if (map%is_mirrored(1)) first(2) = 10
+      if (map%is_mirrored(2)) columns = columns(:10 + quantities)
       do side = 1, 2
          do k = 1, 5
             columns(5*(side - 1) + k) = trim(side_name(side))//'_'//load_heads(k)
@@ -122,7 +127,7 @@ contains
             table%values([k, k + 5], row) = loads%load([k, k + 5], row)*frame(load_parts(k))
          end do
          do side = 1, 2
-            k = 10 + (side - 1)*quantities
+            k = first(side)
             if (.not. map%is_mirrored(side)) table%values(k + 1:k + quantities, row) = loads%value(:, row, side)/sizes
          end do
       end do

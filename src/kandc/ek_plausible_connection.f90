@@ -46,7 +46,7 @@ contains
             call doubts%examine(spring%where, element_label(spring))
             call doubts%add('bearing', 'it does not carry a wheel: it acts between body '// &
                quoted(body_name(suspension, body))//' and the chassis, but no rod, joint or bushing connects '// &
-               quoted(body_name(suspension, body))//' to a wheel; is a link or its push rod missing?')
+               quoted(body_name(suspension, body))//' to a wheel; is the link or rod missing?')
          end associate
       end do
    end subroutine doubt_bearing

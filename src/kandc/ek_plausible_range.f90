@@ -9,7 +9,7 @@ module ek_plausible_range
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: doubts_t, length, force
+   public :: doubts_t, length, force, is_usual
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
@@ -202,6 +202,17 @@ contains
       call self%add(quantity, trim(quantity)//' '//self%speak(row%dimension, x)//' (usual: '// &
          short(row%low*usual/unit)//' to '//self%speak(row%dimension, row%high*usual)//'); '//text)
    end subroutine judge
+
+   !> Whether a value is in the range of its quantity.
+   pure logical function is_usual(quantity, value)
+      character(*), intent(in) :: quantity     !! of a row of `ranges`
+      real(wp), intent(in) :: value            !! SI
+      integer :: k
+
+      k = findloc(ranges%quantity, quantity, dim=1)
+      is_usual = k > 0
+      if (is_usual) is_usual = is_within(ranges(k), value)
+   end function is_usual
 
    !> Whether a value (SI) lies in its range.
    pure logical function is_within(row, value)

@@ -16,7 +16,7 @@ module ek_plausible_response
    use ek_wheel_side, only: prefix_of
    use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc
    use ek_kandc_columns, only: observe_kandc
-   use ek_plausible_range, only: doubts_t, force
+   use ek_plausible_range, only: doubts_t, force, is_usual
    implicit none(type, external)
    private
    public :: doubt_response
@@ -214,7 +214,8 @@ contains
       do k = 1, suspension%scalars
          associate (bar => suspension%elements(k))
             if (bar%kind /= torsion_spring .or. min(bar%measure%body_i, bar%measure%body_j) == 0) cycle
-            if (bar%law%has_curve .or. .not. bar%law%rate > 0.0_wp) cycle
+            if (bar%law%has_curve) cycle
+            if (.not. is_usual('torsion bar rate', bar%law%rate)) cycle      ! then its rate is the cause
             if (suspension%bodies(bar%measure%body_i)%origin(2)*suspension%bodies(bar%measure%body_j)%origin(2) >= 0.0_wp) cycle
             allocate (without, source=suspension)
             without%elements(k)%law%rate = 0.0_wp

@@ -1,7 +1,7 @@
 !> The names of the key numbers that a model and its cases may have. Nothing is solved.
 module ek_number_names
    use ek_error, only: error_t, message_list_t, fail, exit_usage
-   use ek_text, only: quoted, suggestion
+   use ek_text, only: quoted, suggestion_by_part
    use ek_suspension, only: suspension_t
    use ek_case, only: case_t
    use ek_table, only: name_length, new_table
@@ -35,7 +35,8 @@ contains
       do k = 1, size(names)
          call find_number(names(k), heads, number, wheel)
          if (number > 0) cycle
-         call mistakes%add('there is no key number '//quoted(trim(names(k)))//suggestion(trim(names(k)), known))
+         call mistakes%add('there is no key number '//quoted(trim(names(k)))// &
+            suggestion_by_part(trim(names(k)), known))
       end do
       if (size(known) == 0) then
          call mistakes%add('the model has no key numbers: it has no wheel')

@@ -102,10 +102,27 @@ contains
       if (list%count() == 0) return
       call page%body%line('<div class="warning" role="note"><strong>'//escape_html(title)//'</strong><ul>')
       do k = 1, list%count()
-         call page%body%line('<li>'//escape_html(list%line(k))//'</li>')
+         call page%body%line('<li>'//lines_html(list%line(k))//'</li>')
       end do
       call page%body%line('</ul></div>')
    end subroutine add_warnings
+
+   !> A message with a line break in the page for each of its own.
+   pure function lines_html(text) result(html)
+      character(*), intent(in) :: text
+      character(:), allocatable :: html
+      integer :: first, length
+
+      html = ''
+      first = 1
+      do
+         length = index(text(first:)//new_line('a'), new_line('a')) - 1
+         html = html//escape_html(text(first:first + length - 1))
+         first = first + length + 1
+         if (first > len(text)) exit
+         html = html//'<br>'
+      end do
+   end function lines_html
 
    !> Pairs of name and value, two lists of the same length.
    pure subroutine add_facts(page, names, values)

@@ -29,7 +29,9 @@ contains
       type(copula_t), intent(out) :: copula
       type(error_t), allocatable, intent(out) :: error
       integer :: i, j, m, info
+      logical :: is_given(n, n)
 
+      is_given = .false.
       allocate (copula%root(n, n))
       copula%root(:, :) = 0.0_wp
       do i = 1, n
@@ -40,7 +42,7 @@ contains
          j = maxval(pairs(:, m))
          if (i < 1 .or. j > n .or. i == j) then
             call fail(error, exit_deck, 'correlation '//str(m)//' requires two different factors, found '//str(i)//' and '//str(j))
-         else if (abs(copula%root(i, j)) > 0.0_wp) then
+         else if (is_given(i, j)) then
             call fail(error, exit_deck, 'the correlation of factors '//str(i)//' and '//str(j)//' is given twice')
          else if (.not. abs(correlations(m)) < 1.0_wp) then
             call fail(error, exit_deck, 'the correlation of factors '//str(i)//' and '//str(j)// &
@@ -48,6 +50,7 @@ contains
          end if
          if (allocated(error)) return
          copula%root(i, j) = correlations(m)
+         is_given(i, j) = .true.
       end do
       ! R = UᵀU, U = Lᵀ
       call dpotrf('U', n, copula%root, n, info)

@@ -8,6 +8,7 @@ module ek_response
    use ek_kinds, only: wp
    use ek_error, only: error_t
    use ek_text, only: str, quoted, nearest_name, suggestion, plural
+   use ek_rig_test, only: rig_tests
    use ek_quantity, only: slope_unit, unit_of, head_with_unit
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_test_result, only: test_result_t
@@ -165,8 +166,26 @@ contains
       else
          wanted = nearest_name(wanted, names)
          if (wanted /= '') message = message//' (did you mean '//quoted(wanted(:index(wanted, fitted) - 1))//'?)'
+         if (wanted == '') message = message//of_other_test(reading%asked%column//fitted)
       end if
    end subroutine find_gradient
+
+   !> The tests that have a gradient: "; test 'lateral_force' has it, name its case in `case`"; '' if none has it.
+   function of_other_test(quantity) result(words)
+      character(*), intent(in) :: quantity
+      character(:), allocatable :: words
+      type(definition_t), allocatable :: list(:)
+      integer :: k
+
+      words = ''
+      do k = 1, size(rig_tests)
+         list = definitions_of(trim(rig_tests(k)%name))
+         if (.not. any([(list%quantity == quantity)])) cycle
+         if (words /= '') words = words//' and'
+         words = words//' '//quoted(trim(rig_tests(k)%name))
+      end do
+      if (words /= '') words = '; this gradient belongs to'//words//': give the case of such a test in `case`'
+   end function of_other_test
 
    !> Reads the curve from which a column deviates: a CSV with the columns `factor` and that of the response.
    subroutine read_curve(asked, home, curve, message)

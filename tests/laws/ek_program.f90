@@ -11,7 +11,7 @@ module ek_program
    use ek_scratch, only: scratch, shell_quoted
    implicit none(type, external)
    private
-   public :: outcome_t, elastokin, content, holds, count_of, has_store, listing, values_in
+   public :: outcome_t, elastokin, content, holds, count_of, listing, values_in
    public :: done, usage, bad_deck, bad_model, not_found, bad_file, stopped
 
    integer, parameter :: done = 0, usage = 1, bad_deck = 2, bad_model = 3, not_found = 4, bad_file = 5, &
@@ -75,13 +75,6 @@ contains
          at = at + step
       end do
    end function count_of
-
-   !> Whether elastokin-netcdf was compiled and ncdump is there.
-   logical function has_store()
-      integer :: length
-      call get_environment_variable('EK_NCDUMP', length=length)
-      has_store = length > 0
-   end function has_store
 
    !> The names in a folder, hidden ones too, one a line.
    function listing(folder) result(names)

@@ -20,9 +20,11 @@ module ek_scratch
 
 contains
 
-   !> Makes the folder, below TMPDIR or /tmp.
+   !> Makes the folder, below TMPDIR; below /tmp if TMPDIR is not given or a shell would split or change its path, as tests put paths
+   !> into command lines.
    subroutine make_scratch()
       character(kind=c_char), allocatable :: letters(:)
+      character(*), parameter :: plain = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+,@'
       character(:), allocatable :: template
       integer :: length, k
 
@@ -32,6 +34,7 @@ contains
       if (length > 0) then
          template = repeat(' ', length)
          call get_environment_variable('TMPDIR', value=template)
+         if (verify(template, plain) > 0) template = '/tmp'
       end if
       template = template//'/elastokin_test_XXXXXX'//c_null_char
       allocate (letters(len(template)))
