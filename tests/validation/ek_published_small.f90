@@ -28,7 +28,7 @@ contains
       integer :: a, k
 
       do a = 1, 2
-         list%part = axles(a)//' axle'
+         list%part = trim(axles(a))//' axle'
          call solve(list, 'optimum_'//trim(axles(a)), 'design', [character(1) :: ''], table)
          do k = 1, 5
             call add(list, trim(names(k)), 'design', trim(units(k)), pick(table, trim(columns(k)), design), printed(k, a), half)
@@ -97,7 +97,7 @@ contains
       character(:), allocatable :: text
       character(32) :: words
 
-      write (words, '(a, f6.2, a, i0, a)') 'travel ', 1000*pick(curve, 'z', k), ', rack ', nint(1000*pick(curve, 'rack', k)), ' mm'
+      write (words, '(a, f0.2, a, i0, a)') 'travel ', 1000*pick(curve, 'z', k), ', rack ', nint(1000*pick(curve, 'rack', k)), ' mm'
       text = trim(words)
    end function state
 

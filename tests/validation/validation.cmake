@@ -13,3 +13,7 @@ target_link_libraries(ek_validation PUBLIC ek_test_laws)
 
 add_executable(validation_numbers EXCLUDE_FROM_ALL ${ek_validation_dir}/validation_numbers.f90)
 target_link_libraries(validation_numbers PRIVATE ${ek_program_kernel} ek_validation)
+# without the object of the kernel it would be optimised across files again, for minutes
+if(CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
+  target_link_options(validation_numbers PRIVATE -fno-lto)
+endif()
