@@ -52,19 +52,21 @@ of each quantity over all axles and states.
 
 - Pose of the wheel: R = Rz(rz) Rx(rx) Ry(ry), x forward, y left.
 - Compliance: the difference of two states under ±1000 N or ±100 N m at the wheel centre, divided by twice the load,
-  with the road held. elastokin solves the same states. Each entry is divided by √(Cii Cjj), because the published
-  matrix is unsymmetric by up to 5 % of an entry. For z, 1e-5 m/N takes the place of the diagonal.
-- Vertical stiffness of the tyre: from the published heights and loads, the tyre of IPGKinematics deflects as if its
-  contact point were at 0.6 of the radius below the wheel centre, while its force acts at the whole radius.
-  elastokin has one contact point. So each state is compared at the published wheel height: the height of the road
-  follows from the published height and load. The different tyre remains in the compliances: they agree at design,
-  and differ by up to 0.6 % of √(Cii Cjj) at the ends of the travel.
+  with the road held. elastokin solves the same states. Each entry is divided by √(Cii Cjj). For z, 1e-5 m/N takes the
+  place of the diagonal. The matrix is unsymmetric by up to 5 % of an entry, because its rotations are differences of
+  Cardan angles. The matrix of elastokin has the same asymmetry.
+- Vertical stiffness of the tyre: the published heights and loads show that the tyre deflects as if its contact point
+  were at 0.6 of the radius below the wheel centre, while its force acts at the whole radius. elastokin has one contact
+  point, at the whole radius. So the decks add 0.4 of the rise of the contact point above the wheel centre to the
+  published height of the road. The test checks this rule at every state.
 - Trail, scrub radius, hub offsets and track: IPGKinematics measures them in the direction of the wheel, with a
   contact point that does not turn with the carrier about the spin axis. The comparison converts elastokin's columns
-  to this definition.
+  to this definition. The lateral position of this contact point is known to 2.4e-3 mm, which limits scrub radius and
+  track. The published track change is not zero at design, but up to 2e-3 mm.
 - Forces at design: elastokin and IPGKinematics share the x-force of an arm differently between its two bushings. So
   the sum of both is compared.
-- Steering: at the published heights of the wheel centres.
+- Steering: at the published heights of the wheel centres. The wheel load acts at the contact point of the carrier in
+  elastokin, and at a contact point that does not turn with the carrier in IPGKinematics.
 
 Not compared:
 
@@ -72,7 +74,6 @@ Not compared:
 |---|---|
 | roll centre height (`rc`), `anti_brake`, `anti_drive`, Ackermann percentage | the definition is not published and differs: the roll centre of the FSE04 rear axle at design is 17.7 mm high in the source, 26.0 mm here |
 | rack force | depends on the contact point of the wheel load (see above) |
-| steering with the wheel on the road | the published wheel heights follow from the tyre (see above), so they are prescribed |
 | compliance by Fz below a wheel load of 1000 N | the published numbers contain a tyre that lifts off |
 | compliances of the Pltka rear axle at -18 mm | the wheel load is 2.6 N, so the published numbers contain a tyre that lifts off |
 """),
@@ -212,7 +213,7 @@ def unit_of(row):
     """The unit under which the summary counts a row."""
     if row["part"] == "with bushings":
         return of_value[row["unit"]]
-    return row["unit"] if row["unit"] != "-" else "√(Cii Cjj), compliance " + kind(row).split(", ")[1]
+    return row["unit"] if row["unit"] != "-" else "√(Cii Cjj), compliance"
 
 
 def relative(row):
