@@ -18,8 +18,8 @@ study = top / "studies/step_size/README.md"
 
 intro = """# Validation against published numbers
 
-This page compares elastokin with numbers that other programs and a textbook have published. Each number is also a
-test. The page is written by `tests/support/validation_page.py`; to make it again:
+This page compares elastokin with published numbers of other programs and of a textbook, and with solutions computed
+outside elastokin for published hardpoints. Each number is also a test. The page is written by `tests/support/validation_page.py`; to make it again:
 
     tools/build.sh release validation_numbers
     tests/support/validation_page.py build/release/tests/validation_numbers
@@ -41,8 +41,8 @@ Source: the front double wishbone of the shared database of Adams/Car 2024.1, pu
   from the hardpoints by up to 9e-8 mm and 3e-8 deg. This offset is subtracted at every other state, so the design
   state is not compared.
 - Compliance: the four inner pivots are isotropic bushings (1e4 N/mm, 1e7 N mm/rad). The rotation is the component
-  along y of the rotation vector of the carrier. Adams/Car gives it at -100 N. The source solved the other forces,
-  and the rates times a factor, with a Newton solver of its own.
+  along y of the rotation vector of the carrier. Adams/Car gives it at -100 N. The rows marked Newton are from
+  an independent solver of the same model, not from Adams/Car: smaller forces, and all rates times a factor.
 """),
     ("IPGKinematics", "IPGKinematics", "test_ipg.pf", False, """\
 Source: seven axles of Formula Student cars, computed with IPGKinematics 3.6.7 and published with their inputs in
@@ -86,12 +86,12 @@ Source: case study of a Formula Student car (OptimumG, May 2015), with one digit
 """),
     ("Rill", "Rill", "test_published_rill.pf", True, """\
 Source: G. Rill, Road Vehicle Dynamics (2012), listing 5.6: four numbers that its program prints at design, and six
-states of its construction. Deck: `rill.nml`. Heights and rack displacements are prescribed. Camber is positive with
-the top outward; `tests/kandc/test_rill.pf` contains eleven further states.
+states by the same construction, computed outside elastokin. Deck: `rill.nml`. Heights and rack displacements are
+prescribed. Camber is positive with the top outward. `tests/kandc/test_rill.pf` contains eleven further states.
 """),
     ("Boxster", "A McPherson axle in closed form", "test_published_boxster.pf", True, """\
-Source: a McPherson front axle as entered in a racing game, solved by closed forms. Deck: `boxster.nml`. The strut
-axis passes through the ball joint.
+Source: a McPherson front axle as entered in a racing game. The curve was computed outside elastokin by closed forms.
+Deck: `boxster.nml`. The strut axis passes through the ball joint.
 """),
     ("open-kinematics", "open-kinematics", "test_published_open_kinematics.pf", False, """\
 Source: nickmccleery/open-kinematics (commit 3cfc66af, Apache-2.0), nine states of a double wishbone in which rack
