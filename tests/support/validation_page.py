@@ -19,7 +19,8 @@ study = top / "studies/step_size/README.md"
 intro = """# Validation against published numbers
 
 This page compares elastokin with published numbers of other programs and of a textbook, and with solutions computed
-outside elastokin for published hardpoints. Each number is also a test. The page is written by `tests/support/validation_page.py`; to make it again:
+outside elastokin for published hardpoints. Each number is also a test. `tests/support/validation_page.py` writes the
+page; to make it again:
 
     tools/build.sh release validation_numbers
     tests/support/validation_page.py build/release/tests/validation_numbers
