@@ -29,8 +29,9 @@ typedef struct ek_model ek_model;
 
 enum {
   EK_OK = 0,
-  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside its range; a null pointer */
-  EK_DECK = 2,        /* mistakes of the deck, or a value outside its legal range: all of them in the message */
+  EK_USAGE = 1,       /* an unknown name, path, case or column; a position outside the list; a value that is not a finite number or, in
+                         ek_set_text, is of the wrong type; a null pointer where this file does not allow one */
+  EK_DECK = 2,        /* mistakes of the deck, or a number outside its legal range: all of them in the message */
   EK_MODEL = 3,       /* a mechanism, or redundant constraints: nothing was solved */
   EK_CONVERGENCE = 4, /* some states did not converge: their rows have converged = 0 and NaN, key numbers that need them are NaN;
                          the others are good */
@@ -38,18 +39,28 @@ enum {
 };
 
 /* ---- the library ---- */
-const char *ek_version(void);                       /* "0.2.0" */
+const char *ek_version(void);                       /* of the library, as "0.1.0" */
 int ek_use_one_thread(void);                          /* sets the OpenBLAS of this process to one thread, if it is the LAPACK: matrices are
                                                        small here, and threads would only wait. Other users of it are affected */
 
 /* ---- a model ---- */
 int ek_open_file(const char *path, ek_model **model);                       /* reads a deck */
-int ek_open_text(const char *text, const char *name, ek_model **model);     /* name: for messages; its folder is that of included files */
+int ek_open_text(const char *text, const char *name, ek_model **model);     /* name: for messages; its folder is that of included files.
+                                                                               NULL: "deck" */
 void ek_close(ek_model *model);                     /* NULL is allowed */
 const char *ek_message(ek_model *model);            /* of the last call; "" if it succeeded */
 const char *ek_name(ek_model *model);               /* of the model */
 const char *ek_checksum(ek_model *model);           /* of the deck with its present numbers, 16 hexadecimal digits */
 int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
+
+/* ---- copies. A copy is what was opened: no file is read again. ek_copy gives it the same changes, and no solution; *copy exists also
+ * after a mistake, as in ek_open_file. The files are the deck, then all that it names (included files, hardpoints, property files, load
+ * tables), with their content when the deck was opened; ek_open_files opens a deck from them, for instance in another process. ---- */
+int ek_copy(ek_model *model, ek_model **copy);
+int ek_file_count(ek_model *model);
+const char *ek_file_path(ek_model *model, int k);   /* as it was read; NULL outside the list */
+const char *ek_file_text(ek_model *model, int k);
+int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_model **model);     /* the first is the deck */
 
 /* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
  * touches the ground, implausible values ("plausible? …"), preloads found by balance, or why no case can be solved. ek_model_remarks examines
@@ -58,7 +69,10 @@ int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
 
-/* ---- parameters: every number of the deck ---- */
+/* ---- parameters: every number of the deck.
+ * A number outside its legal range (input/README.md) is refused when it is set: EK_DECK, and no number is changed, in ek_set_all
+ * neither. Legal numbers that together define no valid model (two points that coincide, a case from 1 to 1) are kept; ek_solve and
+ * ek_numbers report them. ek_set_text reads the deck again and refuses every mistake. ---- */
 int ek_parameter_count(ek_model *model);
 const char *ek_parameter_path(ek_model *model, int k);       /* "bushing.lca_front.kt(1)"; NULL outside the range */
 const char *ek_parameter_unit(ek_model *model, int k);       /* "N/mm"; "" without dimension */
@@ -78,7 +92,7 @@ int ek_case_count(ek_model *model);
 const char *ek_case_name(ek_model *model, int k);
 int ek_case_is_of_deck(ek_model *model, int k);
 
-/* ---- solving; the results stay until the next solution ---- */
+/* ---- solving; the results stay until the next solution, also when numbers or texts are changed, reset, or key numbers are read ---- */
 int ek_solve(ek_model *model, const char *name, int n_columns, const char *const *columns);
                                                     /* name NULL or "": the first case. n_columns 0: all columns; otherwise `state`,
                                                        `factor`, these (in the order of the program's tables), and the last columns on convergence */

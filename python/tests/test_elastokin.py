@@ -5,6 +5,7 @@ import importlib.util
 import math
 import multiprocessing
 import pickle
+import tempfile
 import threading
 import unittest
 import warnings
@@ -132,10 +133,16 @@ class Numbers(unittest.TestCase):
         self.assertIn(PATH, self.model)
 
     def test_a_value_outside_its_range_is_a_deck_error(self) -> None:
-        with self.assertRaisesRegex(elastokin.DeckError, "radius"):
-            self.model["wheel.left.radius"] = -1
-            self.model.solve("parallel_travel")
-        self.model.reset()
+        before, checksum = self.model.x, self.model.checksum
+        for path, value in (("wheel.left.radius", -1), ("wheel.left.radius", "*-1"), ("spring.coil.rate", -5), ("spring.right_coil.rate", -5)):
+            with self.assertRaisesRegex(elastokin.DeckError, "radius|rate"):
+                self.model[path] = value
+        x = before.copy()
+        x[list(self.model.parameters.paths).index("spring.left_coil.rate")] = -5
+        with self.assertRaisesRegex(elastokin.DeckError, "spring.left_coil.rate=-5: "):
+            self.model.x = x
+        np.testing.assert_array_equal(self.model.x, before)
+        self.assertEqual(self.model.checksum, checksum)
         self.assertTrue(self.model.solve("parallel_travel", ["left_toe_deg"]).converged)
 
     def test_deleting_takes_a_change_back_and_keeps_the_others(self) -> None:
@@ -158,6 +165,45 @@ class Numbers(unittest.TestCase):
         self.assertEqual(parameters.paths[parameters.index(path)], path)
         with self.assertRaises(KeyError):
             parameters["no_such"]
+
+    def test_common_paths_lead_to_both_sides(self) -> None:
+        pairs = self.model.parameters.common_paths
+        self.assertEqual(pairs["spring.coil.rate"], ("spring.left_coil.rate", "spring.right_coil.rate"))
+        self.assertGreater(len(pairs), 100)
+        for path, (left, right) in pairs.items():
+            self.assertEqual(self.model[path], self.model[left], path)
+            self.assertEqual(abs(self.model[path]), abs(self.model[right]), path)
+        self.assertEqual(Model.from_file(CORNER).parameters.common_paths, {})
+
+    def test_wrong_types_and_counts_are_told_in_terms_of_python(self) -> None:
+        calls = {
+            "a path must be a str, found int": lambda: self.model[3],
+            "the name of a key number must be a str, found list": lambda: self.model.numbers(["left_bump_toe"]),
+            "needs at least one name": lambda: self.model.numbers(),
+            "the name of a case must be a str, found int": lambda: self.model.solve(3),
+            "the name of a column must be a str, found int": lambda: self.model.solve("roll", columns=[3]),
+            "a deck must be a str, found bytes": lambda: Model.from_text(b"&model /"),
+        }
+        for words, call in calls.items():
+            with self.assertRaisesRegex(TypeError, words):
+                call()
+        with self.assertRaises(TypeError):
+            self.model[3] = 1.0
+        with self.assertRaisesRegex(ValueError, f"x needs {self.model.x.size} numbers.*found 3"):
+            self.model.x = [1, 2, 3]
+
+    def test_a_nul_in_a_text_is_refused(self) -> None:
+        for call in (
+            lambda: Model.from_file(f"{AXLE}\0b"), lambda: Model.from_text(AXLE.read_text() + "\0", str(AXLE)),
+            lambda: Model.from_text(AXLE.read_text(), f"{AXLE}\0"), lambda: self.model[PATH + "\0x"],
+            lambda: self.model.numbers("left_bump_toe\0"), lambda: self.model.solve("roll\0"),
+            lambda: self.model.solve("roll", columns=["left_toe_deg\0"]),
+        ):
+            with self.assertRaisesRegex(elastokin.UsageError, "NUL"):
+                call()
+        with self.assertRaisesRegex(elastokin.UsageError, "NUL"):
+            self.model["spring.coil.rate"] = "30\0 0"
+        self.assertNotIn(PATH + "\0", self.model)
 
     def test_all_numbers_are_an_array(self) -> None:
         x = self.model.x.copy()
@@ -199,6 +245,13 @@ class Solving(unittest.TestCase):
         self.assertEqual(some.columns[:2], ("state", "factor"))
         for name in some.columns:
             np.testing.assert_array_equal(some[name], every[name], name)
+
+    def test_a_result_stays_readable_after_a_text_is_set(self) -> None:
+        result = self.model.solve("parallel_travel", columns=["left_toe_deg"])
+        first = result.compliance(3)
+        self.model["spring.coil.rate"] = "*1.1"
+        self.assertEqual(result.compliance(4).shape, first.shape)
+        self.assertEqual(result.derivatives("left_toe_deg", PATH, 3).values.shape, (1, 1))
 
     def test_a_change_changes_the_result_and_the_checksum_but_not_the_earlier_result(self) -> None:
         before = self.model.solve("parallel_travel")
@@ -346,6 +399,29 @@ class Copies(unittest.TestCase):
             del other[PATH]
             self.assertEqual(other[PATH], 700.0)
         self.assertEqual(model[PATH], 500.0)
+
+    def test_a_copy_is_what_was_opened_whatever_became_of_the_files(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            parts, deck = Path(folder) / "parts.nml", Path(folder) / "deck.nml"
+            text = CORNER.read_text()
+            first = text.index("&point")
+            head, body = text[:first], text[first:]
+            self.assertIn("rate = ", body)
+            parts.write_text(body)
+            deck.write_text(head + "\n&include file = 'parts.nml' /\n")
+            model = Model.from_file(deck)
+            model["spring.coil.rate"] = "*1.1"
+            wanted = model.checksum, model.x.tolist()
+            state = pickle.dumps(model)
+            for change in (lambda: parts.write_text(body.replace("rate = ", "rate = 1")), parts.unlink, deck.unlink):
+                change()
+                for other in (model.copy(), copy.copy(model), copy.deepcopy(model), pickle.loads(state), pickle.loads(pickle.dumps(model))):
+                    self.assertEqual((other.checksum, other.x.tolist()), wanted)
+                    del other["spring.coil.rate"]
+                    other["spring.coil.rate"] = "*1.1"          # the deck is parsed again, from what was opened
+                    self.assertEqual((other.checksum, other.x.tolist()), wanted)
+            model["spring.coil.rate"] = "*1.1"
+            self.assertNotEqual(model.checksum, wanted[0])
 
     def test_processes_give_the_same_numbers(self) -> None:
         model = self.changed()

@@ -11,6 +11,7 @@
 !>     call solve(session, 'parallel_travel', error)
 !>     result => result_of(session)
 !>     toe = column(result%table, 'left_toe_deg')
+!>     call copy_session(session, other, error)                                  the same deck and changes, no file is read again
 !>     call find_slopes(session, row, columns, paths, slopes, errors, error)     exact derivatives in a row of the solution
 !>
 !> `error` has the message and the exit status of the program for the same fault; look at it after every call. Nothing is printed,
@@ -23,6 +24,8 @@ module ek_api
    use ek_table, only: table_t, column, column_index
    use ek_case_result, only: case_result_t
    use ek_session, only: session_t, open_file, open_text, set_number, set_text, get_number, set_all, reset, checksum_of
+   use ek_session_copy, only: copy_session, opened_files, open_files
+   use ek_kept_files, only: kept_files_t
    use ek_session_solution, only: solve, result_of, read_remark, compliance_at
    use ek_session_derivatives, only: find_slopes
    use ek_session_numbers, only: read_key_numbers
@@ -32,6 +35,6 @@ module ek_api
    private
    public :: wp, error_t, table_t, column, column_index, case_result_t, session_t, open_file, open_text, set_number, set_text, &
       get_number, set_all, reset, checksum_of, solve, result_of, read_remark, compliance_at, find_slopes, &
-      read_key_numbers, find_remarks, model_remarks_t, read_model_remark
+      read_key_numbers, find_remarks, model_remarks_t, read_model_remark, copy_session, opened_files, open_files, kept_files_t
 
 end module ek_api

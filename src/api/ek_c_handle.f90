@@ -2,13 +2,14 @@
 module ek_c_handle
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_int, c_loc, c_null_char, c_ptr, c_size_t
    use ek_error, only: error_t, message_list_t, exit_usage
-   use ek_text, only: str
+   use ek_text, only: str, quoted
    use ek_table, only: name_length
    use ek_session, only: session_t
    use ek_model_remark, only: model_remarks_t
    implicit none(type, external)
    private
-   public :: handle_t, handle_of, open_handle, take_handle, take_array, take_names, finish, refuse, say, from_c, is_position
+   public :: handle_t, handle_of, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
+      from_c, is_position
 
    integer(c_int), parameter, public :: ek_ok = 0_c_int      !! the other codes are the exit_… of ek_error
 
@@ -93,11 +94,25 @@ contains
       end if
    end subroutine take_array
 
-   !> A list of n names of a caller.
-   subroutine take_names(names, n, found)
+   !> A text of a caller that must not be NULL; otherwise the message says so.
+   subroutine take_text(handle, address, message, text, code)
+      type(handle_t), pointer, intent(in) :: handle
+      type(c_ptr), intent(in) :: address
+      character(*), intent(in) :: message
+      character(:), allocatable, intent(out) :: text
+      integer(c_int), intent(inout) :: code
+
+      call from_c(address, text)
+      if (.not. c_associated(address)) code = refuse(handle, message)
+   end subroutine take_text
+
+   !> A list of n names of a caller. A name that is NULL or longer than a column can be is refused.
+   subroutine take_names(handle, names, n, found, code)
+      type(handle_t), pointer, intent(in) :: handle
       type(c_ptr), intent(in) :: names                       !! not NULL if n > 0
       integer(c_int), intent(in) :: n
       character(name_length), allocatable, intent(out) :: found(:)
+      integer(c_int), intent(inout) :: code
       type(c_ptr), pointer :: addresses(:)
       character(:), allocatable :: text
       integer :: k
@@ -108,6 +123,14 @@ contains
       do k = 1, n
          call from_c(addresses(k), text)
          found(k) = text
+         if (.not. c_associated(addresses(k))) then
+            code = refuse(handle, 'a name in a list must not be NULL')
+         else if (len(text) > name_length) then
+            !$omp critical (ek_words)
+            code = refuse(handle, quoted(text)//' is longer than '//str(name_length)//' characters')
+            !$omp end critical (ek_words)
+         end if
+         if (code /= ek_ok) return
       end do
    end subroutine take_names
 

@@ -9,7 +9,7 @@ module ek_c_model
    implicit none(type, external)
    private
    public :: ek_version_text, ek_use_one_thread, ek_open_file, ek_open_text, ek_close, ek_message, ek_name, ek_checksum, &
-      ek_wheel_count, ek_case_count, ek_case_name, ek_case_is_of_deck
+      ek_wheel_count, ek_case_count, ek_case_name, ek_case_is_of_deck, new_handle
 
    character(len=len(version) + 1, kind=c_char), save, target :: version_text = version//c_null_char      ! never changed
 

@@ -28,7 +28,8 @@ contains
          code = refuse(handle, 'n must be positive, and names and values must not be NULL')
          return
       end if
-      call take_names(names, n, wanted)
+      call take_names(handle, names, n, wanted, code)
+      if (code /= ek_ok) return
       call c_f_pointer(values, place, [n])
       call read_key_numbers(handle%session, wanted, place, error)
       code = finish(handle, error)

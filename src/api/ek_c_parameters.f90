@@ -6,11 +6,14 @@ module ek_c_parameters
    use ek_parameter, only: parameter_path
    use ek_factor_unit, only: parameter_unit
    use ek_session, only: set_number, set_text, get_number, set_all, reset
-   use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, finish, say, from_c, is_position, ek_ok
+   use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_text, finish, refuse, say, &
+      is_position, ek_ok
    implicit none(type, external)
    private
    public :: ek_parameter_count, ek_parameter_path, ek_parameter_unit, ek_parameter_is_given, ek_parameter_twin, ek_get_at, &
       ek_set_at, ek_get_all, ek_set_all, ek_get, ek_set, ek_set_text, ek_reset
+
+   character(*), parameter :: no_value = 'value must not be NULL', no_path = 'path must not be NULL'
 
 contains
 
@@ -89,12 +92,16 @@ contains
    integer(c_int) function ek_get_at(model, k, value) bind(c) result(code)
       type(c_ptr), value :: model
       integer(c_int), value :: k
-      real(c_double), intent(out) :: value
+      real(c_double), intent(out), optional :: value       !! absent: a null pointer
       type(handle_t), pointer :: handle
 
-      value = ieee_value(value, ieee_quiet_nan)
+      if (present(value)) value = ieee_value(value, ieee_quiet_nan)
       handle => handle_at(model, k, code)
       if (.not. associated(handle)) return
+      if (.not. present(value)) then
+         code = refuse(handle, no_value)
+         return
+      end if
       value = handle%session%numbers%value(k + 1)
    end function ek_get_at
 
@@ -150,15 +157,16 @@ contains
 
    integer(c_int) function ek_get(model, path, value) bind(c) result(code)
       type(c_ptr), value :: model, path
-      real(c_double), intent(out) :: value
+      real(c_double), intent(out), optional :: value       !! absent: a null pointer
       type(handle_t), pointer :: handle
       type(error_t), allocatable :: error
       character(:), allocatable :: name
 
-      value = ieee_value(value, ieee_quiet_nan)
+      if (present(value)) value = ieee_value(value, ieee_quiet_nan)
       call take_handle(model, handle, code)
+      if (code == ek_ok) call take_text(handle, path, no_path, name, code)
+      if (code == ek_ok .and. .not. present(value)) code = refuse(handle, no_value)
       if (code /= ek_ok) return
-      call from_c(path, name)
       call get_number(handle%session, name, value, error)
       if (allocated(error)) value = ieee_value(value, ieee_quiet_nan)
       code = finish(handle, error)
@@ -172,8 +180,8 @@ contains
       character(:), allocatable :: name
 
       call take_handle(model, handle, code)
+      if (code == ek_ok) call take_text(handle, path, no_path, name, code)
       if (code /= ek_ok) return
-      call from_c(path, name)
       call set_number(handle%session, name, value, error)
       code = finish(handle, error)
    end function ek_set
@@ -185,9 +193,9 @@ contains
       character(:), allocatable :: name, value
 
       call take_handle(model, handle, code)
+      if (code == ek_ok) call take_text(handle, path, no_path, name, code)
+      if (code == ek_ok) call take_text(handle, text, 'text must not be NULL', value, code)
       if (code /= ek_ok) return
-      call from_c(path, name)
-      call from_c(text, value)
       call set_text(handle%session, name, value, error)
       code = finish(handle, error)
    end function ek_set_text

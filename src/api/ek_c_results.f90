@@ -9,7 +9,7 @@ module ek_c_results
    use ek_case_result, only: case_result_t
    use ek_session_solution, only: solve, result_of, compliance_at, read_remark
    use ek_session_derivatives, only: find_slopes
-   use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_names, finish, refuse, say, &
+   use ek_c_handle, only: handle_t, open_handle, take_handle, take_array, take_names, take_text, finish, refuse, say, &
       from_c, is_position, ek_ok
    implicit none(type, external)
    private
@@ -32,7 +32,8 @@ contains
          code = refuse(handle, 'n_columns must be 0 or more, and columns must not be NULL')
          return
       end if
-      call take_names(columns, n_columns, names)
+      call take_names(handle, columns, n_columns, names, code)
+      if (code /= ek_ok) return
       call from_c(name, case)
       call solve(handle%session, case, error, names)
       code = finish(handle, error)
@@ -163,8 +164,8 @@ contains
       integer :: k
 
       call take_solution(model, handle, last, code)
+      if (code == ek_ok) call take_text(handle, name, 'name must not be NULL', head, code)
       if (code /= ek_ok) return
-      call from_c(name, head)
       k = column_index(last%table, head)
       if (k == 0) then
          !$omp critical (ek_words)
@@ -257,8 +258,9 @@ contains
          code = refuse(handle, 'n_columns and n_numbers must be positive, and columns, paths and values must not be NULL')
          return
       end if
-      call take_names(columns, n_columns, names)
-      call take_names(paths, n_numbers, numbers)
+      call take_names(handle, columns, n_columns, names, code)
+      if (code == ek_ok) call take_names(handle, paths, n_numbers, numbers, code)
+      if (code /= ek_ok) return
       allocate (slopes(n_columns, n_numbers), doubts(n_columns, n_numbers))
       call find_slopes(handle%session, row + 1, names, numbers, slopes, doubts, error)
       code = finish(handle, error)

@@ -5,13 +5,15 @@
 module ek_design_numbers
    use ek_kinds, only: wp
    use ek_error, only: error_t
-   use ek_parameter, only: choice_t, parameter_path
+   use ek_parameter, only: choice_t, parameters_t, parameter_path
+   use ek_group, only: is_inside
    use ek_reader, only: design_t
    use ek_deck, only: deck_t, set_value
    use ek_factor_paths, only: shortest
    implicit none(type, external)
    private
-   public :: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, apply_settings
+   public :: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, is_legal_path, is_legal_at, &
+      apply_settings
 
    !> A path that the caller has used.
    type :: path_setting_t
@@ -135,6 +137,32 @@ contains
       end associate
       numbers%is_new = .true.
    end subroutine put_path
+
+   !> Whether a value is inside the legal ranges of all numbers of a path.
+   pure logical function is_legal_path(numbers, setting, value, parameters)
+      type(design_numbers_t), intent(in) :: numbers
+      integer, intent(in) :: setting
+      real(wp), intent(in) :: value                       !! in the unit of the deck
+      type(parameters_t), intent(in) :: parameters        !! of begin_numbers
+      integer :: j
+
+      is_legal_path = .true.
+      associate (found => numbers%settings(setting)%found)
+         do j = 1, size(found)
+            if (.not. is_legal_at(numbers, found(j)%number, found(j)%sign*value, parameters)) is_legal_path = .false.
+         end do
+      end associate
+   end function is_legal_path
+
+   !> Whether a value is inside the legal range of one number.
+   pure logical function is_legal_at(numbers, k, value, parameters)
+      type(design_numbers_t), intent(in) :: numbers
+      integer, intent(in) :: k
+      real(wp), intent(in) :: value                       !! in the unit of the deck
+      type(parameters_t), intent(in) :: parameters        !! of begin_numbers
+
+      is_legal_at = is_inside(parameters%list(k)%range, value*numbers%unit(k))
+   end function is_legal_at
 
    !> Sets one number by its position.
    pure subroutine put_at(numbers, k, value)

@@ -2,15 +2,16 @@
 module ek_session
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
    use ek_kinds, only: wp
-   use ek_error, only: error_t, fail, exit_usage
+   use ek_error, only: error_t, message_list_t, fail, exit_usage, exit_deck
    use ek_text, only: quoted, replace
    use ek_deck, only: deck_t, read_deck, parse_deck, move_deck, set_value, deck_checksum
-   use ek_parameter, only: choice_t, find_parameters
+   use ek_parameter, only: choice_t, find_parameters, parameter_path
+   use ek_reader, only: design_t, read_design
    use ek_case_result, only: solve_options_t
    use ek_factor_paths, only: shortest
    use ek_table, only: name_length
    use ek_design_numbers, only: design_numbers_t, begin_numbers, reset_numbers, place_number, add_path, put_path, put_at, &
-      apply_settings
+      is_legal_path, is_legal_at, apply_settings
    use ek_design_solver, only: design_solver_t, begin_design_solver, put_numbers
    use ek_named_numbers, only: named_numbers_t
    use ek_derivatives, only: derivatives_t
@@ -18,7 +19,7 @@ module ek_session
    private
    public :: session_t, prepared_t, derived_t, open_file, open_text, open_deck, take_deck, set_number, set_text
    public :: get_number, set_all, reset
-   public :: take_new_numbers, changed_deck, checksum_of, without_option
+   public :: take_new_numbers, changed_deck, checksum_of, without_option, begin_opened, begin_solver, empty_session
 
    !> A case that was solved with these columns: a further solution makes no text.
    type :: prepared_t
@@ -40,12 +41,13 @@ module ek_session
       type(deck_t) :: deck                          !! with the settings of set_text
       class(design_solver_t), allocatable :: solver !! of this deck; allocated when opened. A class as in worker_case_t
       type(design_numbers_t) :: numbers             !! changed since
-      logical, private :: is_text_changed = .false.
+      logical :: is_text_changed = .false.
       ! ek_session_solution
       integer :: solved = 0                         !! case of the last solution; 0: there is none
       type(prepared_t), allocatable :: prepared(:)  !! of each case
-      class(design_solver_t), allocatable :: other  !! of the deck with the numbers as text, for one solution
-      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution, if it is not that of `other`
+      class(design_solver_t), allocatable :: other  !! has the last solution if `solver` has not: of the deck with the numbers as text,
+      !!                                               or of the deck before set_text or reset
+      real(wp), allocatable :: solved_x(:)          !! the numbers of the last solution
       class(derived_t), allocatable :: derived      !! ek_session_derivatives
       ! ek_session_numbers
       class(named_numbers_t), allocatable :: named  !! key numbers that were asked for last
@@ -126,7 +128,8 @@ contains
       call begin_solver(session)
    end subroutine begin_opened
 
-   !> Takes another deck; the session stays as it was if the deck has mistakes.
+   !> Takes another deck; the session stays as it was if the deck has mistakes. The last solution stays in either case: its solver is
+   !> kept until the next one.
    subroutine begin(deck, session, error)
       type(deck_t), intent(in) :: deck
       type(session_t), intent(inout) :: session
@@ -137,6 +140,7 @@ contains
       call begin_design_solver(deck, solver, error)
       if (allocated(error)) return
       session%deck = deck
+      if (session%solved > 0 .and. .not. allocated(session%other)) call move_alloc(session%solver, session%other)
       call move_alloc(solver, session%solver)
       call begin_solver(session)
    end subroutine begin
@@ -150,15 +154,16 @@ contains
       call begin_numbers(session%solver%design, session%numbers)
       session%numbers%is_new = .false.                     ! the solver was made with them
       session%is_named_ready = .false.
+      if (allocated(session%derived)) deallocate (session%derived)
    end subroutine begin_solver
 
-   !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. A value outside its
-   !> legal range is reported by the next solution.
+   !> Sets all numbers to which a path leads, as --set path=value: both sides of a mirrored axle, and * in names. Legal numbers that
+   !> together define no valid model are kept, and the next solution reports them.
    subroutine set_number(session, path, value, error)
       type(session_t), intent(inout) :: session
       character(*), intent(in) :: path
       real(wp), intent(in) :: value                        !! in the unit of the deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: nothing was changed
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage; exit_deck, outside its legal range: nothing was changed
       integer :: setting
 
       setting = place_number(session%numbers, path)
@@ -168,8 +173,43 @@ contains
          !$omp end critical (ek_words)
       end if
       if (allocated(error) .or. setting == 0) return
-      call put_path(session%numbers, setting, value)
+      if (is_legal_path(session%numbers, setting, value, session%solver%design%parameters)) then
+         call put_path(session%numbers, setting, value)
+      else
+         !$omp critical (ek_words)
+         call fail(error, exit_deck, range_message(session, trim(adjustl(path)), value))
+         !$omp end critical (ek_words)
+      end if
    end subroutine set_number
+
+   !> The message about a number outside its legal range, as the reader of decks gives it.
+   function range_message(session, path, value) result(message)
+      type(session_t), intent(in) :: session
+      character(*), intent(in) :: path
+      real(wp), intent(in) :: value                        !! in the unit of the deck
+      character(:), allocatable :: message
+      type(error_t), allocatable :: error
+      type(message_list_t) :: lines
+      type(deck_t) :: trial
+      type(design_t) :: design
+      character(:), allocatable :: setting, rest
+      integer :: last
+
+      setting = path//'='//shortest(value)
+      trial = session%deck
+      call set_value(trial, path, shortest(value), error)
+      if (.not. allocated(error)) call read_design(trial, design, error)
+      call without_option(error)
+      rest = ''
+      if (allocated(error)) rest = error%message
+      do while (len(rest) > 0)                             ! other mistakes are not of this call
+         last = index(rest//new_line('a'), new_line('a')) - 1
+         if (index(rest, setting//':') == 1) call lines%add(rest(:last))
+         rest = rest(min(last + 2, len(rest) + 1):)
+      end do
+      message = lines%text()
+      if (lines%count() == 0) message = setting//': the number is outside its legal range'
+   end function range_message
 
    !> A path that is used for the first time: checks it as --set does. setting is 0 if the path leads to no number of the design
    !> space, and the value was set in the text.
@@ -258,8 +298,10 @@ contains
    subroutine set_all(session, values, error, first)
       type(session_t), intent(inout) :: session
       real(wp), intent(in) :: values(:)                    !! in the units of the deck
-      type(error_t), allocatable, intent(out) :: error     !! exit_usage: nothing was changed
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage; exit_deck, every number outside its legal range: nothing
+      !!                                                      was changed
       integer, intent(in), optional :: first               !! default 1
+      logical :: is_legal
       integer :: k, before
 
       before = 0
@@ -268,10 +310,38 @@ contains
          call fail(error, exit_usage, 'expected finite numbers')
          return
       end if
+      is_legal = .true.
       do k = 1, size(values)
-         call put_at(session%numbers, before + k, values(k))
+         is_legal = is_legal .and. is_legal_at(session%numbers, before + k, values(k), session%solver%design%parameters)
       end do
+      if (is_legal) then
+         do k = 1, size(values)
+            call put_at(session%numbers, before + k, values(k))
+         end do
+      else
+         !$omp critical (ek_words)
+         call refuse_all(session, values, before, error)
+         !$omp end critical (ek_words)
+      end if
    end subroutine set_all
+
+   !> The message about all numbers outside their legal ranges.
+   subroutine refuse_all(session, values, before, error)
+      type(session_t), intent(in) :: session
+      real(wp), intent(in) :: values(:)
+      integer, intent(in) :: before                        !! numbers before the first
+      type(error_t), allocatable, intent(out) :: error
+      type(message_list_t) :: lines
+      integer :: k
+
+      associate (design => session%solver%design)
+         do k = 1, size(values)
+            if (is_legal_at(session%numbers, before + k, values(k), design%parameters)) cycle
+            call lines%add(range_message(session, parameter_path(design%parameters%list(before + k), design%records), values(k)))
+         end do
+      end associate
+      call fail(error, exit_deck, lines%text())
+   end subroutine refuse_all
 
    !> All numbers and texts as opened.
    subroutine reset(session, error)

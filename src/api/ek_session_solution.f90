@@ -34,7 +34,10 @@ contains
       integer :: k
 
       session%solved = 0
-      if (allocated(session%other)) deallocate (session%other)
+      if (allocated(session%other)) then
+         deallocate (session%other)
+         if (allocated(session%derived)) deallocate (session%derived)      ! perhaps of it
+      end if
       allocate (asked(0))
       if (present(columns)) asked = columns
       k = case_number(name, session%solver)
@@ -144,7 +147,11 @@ contains
       if (result%is_run()) call add_remarks(options, result)
       call failure_of(result, error)
       if (.not. result%is_run()) session%solved = 0
-      session%solved_x = session%solver%x
+      if (allocated(session%other)) then
+         session%solved_x = session%other%x
+      else
+         session%solved_x = session%solver%x
+      end if
    end subroutine end_solution
 
    !> The last solution: result%table has the columns, one row per state; result%remarks the notes, warnings and failures.
@@ -187,9 +194,14 @@ contains
    subroutine refuse_other_numbers(session, error)
       type(session_t), intent(in) :: session
       type(error_t), allocatable, intent(out) :: error     !! exit_usage
+      logical :: is_other
 
-      if (allocated(session%other)) return
-      if (any(abs(session%solver%x - session%solved_x) > 0.0_wp)) call fail(error, exit_usage, &
+      if (allocated(session%other)) then
+         is_other = any(abs(session%other%x - session%solved_x) > 0.0_wp)
+      else
+         is_other = any(abs(session%solver%x - session%solved_x) > 0.0_wp)
+      end if
+      if (is_other) call fail(error, exit_usage, &
          'key numbers were read of changed numbers since the last solution: solve again before its compliance matrix or '// &
          'derivatives are read')
    end subroutine refuse_other_numbers

@@ -5,13 +5,14 @@ module ek_error
    implicit none(type, external)
    private
    public :: error_t, fail, message_list_t
-   public :: exit_usage, exit_deck, exit_model, exit_convergence, exit_file
+   public :: exit_usage, exit_deck, exit_model, exit_convergence, exit_file, exit_stopped
 
    integer, parameter :: exit_usage = 1        !! wrong command line
    integer, parameter :: exit_deck = 2         !! mistakes in a deck
    integer, parameter :: exit_model = 3        !! mechanism or redundant constraint
    integer, parameter :: exit_convergence = 4  !! a state did not converge; the converged states are written
    integer, parameter :: exit_file = 5         !! a file cannot be read or written
+   integer, parameter :: exit_stopped = 6      !! a study was stopped before its end; of the command line only
 
    !> The error message and the exit status of the program.
    type :: error_t

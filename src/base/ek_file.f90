@@ -8,6 +8,7 @@ module ek_file
    use ek_posix, only: c_mkdir, c_remove, c_access, c_isatty
    use ek_system, only: facts_t, facts_of, device_file, other_file, error_number, system_reason, broken_pipe, &
       folder_exists, write_bytes
+   use ek_stream, only: read_stream, max_streamed
    use ek_writer, only: writer_t, begin_file, remove_stale
    implicit none(type, external)
    private
@@ -15,7 +16,6 @@ module ek_file
    public :: file_exists, folder_exists, program_exists, is_terminal
    public :: join_path, folder_name, base_name
 
-   integer, parameter :: max_streamed = 1000000000   !! bytes read from a pipe or a device; /dev/zero is endless
    integer(c_int), parameter :: may_exist = 0    !! F_OK of access(2)
    integer(c_int), parameter :: may_execute = 1  !! X_OK
    integer(c_int), parameter :: all_may = 511    !! 0777, reduced by the umask
@@ -62,62 +62,79 @@ contains
 
    !> Read the whole content of a file, byte for byte.
    !>
-   !> Only a path given by the user may be a pipe or a device. A path found inside a file may not: the device may be endless,
-   !> and the pipe may never have a writer.
+   !> Only a path given by the user may be a pipe. A device is refused, as it may be endless; /dev/null is empty.
    subroutine read_whole(path, text, error, may_stream)
       character(*), intent(in) :: path
       character(:), allocatable, intent(out) :: text         !! '' when the file is empty or unreadable
       type(error_t), allocatable, intent(out) :: error       !! exit_file, with path and reason
       logical, intent(in), optional :: may_stream            !! if absent or .false., it must be a regular file
       type(facts_t) :: facts
-      type(buffer_t) :: bytes
+      character(:), allocatable :: reason
       logical :: streams
-      character(200) :: reason
+
+      text = ''
+      reason = ''
+      streams = .false.
+      if (present(may_stream)) streams = may_stream
+      facts = facts_of(path, follow=.true.)
+      if (index(path, c_null_char) > 0) then
+         reason = 'its name contains a NUL character'
+      else if (folder_exists(path)) then
+         reason = 'it is a folder'
+      else if (streams .and. path == '/dev/null') then
+         return
+      else if (.not. streams .and. (facts%kind == device_file .or. facts%kind == other_file)) then
+         reason = 'it is a pipe or a device, not a regular file'
+      else if (facts%kind == device_file) then
+         reason = 'it is a device, not a regular file or a pipe'
+      else if (facts%kind == other_file) then
+         call read_stream(path, text, reason)
+      else
+         call read_regular(path, text, reason)
+      end if
+      if (reason == '') return
+      text = ''
+      call fail(error, exit_file, "cannot read '"//path//"': "//reason)
+   end subroutine read_whole
+
+   !> Read a regular file. The files of /proc have the size 0 and a content.
+   subroutine read_regular(path, text, reason)
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: text
+      character(:), allocatable, intent(out) :: reason       !! why it cannot be read; '' if it was
+      type(buffer_t) :: bytes
+      character(200) :: words
       character(1) :: byte
       integer(i8) :: size
       integer :: unit, status, ignored
 
       text = ''
-      streams = .false.
-      if (present(may_stream)) streams = may_stream
-      if (.not. streams) facts = facts_of(path, follow=.true.)
-      status = 1
-      if (folder_exists(path)) then
-         reason = 'it is a folder'
-      else if (facts%kind == device_file .or. facts%kind == other_file) then
-         reason = 'it is a pipe or a device, not a regular file'
-      else
-         open (newunit=unit, file=path, access='stream', form='unformatted', action='read', &
-            status='old', iostat=status, iomsg=reason)
-      end if
+      reason = ''
+      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=status, iomsg=words)
       if (status == 0) then
          inquire (unit=unit, size=size)
          if (size > huge(1)) then         ! its characters are counted in default integers
             status = 1
-            reason = 'it is larger than 2 GB'
+            words = 'it is larger than 2 GB'
          else if (size > 0) then
             deallocate (text)
             allocate (character(size) :: text, stat=status)
-            reason = 'there is not enough memory for it'
-            if (status == 0) read (unit, iostat=status, iomsg=reason) text
-         else                             ! of a pipe the size is unknown
+            words = 'there is not enough memory for it'
+            if (status == 0) read (unit, iostat=status, iomsg=words) text
+         else
             do while (bytes%length() < max_streamed .and. status == 0)
                read (unit, iostat=status) byte
                if (status == 0) call bytes%add(byte)
             end do
             text = bytes%text()
             status = merge(1, 0, len(text) == max_streamed)
-            reason = 'it is longer than 1 GB'
+            words = 'it is longer than 100 MB'
          end if
          close (unit, iostat=ignored)
       end if
-      if (status /= 0) then
-         text = ''
-         ! of gfortran's "Cannot open file 'x': No such file or directory" the last part
-         call fail(error, exit_file, "cannot read '"//path//"': "// &
-            trim(adjustl(reason(index(trim(reason), ': ', back=.true.) + 1:))))
-      end if
-   end subroutine read_whole
+      ! of gfortran's "Cannot open file 'x': No such file or directory" the last part
+      if (status /= 0) reason = trim(adjustl(words(index(trim(words), ': ', back=.true.) + 1:)))
+   end subroutine read_regular
 
    !> Create a folder and its parents. In an existing folder, temporary files left by dead runs are removed.
    subroutine make_folder(path, error)

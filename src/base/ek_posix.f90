@@ -1,6 +1,6 @@
 !> Interfaces to the functions of the C library that this program needs and Fortran does not offer.
 !>
-!> Only POSIX functions without variable argument lists are used, and no structure is looked into, so no structure layout and
+!> Only POSIX functions without variable argument lists are used (`open` without its third argument), and no structure is looked into, so no structure layout and
 !> no processor-dependent constant is needed. `__errno_location` is the name of errno in glibc and musl. `flock` is not in
 !> POSIX, but in every Linux and BSD. Users of this module: ek_system, ek_writer, ek_process, ek_file,
 !> ek_append_file, ek_loaded_library, ek_clock.
@@ -8,7 +8,7 @@ module ek_posix
    use, intrinsic :: iso_c_binding, only: c_char, c_int, c_long, c_funptr, c_ptr, c_size_t
    implicit none(type, external)
    private
-   public :: c_fopen, c_write, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir
+   public :: c_fopen, c_open, c_read, c_write, c_fileno, c_fsync, c_fclose, c_rename, c_remove, c_mkdir, c_rmdir
    public :: c_access, c_isatty, c_opendir, c_readdir, c_dirfd, c_closedir, c_symlink, c_flock, c_dup, c_dup2, &
       c_close
    public :: c_fork, c_execvp, c_exit_now, c_chdir, c_setpgid, c_alarm, c_kill, c_waitpid, c_poll, c_getcwd_raw, c_readlink
@@ -58,6 +58,17 @@ module ek_posix
          character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value :: count
       end function c_write
+      integer(c_int) function c_open(path, flags) bind(c, name='open')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+      end function c_open
+      integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value :: descriptor
+         character(kind=c_char), intent(inout) :: bytes(*)
+         integer(c_size_t), value :: count
+      end function c_read
       integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
          import :: c_int
          integer(c_int), value :: descriptor

@@ -11,6 +11,7 @@ module ek_sheet
    use ek_text, only: str, quoted, plural
    use ek_letters, only: is_wide, with_line_ends, line_count, save_as_utf8
    use ek_file, only: read_whole
+   use ek_kept_files, only: kept_files_t, read_kept
    use ek_decimal, only: get_decimal
    use ek_buffer, only: buffer_t
    use ek_quantity, only: name_length
@@ -37,17 +38,22 @@ module ek_sheet
 contains
 
    !> Reads a file; errors in its content are kept in the sheet.
-   subroutine read_sheet(path, sheet, error)
+   subroutine read_sheet(path, sheet, error, files)
       character(*), intent(in) :: path
       type(sheet_t), intent(out) :: sheet
       type(error_t), allocatable, intent(out) :: error      !! exit_file: the file cannot be read
+      type(kept_files_t), intent(in), optional :: files     !! which are not read again
       character(:), allocatable :: text, content
       integer :: first, last, line, rows
       logical, allocatable :: is_unnamed(:)
 
       sheet%file = path
       allocate (sheet%heads(0), sheet%values(0, 0), is_unnamed(0))
-      call read_whole(path, text, error)
+      if (present(files)) then
+         call read_kept(files, path, text, error)
+      else
+         call read_whole(path, text, error)
+      end if
       if (allocated(error)) return
       if (index(text, 'PK'//achar(3)//achar(4)) == 1) then
          call sheet%head_mistakes%add(path//': this is a workbook, not text; save the sheet as CSV')

@@ -16,7 +16,7 @@ module ek_system
    public :: facts_t, facts_of, no_file, regular_file, folder_file, device_file, link_file, other_file, unknown_file
    public :: folder_names, try_lock, random_tag, machine_tag, working_folder, error_number, system_reason, set_signal
    public :: program_folder, host_name
-   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_remarks
+   public :: folder_exists, write_bytes, prepare_surroundings, sigpipe, ask_memory, has_memory, memory_remarks, blocks_in_memory
    public :: already_there, broken_pipe, interrupted, not_for_this_kind
 
    ! errno, the same on all systems
@@ -336,6 +336,24 @@ contains
       allocate (block(bytes), stat=status)
       has_memory = status == 0
    end function has_memory
+
+   !> How many blocks of this many bytes can be allocated at the same time, at most `most`. Several blocks, as a kernel may refuse one
+   !> large block where the parts, which are never filled, are granted.
+   integer function blocks_in_memory(most, bytes) result(blocks)
+      integer, intent(in) :: most
+      integer(i8), intent(in) :: bytes                        !! of each
+      type :: block_t
+         character(1), allocatable :: bytes(:)
+      end type block_t
+      type(block_t), volatile :: list(most)                   ! volatile as in has_memory
+      integer :: status
+
+      do blocks = 0, most - 1
+         allocate (list(blocks + 1)%bytes(bytes), stat=status)
+         if (status /= 0) return
+      end do
+      blocks = most
+   end function blocks_in_memory
 
    !> Says that a block of this many bytes cannot be allocated.
    pure function memory_remarks(bytes, purpose) result(text)

@@ -15,6 +15,7 @@ module ek_check
    use ek_balance, only: balance
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_model_remark, only: model_remarks_t, find_model_remarks
+   use ek_check_messages, only: check_messages_t, check_json, last_line
    use ek_command_line, only: command_line_t
    use ek_load_deck, only: deck_settings_t, read_deck_settings, load_deck, chosen_cases
    implicit none(type, external)
@@ -23,24 +24,40 @@ module ek_check
 
 contains
 
-   !> Prints the findings to standard output; exit_model if a case cannot be solved.
+   !> Prints the findings to standard output, the last line OK or the number of messages and the worst; with --json the messages as
+   !> one object instead. exit_model if a case cannot be solved.
    subroutine check(line, error)
       type(command_line_t), intent(in) :: line
       type(error_t), allocatable, intent(out) :: error
       type(error_t), allocatable :: unprinted
       type(deck_settings_t) :: settings
       type(buffer_t) :: findings
+      type(check_messages_t) :: messages
+      character(:), allocatable :: model, checksum
 
       call read_deck_settings(line, settings)
-      call examine(settings, findings, error)
-      call print_text(findings%text(), unprinted)
+      call examine(settings, findings, messages, model, checksum, error)
+      if (line%has('--json')) then
+         call print_text(check_json(messages, settings%file, model, checksum, status_of(error)), unprinted)
+      else
+         if (findings%length() > 0) call findings%line(last_line(messages))
+         call print_text(findings%text(), unprinted)
+      end if
       if (allocated(unprinted) .and. .not. allocated(error)) call move_alloc(unprinted, error)
    end subroutine check
 
+   pure integer function status_of(error)
+      type(error_t), allocatable, intent(in) :: error
+      status_of = 0
+      if (allocated(error)) status_of = error%code
+   end function status_of
+
    !> Collects the findings, including those made before an error.
-   subroutine examine(settings, findings, error)
+   subroutine examine(settings, findings, messages, model, checksum, error)
       type(deck_settings_t), intent(in) :: settings
       type(buffer_t), intent(inout) :: findings
+      type(check_messages_t), intent(inout) :: messages
+      character(:), allocatable, intent(out) :: model, checksum      !! '' if the deck cannot be read
       type(error_t), allocatable, intent(out) :: error
       type(suspension_t) :: base
       type(case_t), allocatable :: cases(:), chosen(:)
@@ -48,16 +65,20 @@ contains
       type(diagnosis_t) :: diagnosis
       type(error_t), allocatable :: trouble
       type(kkt_t) :: kkt
-      character(:), allocatable :: checksum
       type(message_list_t) :: found
       integer :: k
 
+      model = ''
       call load_deck(settings, base, cases, checksum, error, needs_tables=.true.)
-      if (allocated(error)) return
+      if (.not. allocated(checksum)) checksum = ''
       allocate (chosen(0))
-      if (size(cases) > 0) then
-         call chosen_cases(settings, cases, chosen, error)
-         if (allocated(error)) return
+      if (.not. allocated(error)) then
+         model = base%name
+         if (size(cases) > 0) call chosen_cases(settings, cases, chosen, error)
+      end if
+      if (allocated(error)) then
+         call add_lines(error%message, messages%errors)
+         return
       end if
 
       kkt = new_kkt(base)
@@ -74,7 +95,10 @@ contains
          if (.not. diagnosis%is_solvable()) call add_distinct(found, diagnosis%words())
       end if
       call add(findings, 'warnings', diagnosis%warnings%text())
-      call add_remarks(base, cases, chosen, found%count() == 0, diagnosis%warnings%count() > 0, findings, trouble)
+      call add_lines(diagnosis%warnings%text(), messages%warnings)
+      call add_remarks(base, cases, chosen, found%count() == 0, diagnosis%warnings%count() > 0, findings, messages, trouble)
+      call add_lines(found%text(), messages%errors)
+      if (allocated(trouble) .and. size(chosen) > 0) call add_lines(trouble%message, messages%errors)
       if (found%count() > 0) then
          call fail(error, exit_model, settings%file//': the model cannot be solved'//new_line('a')//found%text())
          return
@@ -82,12 +106,27 @@ contains
       if (size(chosen) > 0) call move_alloc(trouble, error)
    end subroutine examine
 
+   !> Adds each line of a text as a message.
+   subroutine add_lines(text, list)
+      character(*), intent(in) :: text
+      type(message_list_t), intent(inout) :: list
+      integer :: first, length
+
+      first = 1
+      do while (first <= len(text))
+         length = index(text(first:)//new_line('a'), new_line('a')) - 1
+         if (length > 0) call list%add(text(first:first + length - 1))
+         first = first + length + 1
+      end do
+   end subroutine add_lines
+
    !> The remarks on the model, balanced if balance succeeds. The preloads that balance finds are results, not findings.
-   subroutine add_remarks(base, cases, chosen, is_solvable, has_warnings, findings, error)
+   subroutine add_remarks(base, cases, chosen, is_solvable, has_warnings, findings, messages, error)
       type(suspension_t), intent(in) :: base
       type(case_t), intent(in) :: cases(:), chosen(:)
       logical, intent(in) :: is_solvable, has_warnings
       type(buffer_t), intent(inout) :: findings
+      type(check_messages_t), intent(inout) :: messages
       type(error_t), allocatable, intent(out) :: error    !! of balance
       type(suspension_t) :: balanced
       type(model_remarks_t) :: remarks
@@ -103,9 +142,11 @@ contains
       end if
       call find_model_remarks(balanced, cases, chosen, is_solvable .and. .not. allocated(error), remarks)
       if (remarks%warnings%count() > 0) call findings%line(remarks%warnings%text())
+      call add_lines(remarks%warnings%text(), messages%warnings)
       do k = 1, remarks%doubts%count()
          if (has_warnings .and. index(remarks%doubts%line(k), 'very soft') == 1) cycle       ! already among the warnings
          call add(findings, 'remark', remarks%doubts%line(k))
+         call messages%remarks%add(remarks%doubts%line(k))
       end do
    end subroutine add_remarks
 

@@ -27,7 +27,8 @@ module ek_command
 
    character(*), parameter :: exit_status_text = &
       'Exit status: 0 success, 1 usage, 2 deck, 3 model (mechanism or redundant constraint),'//nl// &
-      '4 a state did not converge (the converged states are written), 5 files.'
+      '4 a state did not converge (the converged states are written), 5 files,'//nl// &
+      '6 a study was stopped before its end (the same command resumes it).'
 
    type(command_t), parameter :: commands(*) = [ &
       command_t('run', 'run DECK [options]', 'run DECK', 'sweep the cases of a deck; write CSV files (and plots)', &
@@ -38,6 +39,7 @@ module ek_command
       'Reads a deck, reports every error with file and line, and examines the model: bodies, unknowns,'//nl// &
       'constraints, degrees of freedom, mechanisms, redundant constraints, condition, unused points. A remark points'//nl// &
       'out a value that no road vehicle has, with a likely cause (disable with plausible = .false. in &model).'//nl// &
+      'The last line is OK, or the number of errors, warnings and remarks with the worst of them.'//nl// &
       'Exit status 3 if the model cannot be solved.', ''), &
       command_t('report', 'report DECK [options]', 'report DECK', 'one page with curves, gradients and key numbers of a deck', &
       'Runs the tests of a deck and writes into DIR: report.html (one self-contained page), one CSV file per'//nl// &
@@ -59,9 +61,11 @@ module ek_command
       'Runs the designs of a study and writes CSV files into DIR; if gnuplot is installed, draws the'//nl// &
       'figures and the page (as plot does) and runs the study''s plot script. A study'//nl// &
       'that was stopped or killed goes on where it was: DIR/<study>.parts keeps what is done.', &
-      'Exit status 4: stopped, or a design failed (see the columns status and reason; the others are written).'), &
+      'Exit status 4: complete, but a design failed (see the columns status and reason; the others are written; 0 with'//nl// &
+      '--accept-failed). 6: stopped before the end; the same command resumes the study.'), &
       command_t('merge', 'merge STUDY.nml', 'merge STUDY', 'the tables of a study that ran in shards', &
-      'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', ''), &
+      'Writes the tables of a study whose shards (study --shard i/n) have all ended, from DIR/<study>.parts.', &
+      'Exit status 4: complete, but a design failed (0 with --accept-failed). 6: designs are missing.'), &
       command_t('plot', 'plot STUDY.nml [options]', 'plot STUDY', 'figures and page of a finished study', &
       'Reads the tables of a finished study in DIR and solves nothing. Writes DIR/<study>.html (one self-contained'//nl// &
       'page with statistics, figures, best and worst designs) and DIR/figures: every figure as PNG, SVG and gnuplot script.'//nl// &
@@ -125,6 +129,7 @@ module ek_command
       option_t('run', '--quiet', quiet_help), &
       option_t('check', '--case NAME', ''), option_t('check', '--set path=value', ''), &
       option_t('check', '--set-file FILE', ''), &
+      option_t('check', '--json', 'print the messages as one JSON object: severity, file, line, group, key, text'), &
       option_t('report', '--out DIR', 'output folder (default: out)'), &
       option_t('report', '--animate', 'also write animation.gif: the suspension moving through its travel and steering'), &
       option_t('report', '--window what=half', 'half width of a gradient window; may be repeated; the defaults are:'//indent// &
@@ -176,10 +181,12 @@ module ek_command
       option_t('study', '--shard i/n', 'only part i of n of the designs, for the tasks of a job array; then elastokin merge'), &
       option_t('study', '--time-limit TIME', 'stop in time: seconds or [hours:]minutes:seconds'), &
       option_t('study', '--status', 'print how far the study is, and end'), &
+      option_t('study', '--accept-failed', 'exit status 0 also if designs failed'), &
       option_t('study', '--set path=value', 'change the deck of the study'), &
       option_t('study', '--quiet', quiet_help), &
       option_t('study', '--no-plots', no_plots_help), &
-      option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--set path=value', ''), &
+      option_t('merge', '--out DIR', ''), option_t('merge', '--samples N', ''), option_t('merge', '--accept-failed', ''), &
+      option_t('merge', '--set path=value', ''), &
       option_t('merge', '--no-plots', ''), option_t('merge', '--quiet', ''), &
       option_t('plot', '--kind NAME', 'only this figure; may be repeated: tornado | sobol | morris | line | map | fan |'//indent// &
       'family | histogram | scatter | parallel | convergence'), &
@@ -277,7 +284,8 @@ contains
          do k = 1, size(commands)
             text = text//nl//'  '//commands(k)%brief//trim(commands(k)%summary)
          end do
-         text = text//nl//nl//'elastokin COMMAND --help describes a command. elastokin --version prints the version.'
+         text = text//nl//nl//'elastokin COMMAND --help, or elastokin help COMMAND, describes a command. '// &
+            'elastokin --version prints the version.'
          return
       end if
       text = 'elastokin '//trim(commands(n)%usage)

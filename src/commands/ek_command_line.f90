@@ -18,9 +18,9 @@ module ek_command_line
       character(18) :: brief      !! the same in the overview
       character(60) :: summary    !! line of the overview
       character(620) :: text      !! description
-      character(180) :: ending    !! after the options
+      character(230) :: ending    !! after the options
       integer :: files = 1        !! 1: one file; 2: two or more; 0: one or more
-      character(13) :: alone = '' !! option that is given in place of the files
+      character(15) :: alone = '' !! option that is given in place of the files
    end type command_t
 
    !> An option that a command takes.
@@ -100,7 +100,7 @@ contains
    end subroutine read_number
 
    !> '--out' of '--out DIR'.
-   elemental character(13) function option_name(option) result(name)
+   elemental character(15) function option_name(option) result(name)
       type(option_t), intent(in) :: option
       name = option%label(:index(option%label, ' ') - 1)
    end function option_name
@@ -122,6 +122,8 @@ contains
          word = argument(k)
          if (len(word) > 1 .and. index(word, '-') == 1) then
             call take_option(options, word, k, line, error)
+         else if (n == 0 .and. word == 'help' .and. .not. line%has('--help')) then      ! help COMMAND: as COMMAND --help
+            call take_option(options, '--help', k, line, error)
          else if (n == 0) then
             line%command = word
             n = findloc(commands%name == word, .true., dim=1)

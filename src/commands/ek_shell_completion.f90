@@ -155,7 +155,7 @@ contains
       type(option_t), intent(in) :: options(:)
       character(:), allocatable :: text
       character(:), allocatable :: condition
-      character(13) :: name
+      character(15) :: name
       type(buffer_t) :: script
       integer :: k
 

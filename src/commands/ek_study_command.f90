@@ -1,12 +1,13 @@
 !> elastokin study: runs a study, writes its tables, and draws its figures; elastokin merge: the tables of a study whose shards ran
 !> as separate jobs.
 module ek_study_command
-   use ek_error, only: error_t, fail, exit_usage, exit_convergence, message_list_t
+   use ek_error, only: error_t, fail, exit_usage, exit_file, exit_stopped, message_list_t
    use ek_text, only: str, plural
    use ek_file, only: make_folder, join_path, file_exists
    use ek_interrupt, only: watch_for_stop
    use ek_writer, only: scratch_t, end_scratch
    use ek_study, only: step_size_kind
+   use ek_factor_remark, only: factor_remarks
    use ek_ranks, only: ranks_t, start_ranks, end_ranks, agree
    use ek_study_run, only: run_options_t, run_state_t, open_parts, run_chunks, count_parts, parts_folder
    use ek_store, only: choose_store
@@ -16,7 +17,8 @@ module ek_study_command
    use ek_tolerance_outcome, only: expand_study
    use ek_study_progress, only: show_state, end_state, print_status
    use ek_study_outcome, only: write_results, write_step_size, show_results
-   use ek_console, only: print_note
+   use ek_model_remark, only: model_remarks_t, find_model_remarks
+   use ek_console, only: print_note, print_warning, print_model_remarks
    use ek_run_log, only: drop_log
    implicit none(type, external)
    private
@@ -62,6 +64,7 @@ contains
       if (.not. asks_status .and. .not. allocated(error)) call make_folder(this%out, error)
       if (has_designs .and. .not. asks_status .and. ranks%is_first .and. options%shards == 1 .and. .not. allocated(error)) &
          call expand_study(this, error)
+      if (has_designs .and. .not. asks_status .and. ranks%is_first .and. .not. allocated(error)) call print_doubts(this)
       call agree(ranks, error)
       if (allocated(error)) return
       if (asks_status) then
@@ -73,6 +76,23 @@ contains
       end if
       call show_results(line, this, tables, error)
    end subroutine run_as_rank
+
+   !> Prints the remarks on the factors, and the warnings and remarks on the design of the deck.
+   subroutine print_doubts(this)
+      type(opened_study_t), intent(in) :: this
+      type(model_remarks_t) :: remarks
+      type(message_list_t) :: words
+      integer :: k
+
+      associate (worker => this%designer%worker)
+         call factor_remarks(this%study, worker%design, this%designer%paths, words)
+         call find_model_remarks(worker%suspension, worker%design%cases, worker%cases%case, .true., remarks)
+      end associate
+      do k = 1, words%count()
+         call print_warning(words%line(k))
+      end do
+      call print_model_remarks(.true., remarks)            ! no preloads
+   end subroutine print_doubts
 
    !> Merges the chunks of a study into its tables.
    subroutine run_merge_command(line, error)
@@ -95,13 +115,13 @@ contains
       results = join_path(this%out, results_name(this))
       if (done == 0 .and. this%plan%designs > 0) then
          if (file_exists(results)) then
-            call fail(error, exit_convergence, 'merge: nothing is to be merged: there is '//results// &
+            call fail(error, exit_file, 'merge: nothing is to be merged: there is '//results// &
                ', and no finished design in '//parts_folder(this%study, this%out))
             return
          end if
       end if
       if (done < this%plan%designs) then
-         call fail(error, exit_convergence, 'merge: '//str(this%plan%designs - done)//' of '//plural(this%plan%designs, &
+         call fail(error, exit_stopped, 'merge: '//str(this%plan%designs - done)//' of '//plural(this%plan%designs, &
             'design is', 'designs are')//' missing in '//this%out//'; run the shards that did not end (a run computes only '// &
             'what is missing), or elastokin study '//line%files%line(1))
          return
@@ -109,7 +129,7 @@ contains
       call expand_study(this, error)
       if (allocated(error)) return
       call open_parts(this%study, this%plan, this%out, hold, error)
-      if (.not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
+      if (.not. allocated(error)) call write_results(line, this, hold, tables, is_missing, error)
       call end_scratch(hold)
       call show_results(line, this, tables, error)
    end subroutine run_merge_command
@@ -131,10 +151,10 @@ contains
       call compute(line, this, options, ranks, hold, error)
       call end_ranks(ranks)
       if (ranks%is_first .and. options%shards == 1) then
-         if (.not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
+         if (.not. allocated(error)) call write_results(line, this, hold, tables, is_missing, error)
          call end_scratch(hold)
          if (is_missing) call compute(line, this, options, alone, hold, error)         ! another run has removed them
-         if (is_missing .and. .not. allocated(error)) call write_results(line%has('--quiet'), this, hold, tables, is_missing, error)
+         if (is_missing .and. .not. allocated(error)) call write_results(line, this, hold, tables, is_missing, error)
       end if
       call end_scratch(hold)
    end subroutine run_designs
@@ -163,10 +183,12 @@ contains
       call run_chunks(this%study, this%plan, this%deck, this%out, hold, options, this%designer, ranks, state, show_state, error)
       call end_state(state)
       if (allocated(error)) return
+      if (state%idle > 0) call print_note(is_quiet, 'the memory did not suffice for '//plural(state%idle, 'more thread', &
+         'more threads')//' (a limit of the machine or of ulimit -v)')
       if (state%before > 0) call print_note(is_quiet, str(state%before)//' of '// &
          plural(state%wanted, 'design was', 'designs were')//' done before')
       if (state%is_stopped) then
-         call fail(error, exit_convergence, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
+         call fail(error, exit_stopped, 'stopped: '//str(state%done)//' of '//plural(state%wanted, 'design is', &
             'designs are')//' done and kept; the same command goes on from there')
          if (ranks%count == 1) return
          call print_note(is_quiet, error%message)          ! a launcher that was stopped may not let this process end in order

@@ -108,25 +108,30 @@ contains
          effects%total = indices%total
          effects%first_error = indices%first_error
          effects%total_error = indices%total_error
-         effects%used = indices%used
+         effects%used = spread(indices%used, 1, k)
+         effects%planned = data%designs/block
       case (morris_kind)
          call morris_effects(sampler, data%y(r, :), elementary)
          effects%mean_size = elementary%mean_size
          effects%deviation = elementary%deviation
+         effects%used = elementary%used
+         effects%planned = data%designs/(k + 1)
       case (one_at_a_time_kind)
          call tornado(sampler, data%y(r, :), bars)
          effects%nominal = bars%nominal
          effects%lowest = bars%lowest
          effects%highest = bars%highest
-         effects%at_low = spread(bars%nominal, 1, k)
+         effects%at_low = spread(ieee_value(1.0_wp, ieee_quiet_nan), 1, k)
          effects%at_high = effects%at_low
          do f = 1, k
-            ! the response at the smallest and at the largest value of the factor
-            associate (low => data%x(f, 1), values => data%x(f, :))
-               do d = 2, data%designs
-                  if (changed_factor(sampler, int(d, i8)) /= f .or. .not. ieee_is_finite(data%y(r, d))) cycle
+            ! the response at the smallest and at the largest value of the factor, also of the nominal design if it is there; where
+            ! these designs failed there is none
+            associate (values => data%x(f, :))
+               do d = 1, data%designs
+                  if (d > 1 .and. changed_factor(sampler, int(d, i8)) /= f) cycle
+                  if (.not. ieee_is_finite(data%y(r, d))) cycle
                   if (values(d) <= minval(values)) effects%at_low(f) = data%y(r, d)
-                  if (values(d) >= maxval(values) .and. values(d) > low) effects%at_high(f) = data%y(r, d)
+                  if (values(d) >= maxval(values)) effects%at_high(f) = data%y(r, d)
                end do
             end associate
          end do

@@ -24,17 +24,19 @@ module ek_study_outcome
 contains
 
    !> Writes the tables, removes the chunks, and counts the designs that failed.
-   subroutine write_results(is_quiet, this, hold, tables, is_missing, error)
-      logical, intent(in) :: is_quiet
+   subroutine write_results(line, this, hold, tables, is_missing, error)
+      type(command_line_t), intent(in) :: line
       type(opened_study_t), intent(in) :: this
       type(scratch_t), intent(inout) :: hold             !! of the folder of the chunks; ended if the tables were written
       type(message_list_t), intent(inout) :: tables
       logical, intent(out) :: is_missing                 !! a chunk is missing: no table was written
-      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed
+      type(error_t), allocatable, intent(out) :: error   !! exit_convergence if a design failed, unless that is accepted
       type(study_counts_t) :: counts
       character(:), allocatable :: list, name
       integer :: user, k, failed
+      logical :: is_quiet
 
+      is_quiet = line%has('--quiet')
       call remove_stale(this%out)
       if (this%has_store) then
          call count_designs(this%study, this%plan, this%out, counts, error)
@@ -63,8 +65,10 @@ contains
       do k = 1, counts%reasons%count()
          call print_warning(counts%reasons%line(k))
       end do
-      call fail(error, exit_convergence, plural(failed, 'design', 'designs')//' of '//str(this%plan%designs)//' failed ('// &
-         list(3:)//'; columns status and reason of '//name//'); the others were written')
+      list = plural(failed, 'design', 'designs')//' of '//str(this%plan%designs)//' failed ('//list(3:)// &
+         '; columns status and reason of '//name//'); the others were written'
+      if (line%has('--accept-failed')) call print_warning(list)
+      if (.not. line%has('--accept-failed')) call fail(error, exit_convergence, list)
    end subroutine write_results
 
    !> out/<study>.csv

@@ -11,6 +11,7 @@ module ek_deck
    use ek_buffer, only: buffer_t
    use ek_error, only: error_t, fail, exit_deck, exit_usage, exit_file
    use ek_file, only: read_whole, join_path, folder_name
+   use ek_kept_files, only: kept_files_t, add_file, keep_file, read_kept
    use ek_checksum, only: checksum_t, include, digits_of
    use ek_text, only: str, lower, quoted
    use ek_letters, only: visible
@@ -20,6 +21,7 @@ module ek_deck
    use ek_mirror, only: mirror_records
    use ek_hardpoint_records, only: attach_hardpoints
    use ek_property_records, only: attach_properties
+   use ek_attachment, only: text_of, path_of
    use ek_setting, only: apply_setting, split_setting
    implicit none(type, external)
    private
@@ -38,6 +40,7 @@ module ek_deck
       type(deck_errors_t) :: deck_errors           !! syntax mistakes
       type(setting_t), allocatable :: late(:)    !! settings to be made after property files and &mirror
       logical :: is_finished = .false.
+      type(kept_files_t) :: kept                 !! the deck, then all files that it names, as they were when it was read
    end type deck_t
 
    ! &include: the record itself stays in the list, so that its keys are checked like all others; the records of the file follow
@@ -73,15 +76,18 @@ contains
       else
          call read_whole(path, text, error, may_stream=.true.)
       end if
+      if (.not. allocated(error) .and. len(text) > max_letters) call fail(error, exit_file, 'cannot read '//quoted(name)// &
+         ': it has '//str(len(text)/1000000)//' MB, expected at most '//str(max_letters/1000000)//' MB')
       if (.not. allocated(error)) call parse_deck(text, name, deck, error, is_study)
    end subroutine read_deck
 
    !> Parses a deck from a text; `name` is the file name used in messages, and its folder is that of included files.
-   subroutine parse_deck(text, name, deck, error, is_study)
+   subroutine parse_deck(text, name, deck, error, is_study, kept)
       character(*), intent(in) :: text, name
       type(deck_t), intent(out) :: deck
       type(error_t), allocatable, intent(out) :: error
       logical, intent(in), optional :: is_study     !! default .false.
+      type(kept_files_t), intent(in), optional :: kept      !! files that are not read again
       type(files_t) :: files
       logical :: is_alone
 
@@ -94,13 +100,29 @@ contains
       else
          allocate (deck%records(32))
          files%open(0)%path = deck%file
+         if (present(kept)) deck%kept = kept
+         call add_file(deck%kept, deck%file, text)
          call take_text(text, 0, files, deck)
-         call attach_hardpoints(deck%records, deck%used, deck%deck_errors)
+         call attach_hardpoints(deck%kept, deck%records, deck%used, deck%deck_errors)
+         call keep_named(deck)
       end if
       call name_tests(deck)
       if (deck%used == 0 .and. deck%deck_errors%count() == 0) &
          call fail(error, exit_deck, deck%file//': the deck is empty')
    end subroutine parse_deck
+
+   !> Keeps the property files and the load tables that records name.
+   subroutine keep_named(deck)
+      type(deck_t), intent(inout) :: deck
+      character(:), allocatable :: name
+      integer :: k
+
+      do k = 1, deck%used
+         name = text_of(deck%records(k), 'property_file')
+         if (deck%records(k)%group == 'case') name = text_of(deck%records(k), 'file')
+         if (name /= '') call keep_file(deck%kept, path_of(deck%records(k), name))
+      end do
+   end subroutine keep_named
 
    !> Names a rig case without a name after its test: parallel_travel, aligning_torque_anti.
    subroutine name_tests(deck)
@@ -170,7 +192,7 @@ contains
       whole = deck
       if (deck%is_finished) return
       whole%is_finished = .true.
-      call attach_properties(whole%records, whole%used, whole%deck_errors)
+      call attach_properties(whole%kept, whole%records, whole%used, whole%deck_errors)
       if (any([(whole%records(k)%group == 'mirror', k=1, whole%used)])) then
          half_used = whole%used
          call move_alloc(whole%records, half)
@@ -198,11 +220,12 @@ contains
       to%used = from%used
       to%deck_errors = from%deck_errors
       to%is_finished = from%is_finished
+      to%kept = from%kept
       from%used = 0
    end subroutine move_deck
 
    !> Checksum of everything that can change a result, 16 hexadecimal digits (FNV-1a, 64 bits): comments,
-   !> notes, titles, layout and the file of a group are ignored; settings are included.
+   !> notes, titles, layout and the file of a group are ignored; settings and load tables are included.
    function deck_checksum(deck) result(digits)
       type(deck_t), intent(in) :: deck
       character(16) :: digits
@@ -211,8 +234,25 @@ contains
 
       call finish_deck(deck, whole)
       call include_records(whole%records(:whole%used), sum)
+      call include_tables(whole%kept, whole%records(:whole%used), sum)
       digits = digits_of(sum)
    end function deck_checksum
+
+   !> Adds the load tables that cases name to a checksum, byte for byte. One that cannot be read adds nothing: its case cannot be run.
+   subroutine include_tables(files, records, sum)
+      type(kept_files_t), intent(in) :: files      !! which are not read again
+      type(record_t), intent(in) :: records(:)
+      type(checksum_t), intent(inout) :: sum
+      type(error_t), allocatable :: unread
+      character(:), allocatable :: text
+      integer :: k
+
+      do k = 1, size(records)
+         if (records(k)%group /= 'case' .or. .not. is_given(records(k), 'file')) cycle
+         call read_kept(files, path_of(records(k), element(records(k), 'file', 1)), text, unread)
+         if (.not. allocated(unread)) call include(sum, '<'//str(len(text))//'>'//text)
+      end do
+   end subroutine include_tables
 
    !> Adds the groups, keys and values of records to a checksum, without titles, notes and the format of a study's results.
    subroutine include_records(records, sum)
@@ -239,7 +279,6 @@ contains
    subroutine read_standard_input(text, error)
       character(:), allocatable, intent(out) :: text
       type(error_t), allocatable, intent(out) :: error      !! exit_file: it is too long
-      integer, parameter :: most = 1000000000                !! twice this length would overflow a default integer
       type(buffer_t) :: buffer
       character(4096) :: chunk
       integer :: status, got
@@ -249,8 +288,8 @@ contains
          if (status /= 0 .and. status /= iostat_eor) exit
          call buffer%add(chunk(:got))
          if (status == iostat_eor) call buffer%add(new_line('a'))
-         if (buffer%length() > most) then
-            call fail(error, exit_file, 'cannot read standard input: it is longer than 1 GB')
+         if (buffer%length() > max_letters) then
+            call fail(error, exit_file, 'cannot read standard input: it is longer than '//str(max_letters/1000000)//' MB')
             return
          end if
       end do
@@ -305,7 +344,7 @@ contains
          call deck%deck_errors%add(place, 'include: files are nested more than '//str(max_nested)//' deep')
          return
       end if
-      call read_whole(path, text, error)
+      call read_kept(deck%kept, path, text, error)
       if (allocated(error)) then
          call deck%deck_errors%add(place, 'include: '//error%message)
          return
@@ -320,6 +359,7 @@ contains
       end if
       records_before = deck%used
       complaints_before = deck%deck_errors%count()
+      call add_file(deck%kept, path, text)
       files%open(depth + 1)%path = path
       call take_text(text, depth + 1, files, deck)
       if (deck%used == records_before .and. deck%deck_errors%count() == complaints_before) &

@@ -215,7 +215,10 @@ contains
       integer :: e
 
       associate (record => reading%records(reading%k))
-         value_count = sum(record%entries(:record%used)%used, [(record%entries(e)%key == key, e=1, record%used)])
+         value_count = 0
+         do e = 1, record%used                 ! none in '&study /', whose record has no entries
+            if (record%entries(e)%key == key) value_count = value_count + record%entries(e)%used
+         end do
       end associate
    end function value_count
 

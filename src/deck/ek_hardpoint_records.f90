@@ -3,10 +3,11 @@ module ek_hardpoint_records
    use ek_kinds, only: wp, units_t
    use ek_error, only: error_t, message_list_t
    use ek_text, only: lower, quoted, str
+   use ek_kept_files, only: kept_files_t, keep_file, read_kept
    use ek_record, only: deck_errors_t, place_in, record_t, add_record, is_given
    use ek_unit_word, only: unit_of, length_unit
-   use ek_flaws, only: flaws_t
-   use ek_hardpoint_sheet, only: hardpoints_t, read_hardpoints, left_point, right_point, point_pair
+   use ek_flaws, only: flaws_t, new_flaws
+   use ek_hardpoint_sheet, only: hardpoints_t, parse_hardpoints, left_point, right_point, point_pair
    use ek_attachment, only: units_in_deck, path_of, report, text_of, complain, put_word, put_numbers
    implicit none(type, external)
    private
@@ -17,7 +18,8 @@ module ek_hardpoint_records
 contains
 
    !> Adds the points of all &hardpoints.
-   subroutine attach_hardpoints(records, used, deck_errors)
+   subroutine attach_hardpoints(files, records, used, deck_errors)
+      type(kept_files_t), intent(inout) :: files   !! receives what is read
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(deck_errors_t), intent(inout) :: deck_errors
@@ -26,7 +28,7 @@ contains
       type(flaws_t) :: flaws
       type(error_t), allocatable :: error
       type(message_list_t) :: seen
-      character(:), allocatable :: path, side
+      character(:), allocatable :: path, side, content
       real(wp) :: length
       logical :: is_iso, is_file_iso, has_mirror
       integer :: k, own, source, before
@@ -56,7 +58,11 @@ contains
             cycle
          end if
          if (has_mirror) side = 'left'
-         call read_hardpoints(path, length, sheet, flaws, error)
+         sheet = hardpoints_t()
+         flaws = new_flaws(path)
+         call keep_file(files, path)
+         call read_kept(files, path, content, error)
+         if (.not. allocated(error)) call parse_hardpoints(content, length, sheet, flaws)
          if (allocated(error)) then
             call complain(records(k), 'file', 'file: '//error%message, deck_errors)
             cycle

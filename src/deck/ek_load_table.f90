@@ -13,6 +13,7 @@ module ek_load_table
    use ek_kinds, only: wp, degree, millimetre
    use ek_error, only: error_t
    use ek_text, only: str, quoted, suggestion, plural
+   use ek_kept_files, only: kept_files_t
    use ek_case, only: case_t, load_table_t, table_column_t, max_driven
    use ek_measure, only: rotation
    use ek_suspension, only: suspension_t, driver_row
@@ -33,7 +34,8 @@ contains
 
    !> Reads the tables that cases name. The mistakes in a table, as 'table.csv:7: mistake', stay in its case: only a command that
    !> uses the case reports them.
-   subroutine read_tables(cases, suspension, is_whole)
+   subroutine read_tables(files, cases, suspension, is_whole)
+      type(kept_files_t), intent(in) :: files          !! which are not read again
       type(case_t), intent(inout) :: cases(:)
       type(suspension_t), intent(in) :: suspension     !! wheels and drivers, which make the heads
       logical, intent(in) :: is_whole                  !! the suspension is complete; else heads are not compared with it
@@ -48,7 +50,7 @@ contains
          if (j < k) then
             cases(k)%table = cases(j)%table
          else
-            call read_table(cases(k)%file, suspension, is_whole, cases(k)%table)
+            call read_table(cases(k)%file, files, suspension, is_whole, cases(k)%table)
          end if
          if (allocated(cases(k)%table%fault)) cases(k)%table%fault = cases(k)%table%mistakes%line(1)//'; in case '// &
             quoted(cases(k)%name)//' ('//cases(k)%where//')'
@@ -56,8 +58,9 @@ contains
    end subroutine read_tables
 
    !> Reads one table.
-   subroutine read_table(file, suspension, is_whole, table)
+   subroutine read_table(file, files, suspension, is_whole, table)
       character(*), intent(in) :: file
+      type(kept_files_t), intent(in) :: files
       type(suspension_t), intent(in) :: suspension
       logical, intent(in) :: is_whole
       type(load_table_t), intent(out) :: table
@@ -68,7 +71,7 @@ contains
       logical, allocatable :: is_kept(:)
       integer :: wheels(2), k
 
-      call read_sheet(file, sheet, error)
+      call read_sheet(file, sheet, error, files)
       if (allocated(error)) then
          table%fault = error%message
          call table%mistakes%add(error%message)

@@ -4,12 +4,13 @@ module ek_property_records
    use ek_error, only: error_t, message_list_t
    use ek_text, only: quoted, str
    use ek_decimal, only: get_decimal
+   use ek_kept_files, only: kept_files_t, read_kept
    use ek_record, only: deck_errors_t, record_t, entry_t, add_value, add_entry, add_record, entry_index, element, is_given
    use ek_group, only: group_number, word_length, bushing_group, spring_group, stop_group
-   use ek_flaws, only: flaws_t
+   use ek_flaws, only: flaws_t, new_flaws
    use ek_law_points, only: law_points_t
    use ek_law_text, only: units_of_law
-   use ek_property, only: property_t, read_property, file_kinds, bushing_file, spring_file, bump_file, rebound_file, &
+   use ek_property, only: property_t, parse_property, file_kinds, bushing_file, spring_file, bump_file, rebound_file, &
       component_names
    use ek_attachment, only: units_in_deck, path_of, report, text_of, complain, put_word, put_numbers
    implicit none(type, external)
@@ -21,7 +22,8 @@ module ek_property_records
 contains
 
    !> Adds the curves of all property files, and to each element the keys that refer to them.
-   subroutine attach_properties(records, used, deck_errors)
+   subroutine attach_properties(files, records, used, deck_errors)
+      type(kept_files_t), intent(in) :: files      !! which are not read again
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
       type(deck_errors_t), intent(inout) :: deck_errors
@@ -38,15 +40,16 @@ contains
          if (.not. any(group_number(records(k)%group) == [bushing_group, spring_group, stop_group])) cycle
          if (text_of(records(k), 'property_file') == '') cycle
          source = source + 1
-         call attach_property(k, units, source, seen, records, used, deck_errors)
+         call attach_property(k, units, source, files, seen, records, used, deck_errors)
       end do
    end subroutine attach_properties
 
    !> The property file of one element.
-   subroutine attach_property(k, units, source, seen, records, used, deck_errors)
+   subroutine attach_property(k, units, source, files, seen, records, used, deck_errors)
       integer, intent(in) :: k                     !! its record
       type(units_t), intent(in) :: units
       integer, intent(in) :: source
+      type(kept_files_t), intent(in) :: files
       type(message_list_t), intent(inout) :: seen
       type(record_t), allocatable, intent(inout) :: records(:)
       integer, intent(inout) :: used
@@ -56,7 +59,7 @@ contains
       type(flaws_t) :: flaws
       type(error_t), allocatable :: error
       type(entry_t) :: words
-      character(:), allocatable :: name, path, curve
+      character(:), allocatable :: name, path, curve, content
       real(wp) :: x_unit, y_unit
       integer :: c, j
       logical :: is_fit
@@ -74,7 +77,9 @@ contains
          return
       end do
       path = path_of(records(k), text_of(records(k), 'property_file'))
-      call read_property(path, property, flaws, error)
+      flaws = new_flaws(path)
+      call read_kept(files, path, content, error)
+      if (.not. allocated(error)) call parse_property(content, property, flaws)
       if (allocated(error)) then
          call complain(records(k), 'property_file', 'property_file: '//error%message, deck_errors)
          return

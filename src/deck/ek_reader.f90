@@ -99,7 +99,7 @@ contains
       call read_records(reading, design%cases, is_complete, error)
       call read_targets(reading, design%targets, error)
       if (is_complete) call complete_prototype(reading)
-      call read_tables(design%cases, reading%plan%prototype, is_complete)
+      call read_tables(finished%kept, design%cases, reading%plan%prototype, is_complete)
       design%plan = reading%plan
       design%parameters = reading%parameters
       call move_alloc(reading%records, design%records)

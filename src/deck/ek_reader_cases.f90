@@ -12,6 +12,7 @@ module ek_reader_cases
    use ek_group, only: wheel_group, case_group, load_group, steering_group, number, max_loads, word_length
    use ek_deck_reading, only: deck_reading_t, complain, where_of, line_of, has_key, choice, text_of, texts_of, number_of, &
       whole_of, refuse, slot
+   use ek_attachment, only: path_of
    use ek_reference, only: look_up, find_driver, find_wheel, is_driver
    implicit none(type, external)
    private
@@ -309,10 +310,7 @@ contains
       end if
       if (test%action == takes_table) then
          if (.not. has_key(reading, 'file')) call complain(reading, '', "'file' is missing")
-         this%file = text_of(reading, 'file')
-         associate (deck_file => reading%records(reading%k)%file)
-            if (index(this%file, '/') /= 1) this%file = deck_file(:index(deck_file, '/', back=.true.))//this%file
-         end associate
+         this%file = path_of(reading%records(reading%k), text_of(reading, 'file'))
       end if
 
    contains

@@ -1,5 +1,6 @@
 !> Plausibility of a deck as a road vehicle: wrong units, swapped points, wrong bodies, a coil in tension, a motion that only
-!> preload resists. Findings are remarks, never errors; none with `plausible = .false.` in &model.
+!> preload resists, a response at design that no vehicle has. Findings are remarks, never errors; none with
+!> `plausible = .false.` in &model.
 module ek_plausibility
    use ek_kinds, only: wp, degree
    use ek_error, only: message_list_t
@@ -14,6 +15,8 @@ module ek_plausibility
    use ek_diagnosis, only: diagnosis_t, diagnose
    use ek_plausible_range, only: doubts_t, length
    use ek_plausible_parts, only: doubt_elements, doubt_loads, doubt_vehicle, doubt_cases
+   use ek_plausible_connection, only: doubt_connections
+   use ek_plausible_response, only: doubt_response
    use ek_plausible_shape, only: doubt_wheels, doubt_points, point_of
    implicit none(type, external)
    private
@@ -31,19 +34,22 @@ contains
       type(doubts_t) :: doubts
       type(diagnosis_t) :: diagnosis
       type(kkt_t) :: kkt
+      logical :: carries
       integer :: k
 
       if (.not. suspension%is_plausible_wanted) return
       doubts%units = suspension%units
+      kkt = new_kkt(suspension)
+      call diagnose(suspension, design_state(suspension), kkt, diagnosis, wants_preload_held=.true.)
+      call doubt_connections(suspension, doubts, carries)
       call doubt_wheels(suspension, doubts)
       call doubt_points(suspension, doubts)
       call doubt_links(suspension, doubts)
+      if (carries .and. diagnosis%is_solvable()) call doubt_response(suspension, kkt, doubts)
       call doubt_elements(suspension, doubts)
       call doubt_vehicle(suspension, doubts)
       call doubt_loads(suspension, doubts)
       call doubt_cases(suspension, cases, doubts)
-      kkt = new_kkt(suspension)
-      call diagnose(suspension, design_state(suspension), kkt, diagnosis, wants_preload_held=.true.)
       call doubts%examine('', '')
       do k = 1, diagnosis%preload_held%count()
          call doubts%add(diagnosis%preload_held%line(k), diagnosis%preload_held%line(k))

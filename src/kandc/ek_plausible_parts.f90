@@ -4,7 +4,7 @@ module ek_plausible_parts
    use ek_text, only: str, quoted
    use ek_curve, only: curve_t
    use ek_element, only: element_t, axial_spring, damper, stop_spring, torsion_spring, bushing_element
-   use ek_element_label, only: element_label
+   use ek_element_label, only: element_label, is_rod
    use ek_element_force, only: spring_tension
    use ek_measure, only: axis_axis, rotation, distance
    use ek_suspension, only: suspension_t, load_number
@@ -30,7 +30,12 @@ contains
             call doubts%examine(element%where, element_label(element))
             select case (element%kind)
             case (axial_spring)
-               call doubt_spring(element, doubts)
+               if (is_rod(suspension%elements, k)) then            ! it pushes or pulls
+                  call doubts%judge('length at design', element%design_length)
+                  call doubts%judge('rod rate', element%law%rate)
+               else
+                  call doubt_spring(element, doubts)
+               end if
             case (damper)
                call doubts%judge('length at design', element%design_length)
                call doubts%judge('gas force', element%preload)
@@ -172,7 +177,12 @@ contains
       call doubts%judge('gravity', suspension%gravity)
       do k = 1, size(suspension%bodies)
          call doubts%examine(suspension%bodies(k)%where, 'body '//quoted(suspension%bodies(k)%name))
-         if (suspension%bodies(k)%mass > 0.0_wp) call doubts%judge('mass', suspension%bodies(k)%mass)
+         if (.not. suspension%bodies(k)%mass > 0.0_wp) cycle
+         if (any(suspension%wheels%body == k)) then
+            call doubts%judge('mass', suspension%bodies(k)%mass)
+         else
+            call doubts%judge('mass of a link', suspension%bodies(k)%mass)
+         end if
       end do
       do k = 1, size(suspension%loads)
          associate (load => suspension%loads(k))

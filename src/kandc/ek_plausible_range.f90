@@ -13,7 +13,8 @@ module ek_plausible_range
 
    ! dimensions
    integer, parameter :: length = 1, rate = 2, rotation_rate = 3, force = 4, moment = 5, angle = 6, mass = 7, share = 8, &
-      acceleration = 9, derived = 10          ! a length computed from other values
+      acceleration = 9, derived = 10, &         ! a length computed from other values
+      frequency = 11, slope = 12, derived_rate = 13
 
    !> A unit that may have been used by mistake.
    type :: unit_t
@@ -42,7 +43,7 @@ module ek_plausible_range
    type :: range_t
       character(28) :: quantity
       integer :: dimension
-      real(wp) :: low, high     !! mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s²
+      real(wp) :: low, high     !! mm, N/mm, N mm/deg, N, N m, deg, kg, 1, m/s², Hz, deg/m
       logical :: may_be_zero
       character(100) :: suspect  !! likely cause or hint if no other unit fits
    end type range_t
@@ -63,6 +64,7 @@ module ek_plausible_range
       range_t('rack ratio', length, 20.0_wp, 150.0_wp, .false., 'give the rack travel per revolution, not the steering ratio'), &
       range_t('rack travel', length, 10.0_wp, 250.0_wp, .false., 'give the travel to each side'), &
       range_t('spring rate', rate, 3.0_wp, 3000.0_wp, .false., 'give the rate of one spring along its axis'), &
+      range_t('rod rate', rate, 3000.0_wp, 1.0e6_wp, .false., 'give the stiffness of the rod along its axis'), &
       range_t('length at design', length, 30.0_wp, 1500.0_wp, .false., 'check its two points'), &
       range_t('static compression', length, 0.0_wp, 500.0_wp, .true., 'preload and rate do not fit together'), &
       range_t('gas force', force, 5.0_wp, 5000.0_wp, .true., 'give the gas force at design'), &
@@ -83,6 +85,7 @@ module ek_plausible_range
       range_t('slope of the curve', rate, 0.1_wp, 1.0e6_wp, .true., 'its x and y are in the deck''s units'), &
       range_t('static wheel load', force, 450.0_wp, 70000.0_wp, .false., 'give the load on one wheel'), &
       range_t('mass', mass, 0.1_wp, 1500.0_wp, .false., 'give the mass of one body of the suspension'), &
+      range_t('mass of a link', mass, 0.02_wp, 1500.0_wp, .false., 'give the mass of one body of the suspension'), &
       range_t('gravity', acceleration, 9.0_wp, 10.5_wp, .true., 'gravity is in m/s², regardless of the deck''s units'), &
       range_t('wheel travel', length, 2.0_wp, 400.0_wp, .false., 'give the travel of a wheel from design'), &
       range_t('roll angle', angle, 0.1_wp, 12.0_wp, .false., 'give the roll angle of the axle'), &
@@ -96,7 +99,23 @@ module ek_plausible_range
       range_t('scrub radius', length, -150.0_wp, 250.0_wp, .true., 'check the points of the steer axis'), &
       range_t('caster trail', length, -100.0_wp, 200.0_wp, .true., 'check the points of the steer axis'), &
       range_t('link length', length, 20.0_wp, 2500.0_wp, .false., 'check its two points'), &
+      ! response at design; sources below the table
+      range_t('wheel rate', derived_rate, 2.0_wp, 3000.0_wp, .false., 'check the rods and levers between wheel and spring'), &
+      range_t('ride frequency', frequency, 0.4_wp, 10.0_wp, .false., &
+      'spring, levers and wheel load do not fit together'), &
+      range_t('motion ratio', share, 0.2_wp, 2.0_wp, .true., &
+      'is a rocker or lever near its dead centre, or an arm of it wrong?'), &
+      range_t('bump toe', slope, -100.0_wp, 100.0_wp, .true., 'check both ends of the tie rod or toe link'), &
+      range_t('bump camber', slope, -200.0_wp, 200.0_wp, .true., 'check the ball joints and the inner points of the arms'), &
       range_t('size √(kr/kt)', derived, 1.0_wp, 300.0_wp, .true., 'kr and kt do not fit together')]
+
+   ! Sources of the ranges of the response. Ride frequency, of the wheel rate without the tyre and the load on the wheel: 0.5 to 1.5 Hz
+   ! of passenger cars, 1.5 to 2 Hz of touring cars, 3 to 5 Hz and more of race cars with downforce (M. Giaraffa, OptimumG, Springs &
+   ! Dampers, part 1; Milliken & Milliken, Race Car Vehicle Dynamics, chapter 16), widened by a factor of two. Motion ratio: 0.5 to 1
+   ! (the same), widened by two. Wheel rate: from the spring rates above with these motion ratios. Bump camber: the inverse
+   ! of the length of the front-view swing arm, no shorter than 0.3 m, three quarters of the narrowest half track of the table. Bump
+   ! toe: 30 mm of travel, about the least that a Formula Student car must have, would use the range of the static toe. Compliances
+   ! have no range: no source covers both trucks and race cars.
 
    !> The remarks, each once: the two sides of a mirrored deck come from one line of it.
    type :: doubts_t
@@ -147,10 +166,11 @@ contains
    end subroutine add
 
    !> Compares a value with the range of its quantity, and adds a remark if it lies outside.
-   pure subroutine judge(self, quantity, value)
+   pure subroutine judge(self, quantity, value, detail)
       class(doubts_t), intent(inout) :: self
       character(*), intent(in) :: quantity     !! of a row of `ranges`
       real(wp), intent(in) :: value            !! SI
+      character(*), intent(in), optional :: detail   !! follows the likely cause of the table
       type(range_t) :: row
       real(wp) :: meant, x, unit, usual
       character(:), allocatable :: text
@@ -169,6 +189,7 @@ contains
       if (row%may_be_zero .and. abs(x) <= 0.0_wp) return
       if (is_within(row, x)) return
       text = trim(row%suspect)
+      if (present(detail)) text = text//detail
       do u = 1, size(units_tried)
          if (units_tried(u)%dimension /= row%dimension) cycle
          if (units_tried(u)%name == deck_name(row%dimension, self%units)) cycle
@@ -216,10 +237,11 @@ contains
    pure real(wp) function deck_unit(dimension, units) result(unit)
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
-      real(wp) :: sizes(10)
+      real(wp) :: sizes(13)
 
       sizes = [units%length, units%force/units%length, units%force*units%length/units%angle, units%force, 1.0_wp, units%angle, &
-         1.0_wp, 1.0_wp, 1.0_wp, units%length]
+         1.0_wp, 1.0_wp, 1.0_wp, units%length, 1.0_wp, degree, &
+         units%force/units%length]
       unit = sizes(dimension)
    end function deck_unit
 
@@ -228,13 +250,14 @@ contains
       integer, intent(in) :: dimension
       type(units_t), intent(in) :: units
       character(:), allocatable :: name, force_name, length_name, angle_name
-      character(12) :: names(10)
+      character(12) :: names(13)
 
       force_name = trim(merge('kN', 'N ', units%force > 1.0_wp))
       length_name = trim(merge('m ', 'mm', units%length > 0.5_wp))
       angle_name = merge('rad', 'deg', units%angle > 0.5_wp)
       names = [character(12) :: length_name, force_name//'/'//length_name, force_name//' '//length_name//'/'//angle_name, &
-         force_name, 'N m', angle_name, 'kg', '1', 'm/s²', length_name]
+         force_name, 'N m', angle_name, 'kg', '1', 'm/s²', length_name, 'Hz', &
+         'deg/m', force_name//'/'//length_name]
       name = trim(names(dimension))
    end function deck_name
 

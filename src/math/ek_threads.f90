@@ -4,14 +4,17 @@ module ek_threads
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_procpointer, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use ek_kinds, only: i8
    use ek_error, only: error_t
-   use ek_system, only: ask_memory
+   use ek_system, only: ask_memory, blocks_in_memory
    implicit none(type, external)
    private
-   public :: use_one_thread, processor_count
+   public :: use_one_thread, processor_count, threads_in_memory
 
    !> Bytes of the work space that OpenBLAS allocates at its first call, slightly more than 128 MB. If the allocation fails,
    !> OpenBLAS retries forever.
    integer(i8), parameter :: work_space = 2_i8**27 + 2_i8**22
+
+   !> Bytes that a further thread asks for besides: its heap (an arena of glibc) and its stack.
+   integer(i8), parameter :: heap_and_stack = 2_i8**26 + 2_i8**23
 
    abstract interface
       subroutine set_threads(count) bind(c)
@@ -40,6 +43,20 @@ contains
       processor_count = 1
       !$ processor_count = omp_get_num_procs()
    end function processor_count
+
+   !> How many threads the memory that is left suffices for, 1 to `wanted`. Without room for the work space of a thread, OpenBLAS would
+   !> try again forever, and the process would not hear SIGTERM. The first thread has its work space, heap and stack.
+   integer function threads_in_memory(wanted, bytes) result(threads)
+      integer, intent(in) :: wanted
+      integer(i8), intent(in) :: bytes                        !! that a thread asks for, besides
+      integer(i8) :: further
+
+      threads = wanted
+      if (wanted < 2) return
+      further = 2*bytes + heap_and_stack                      ! and the bytes of the first thread
+      if (c_associated(dlsym(c_null_ptr, 'openblas_set_num_threads'//c_null_char))) further = further + work_space
+      threads = 1 + blocks_in_memory(wanted - 1, further)
+   end function threads_in_memory
 
    !> Sets one thread in OpenBLAS, if it is the loaded library; other libraries have neither this function nor the work space.
    subroutine use_one_thread(error)

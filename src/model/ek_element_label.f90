@@ -1,10 +1,11 @@
-!> An element as messages name it. It is not in `ek_element`: that is a kernel, and kernels make no texts.
+!> An element as messages name it and as pictures show it. It is not in `ek_element`: that is a kernel, and kernels make no texts.
 module ek_element_label
+   use ek_kinds, only: wp
    use ek_text, only: quoted
-   use ek_element, only: element_t, element_kinds
+   use ek_element, only: element_t, element_kinds, axial_spring
    implicit none(type, external)
    private
-   public :: element_label
+   public :: element_label, is_between_bodies, is_rod
 
 contains
 
@@ -14,5 +15,37 @@ contains
       character(:), allocatable :: text
       text = trim(element_kinds(element%kind)%label)//' '//quoted(element%name)
    end function element_label
+
+   !> Whether both ends of an element are on moving bodies.
+   pure logical function is_between_bodies(element)
+      type(element_t), intent(in) :: element
+      is_between_bodies = min(element%measure%body_i, element%measure%body_j) > 0
+   end function is_between_bodies
+
+   !> Whether a spring is an elastic rod, as push rods and pull rods are: between two moving bodies, stiffer than a coil, and on a
+   !> body that a softer spring acts on. The coil of a strut with a top mount is between two bodies too, but the only spring there.
+   pure logical function is_rod(elements, k)
+      type(element_t), intent(in) :: elements(:)
+      integer, intent(in) :: k
+      real(wp), parameter :: stiff = 3.0e6_wp      ! N/m: the stiffest spring of a vehicle is a leaf spring of 3000 N/mm
+      integer :: j
+
+      is_rod = .false.
+      if (.not. is_stiff(elements(k)) .or. .not. is_between_bodies(elements(k))) return
+      do j = 1, size(elements)
+         if (elements(j)%kind /= axial_spring .or. is_stiff(elements(j))) cycle
+         associate (a => elements(k)%measure, b => elements(j)%measure)
+            is_rod = is_rod .or. any([a%body_i, a%body_j] == max(b%body_i, b%body_j))
+         end associate
+      end do
+
+   contains
+
+      pure logical function is_stiff(element)
+         type(element_t), intent(in) :: element
+         is_stiff = element%kind == axial_spring .and. .not. element%law%has_curve .and. element%law%rate >= stiff
+      end function is_stiff
+
+   end function is_rod
 
 end module ek_element_label

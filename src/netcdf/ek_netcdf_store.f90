@@ -2,14 +2,15 @@
 !>
 !> Factors and responses are variables over design, the swept value and the columns of the curves over (design, state). Chunks are
 !> read one after the other, and the sizes of the blocks in the file are fixed: the memory does not grow with the number of
-!> designs, and two stores of the same results have the same bytes.
+!> designs, and two stores of the same results have the same bytes. Each block has a checksum (fletcher32), so that one that was
+!> damaged cannot be read.
 module ek_netcdf_store
    use, intrinsic :: iso_fortran_env, only: int8, int64
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t, c_float
    use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
    use netcdf, only: nf90_create, nf90_def_dim, nf90_def_var, nf90_put_att, nf90_put_var, nf90_enddef, nf90_close, nf90_strerror, &
       nf90_netcdf4, nf90_clobber, nf90_noerr, nf90_global, nf90_double, nf90_int, nf90_byte, nf90_char
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
    use ek_file, only: join_path
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, status_names, design_invalid
@@ -52,6 +53,7 @@ contains
       type(error_t), allocatable, intent(out) :: error     !! exit_file
       type(file_t) :: file
       type(chunk_t) :: chunk
+      integer(i8) :: next                                  ! design
       integer :: k
       logical :: is_good
 
@@ -59,15 +61,17 @@ contains
       if (file%fault == nf90_noerr) then
          call define(store, file)
          call write_names(store, file)
+         next = 1
          do k = 1, store%chunks
             if (file%fault /= nf90_noerr) exit
-            call read_chunk(join_path(folder, chunk_name(k)), store%identity, chunk, is_good)
+            call read_chunk(join_path(folder, chunk_name(k)), store%identity, next, chunk, is_good)
             if (is_good) is_good = fits(store, chunk)
             if (.not. is_good) then
                call fail(error, exit_file, join_path(folder, chunk_name(k))//': the chunk is missing or damaged')
                exit
             end if
             call write_chunk(store, chunk, file)
+            next = next + size(chunk%status)
          end do
          ! after a failure the file is not closed: HDF5 would try again to write what it holds, and may crash
          if (file%fault == nf90_noerr .and. .not. allocated(error)) call note(file%fault, nf90_close(file%id))
@@ -118,7 +122,8 @@ contains
       call over_designs('design', nf90_int, file%design_number)
       call put_text(file, file%design_number, 'long_name', 'number of the design')
       if (store%states > 0) then
-         call note(file%fault, nf90_def_var(file%id, 'state', nf90_int, [file%state], file%state_number))
+         call note(file%fault, nf90_def_var(file%id, 'state', nf90_int, [file%state], file%state_number, &
+            chunksizes=[store%states], fletcher32=.true.))
          call put_text(file, file%state_number, 'long_name', 'number of the state of a design')
       end if
       allocate (file%variables(size(store%variables)), source=0)
@@ -153,7 +158,7 @@ contains
          integer, intent(in) :: kind
          integer, intent(out) :: variable
          call note(file%fault, nf90_def_var(file%id, name, kind, [file%design], variable, chunksizes=[length], shuffle=.true., &
-            deflate_level=level))
+            deflate_level=level, fletcher32=.true.))
          call set_cache(8*length, variable)
       end subroutine over_designs
 
@@ -166,7 +171,7 @@ contains
          integer :: designs
          designs = max(1, min(length, block_bytes/(entries*bytes)))
          call note(file%fault, nf90_def_var(file%id, name, kind, [second, file%design], variable, chunksizes=[entries, designs], &
-            shuffle=.true., deflate_level=level))
+            shuffle=.true., deflate_level=level, fletcher32=.true.))
          call set_cache(entries*designs*bytes, variable)
       end subroutine over_two
 
@@ -262,7 +267,8 @@ contains
          end do
          call note(file%fault, nf90_def_dim(file%id, name, n, dimension))
          call note(file%fault, nf90_def_dim(file%id, name//'_length', length, text))
-         call note(file%fault, nf90_def_var(file%id, name//'_name', nf90_char, [text, dimension], list))
+         call note(file%fault, nf90_def_var(file%id, name//'_name', nf90_char, [text, dimension], list, &
+            chunksizes=[length, n], fletcher32=.true.))
          call put_text(file, list, 'long_name', 'name of the variable of each '//name)
          call put_text(file, list, '_Encoding', 'utf-8')
          call note(file%fault, nf90_enddef(file%id))

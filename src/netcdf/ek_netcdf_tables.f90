@@ -10,8 +10,9 @@ module ek_netcdf_tables
       nf90_max_name
    use ek_kinds, only: wp
    use ek_error, only: error_t, fail, exit_file
-   use ek_text, only: plural
+   use ek_text, only: plural, printable, quoted
    use ek_file, only: join_path
+   use ek_namelist, only: is_legal_name
    use ek_table, only: table_t, new_table, name_length, csv_head, csv_row
    use ek_writer, only: writer_t, begin_file
    use ek_study_tables, only: quoted_field, tables_of, repeated_factors
@@ -47,6 +48,8 @@ contains
       if (file%fault == nf90_noerr) call survey(file)
       call get_text(file, nf90_global, 'study', name)
       call check(file, error)
+      if (.not. allocated(error) .and. .not. is_legal_name(name)) call fail(error, exit_file, path// &
+         ': the attribute ''study'' is '//quoted(printable(name))//', not the name of a study (letters, digits and _)')
       if (.not. allocated(error)) call begin_file(rows, join_path(folder, tables_of(name, 1)), error)
       if (.not. allocated(error)) call write_rows(file, rows)
       call check(file, error)

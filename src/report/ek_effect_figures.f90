@@ -3,7 +3,7 @@ module ek_effect_figures
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
    use ek_text, only: str
-   use ek_study_data, only: study_data_t, most_panels, range_of_values, is_geometric, tic_step
+   use ek_study_data, only: study_data_t, effects_t, basis_text, most_panels, range_of_values, is_geometric, tic_step
    use ek_study_sheet, only: sheet_t, new_sheet, begin_data, add_numbers, end_data, begin_panels, begin_panel, end_panels, blues, &
       add_point_names, names_plot
    implicit none(type, external)
@@ -187,6 +187,7 @@ contains
       if (study%kind == 'tolerance') way = ', to second order by derivatives'
       sheet = new_bars(study, name, 'One factor at a time'//way, subtitle// &
          '; blue: the smallest value of the factor, orange: the largest'//cut(study))
+      if (any_gap(study%effects(:sheet%panels))) sheet%subtitle = sheet%subtitle//'; –: the design at this end failed'
       do r = 1, sheet%panels
          associate (effect => study%effects(r))
             order(:) = ranked(effect%highest - effect%lowest, most_bars)
@@ -194,6 +195,13 @@ contains
             do k = 1, size(order)
                call add_numbers(sheet, [real(k, wp), effect%nominal, effect%at_low(order(k)), effect%at_high(order(k)), &
                   effect%lowest(order(k)), effect%highest(order(k))], study%factors(order(k))%name)
+            end do
+            call end_data(sheet)
+            if (.not. any_gap([effect])) cycle
+            call begin_data(sheet, 'gaps'//str(r))         ! nominal value, bar, and the ends without a value: offsets of the sign
+            do k = 1, size(order)
+               if (.not. ieee_is_finite(effect%at_low(order(k)))) call add_numbers(sheet, [effect%nominal, k - 0.17_wp])
+               if (.not. ieee_is_finite(effect%at_high(order(k)))) call add_numbers(sheet, [effect%nominal, k + 0.17_wp])
             end do
             call end_data(sheet)
          end associate
@@ -212,11 +220,34 @@ contains
             ' notitle, \'//nl// &
             '     '//data//" using 2:1:(min2($2,$4)):(max2($2,$4)):($1-0.34):($1+0.34) with boxxyerror linecolor rgb '#E69F00'"// &
             ' notitle, \'//nl// &
+            gaps_plot(r, study%effects(r))// &
             '     '//data//" using 2:($1-0.5):(0):(1) with vectors nohead linewidth 1.5 linecolor rgb '#202020' notitle")
       end do
       call sheet%text%line('set yrange [*:*]; set border 3; set xtics autofreq')
       text = end_panels(sheet)
    end function tornado_script
+
+   !> Whether the response at an end of a factor is unknown.
+   pure logical function any_gap(effects)
+      type(effects_t), intent(in) :: effects(:)
+      integer :: r
+
+      any_gap = .false.
+      do r = 1, size(effects)
+         any_gap = any_gap .or. .not. all(ieee_is_finite(effects(r)%at_low) .and. ieee_is_finite(effects(r)%at_high))
+      end do
+   end function any_gap
+
+   !> The part of a plot command that marks the ends without a value by a sign above (smallest) or below (largest) the middle of the
+   !> bar; '' if there are none.
+   pure function gaps_plot(panel, effects) result(part)
+      integer, intent(in) :: panel
+      type(effects_t), intent(in) :: effects
+      character(:), allocatable :: part
+
+      part = ''
+      if (any_gap([effects])) part = '     $gaps'//str(panel)//" using 1:2:('–') with labels offset 1.5, 0 notitle, "//nl
+   end function gaps_plot
 
    !> Sobol indices with their 95 % intervals.
    function sobol_script(study, name, subtitle) result(text)
@@ -248,7 +279,8 @@ contains
       call sheet%text%line('set yrange ['//str(size(order) + 0.6_wp)//':0.4]; set border 1; set ytics scale 0')
       call sheet%text%line('set xrange [* < 0:1 < *]')
       do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label, 'share of the variance [–]', '')
+         call begin_panel(sheet, r, study%responses(r)%label//basis_text(study%effects(r), 'base points'), &
+            'share of the variance [–]', '')
          data = '$bars'//str(r)
          call sheet%text%line('plot '//data// &
             " using (0):1:(0):2:($1-0.36):($1-0.02):ytic(6) with boxxyerror linecolor rgb '#0072B2' notitle, \"//nl// &
@@ -294,7 +326,8 @@ contains
       end do
       call begin_panels(sheet)
       do r = 1, sheet%panels
-         call begin_panel(sheet, r, study%responses(r)%label, 'μ*, mean size of the effect', 'σ, spread of the effect')
+         call begin_panel(sheet, r, study%responses(r)%label//basis_text(study%effects(r), 'effects'), &
+            'μ*, mean size of the effect', 'σ, spread of the effect')
          call sheet%text%line('set ytics '//tic_step([0.0_wp, ends(2, r)])//'; set xtics '//tic_step([0.0_wp, ends(1, r)])// &
             '; set xrange [0:'//str(ends(1, r), 6)//']; set yrange [0:'//str(ends(2, r), 6)//']')
          call sheet%text%line("plot x with lines dashtype (8, 6) linecolor rgb '#B0B0B0' notitle, \"//nl// &

@@ -9,6 +9,7 @@ module ek_picture
    use ek_measure, only: measure_t, distance
    use ek_joint, only: joint_table, rod_part, ball_part, hinge_part, slider_part, guide_part
    use ek_element, only: element_t, element_kinds, coil_shape, damper_shape, stop_shape, bushing_shape
+   use ek_element_label, only: is_rod
    use ek_suspension, only: suspension_t, wheel_t
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, ends_of, place_of, bar_of, slides, same_point
    use ek_state, only: state_t
@@ -37,7 +38,7 @@ contains
       end do
       call add_joints(scene, suspension, state, is_plain)
       do k = 1, size(suspension%elements)
-         call add_elastic(scene, suspension%elements(k), state, is_plain)
+         call add_elastic(scene, suspension%elements(k), is_rod(suspension%elements, k), state, is_plain)
       end do
       do k = 1, size(suspension%wheels)
          call add_wheel(scene, suspension%wheels(k), state, is_plain)
@@ -235,9 +236,10 @@ contains
 
    !> A coil, a damper as two tubes, the rubber of a stop, or the sleeve of a bushing; a torsion spring is part of the bars that
    !> it connects.
-   subroutine add_elastic(scene, element, state, plain)
+   subroutine add_elastic(scene, element, is_a_rod, state, plain)
       type(scene_t), intent(inout) :: scene
       type(element_t), intent(in) :: element
+      logical, intent(in) :: is_a_rod                 !! a spring that is drawn as a rod
       type(state_t), intent(in) :: state
       logical, intent(in) :: plain
       real(wp), parameter :: rubber = 0.045_wp        ! m
@@ -251,7 +253,11 @@ contains
       if (shape /= bushing_shape .and. length < same_point) return
       select case (shape)
       case (coil_shape)
-         call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
+         if (is_a_rod) then
+            call add_tube(scene, part_rod, a, b, rod_radius, merge(4, 6, plain))
+         else
+            call add_coil(scene, part_spring, a, b, 0.052_wp, 0.006_wp, 6, merge(8, 12, plain))
+         end if
       case (stop_shape)
          if (plain) return
          call add_tube(scene, part_stop, b, b + (a - b)*min(0.4_wp, rubber/length), 0.018_wp, 8)

@@ -6,7 +6,7 @@ module ek_study_data
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, most_panels, methods
+   public :: study_data_t, study_axis_t, summary_t, effects_t, extreme_t, moment_row_t, percents, most_panels, methods, basis_text
    public :: range_of_values, is_geometric, tic_step, has_indices, has_expected
 
    integer, parameter :: percents(5) = [5, 25, 50, 75, 95]      !! percentiles of a summary and of a band
@@ -40,7 +40,8 @@ module ek_study_data
       real(wp), allocatable :: first(:), total(:), first_error(:), total_error(:)    !! Sobol indices, half of the 95 % interval
       real(wp), allocatable :: mean_size(:), deviation(:)      !! Morris: μ* and σ
       real(wp), allocatable :: correlation(:)                  !! rank correlation with each factor
-      integer :: used = 0                                      !! Sobol: rows
+      integer, allocatable :: used(:)                          !! Sobol: base points, Morris: effects on which the factor's numbers rest
+      integer :: planned = 0                                   !! so many if no design had failed
       ! tolerance: derivatives at the centre of each factor
       real(wp), allocatable :: slope(:)                        !! per unit of the factor
       real(wp), allocatable :: effect(:)                       !! change per standard deviation of the factor
@@ -89,6 +90,20 @@ module ek_study_data
    end type study_data_t
 
 contains
+
+   !> ' (67 of 256 base points)' where designs have failed, otherwise ''.
+   pure function basis_text(effects, what) result(text)
+      type(effects_t), intent(in) :: effects
+      character(*), intent(in) :: what                 !! 'base points'
+      character(:), allocatable :: text
+
+      text = ''
+      if (.not. allocated(effects%used)) return
+      if (all(effects%used == effects%planned)) return
+      text = str(minval(effects%used))
+      if (maxval(effects%used) > minval(effects%used)) text = text//' to '//str(maxval(effects%used))
+      text = ' ('//text//' of '//str(effects%planned)//' '//what//')'
+   end function basis_text
 
    !> Whether the designs yield Sobol indices: those of a saltelli study, or of a list in such an order.
    pure logical function has_indices(study)

@@ -241,7 +241,8 @@ contains
       case ('saltelli', 'list')
          if (.not. has_indices(study)) return
          call begin_section(page, 'indices', 'Sobol indices')
-         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %'])
+         call begin_table(page, [character(24) :: 'Factor', '>first order', '>± 95 %', '>total', '>± 95 %', &
+            '>base points'])
       case ('tolerance')
          if (.not. has_indices(study)) return
          call begin_section(page, 'shares', 'Share of the variance')
@@ -249,7 +250,7 @@ contains
             '>effect of one deviation', '>share', '>with interactions'])
       case ('morris')
          call begin_section(page, 'effects', 'Elementary effects')
-         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ'])
+         call begin_table(page, [character(24) :: 'Factor', '>μ*', '>σ', '>effects'])
       case ('one_at_a_time')
          call begin_section(page, 'effects', 'One factor at a time')
          call begin_table(page, [character(24) :: 'Factor', '>at its smallest', '>at its largest', '>span'])
@@ -267,6 +268,7 @@ contains
                   call add_cell(page, page_number(effect%first_error(f)), 'n')
                   call add_cell(page, page_number(effect%total(f)), 'n')
                   call add_cell(page, page_number(effect%total_error(f)), 'n')
+                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
                case ('tolerance')
                   call add_cell(page, page_number(study%centers(f)), 'n')
                   call add_cell(page, page_number(study%deviations(f)), 'n')
@@ -277,6 +279,7 @@ contains
                case ('morris')
                   call add_cell(page, page_number(effect%mean_size(f)), 'n')
                   call add_cell(page, page_number(effect%deviation(f)), 'n')
+                  call add_cell(page, str(effect%used(f))//' of '//str(effect%planned), 'n')
                case default
                   call add_cell(page, page_number(effect%at_low(f)), 'n')
                   call add_cell(page, page_number(effect%at_high(f)), 'n')
@@ -286,6 +289,12 @@ contains
          end do
       end do
       call end_table(page)
+      if (study%failed == 0) return
+      if (study%kind == 'one_at_a_time') call add_text(page, 'p', '–: the design at this end of the factor '// &
+         'failed. The span covers the designs that were solved.')
+      if (study%kind == 'morris') call add_text(page, 'p', 'An effect is the difference of two designs that were both solved.')
+      if (study%kind == 'saltelli' .or. study%kind == 'list') call add_text(page, 'p', &
+         'An index rests on the base points whose designs were all solved.')
    end subroutine add_effects
 
    !> The best and the worst designs, with what makes them.

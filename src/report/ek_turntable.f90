@@ -7,6 +7,7 @@ module ek_turntable
    use ek_measure, only: measure_t, distance
    use ek_joint, only: joint_table, rod_part
    use ek_element, only: element_kinds, coil_shape, damper_shape
+   use ek_element_label, only: is_rod
    use ek_suspension, only: suspension_t
    use ek_wheel_side, only: deck_frame
    use ek_skeleton, only: skeleton_t, skeleton_of, first_measure, slides
@@ -121,7 +122,8 @@ contains
       do k = 1, size(suspension%elements)
          shape = element_kinds(suspension%elements(k)%kind)%shape
          if (suspension%elements(k)%measure%kind /= distance) cycle
-         if (shape == coil_shape) call add_measure(suspension%elements(k)%measure, 'spring')
+         if (shape == coil_shape) call add_measure(suspension%elements(k)%measure, &
+            trim(merge('rod   ', 'spring', is_rod(suspension%elements, k))))
          if (shape == damper_shape) call add_measure(suspension%elements(k)%measure, 'damper')
       end do
 

@@ -36,8 +36,8 @@ module ek_study_slopes
       type(case_slopes_t), allocatable, private :: cases(:)
       type(direction_t), allocatable, private :: directions(:)
       type(factor_paths_t), allocatable, private :: paths(:)
-      type(worker_t), private :: worker                      !! makes the numbers of a design
-      type(design_solver_t), private :: solver
+      class(worker_t), allocatable, private :: worker        !! makes the numbers of a design (a class as in worker_case_t)
+      class(design_solver_t), allocatable, private :: solver
    end type study_slopes_t
 
 contains
@@ -53,6 +53,7 @@ contains
       logical :: is_done
       integer :: c, f, k
 
+      allocate (self%worker, self%solver)
       call begin_design_solver(deck, self%solver, error)
       if (allocated(error)) return
       self%readings = designer%readings

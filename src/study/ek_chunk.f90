@@ -13,8 +13,8 @@ module ek_chunk
    use ek_writer, only: writer_t, begin_file
    implicit none(type, external)
    private
-   public :: chunk_t, new_chunk, add_reason, reason_of, write_chunk, read_chunk, chunk_name, design_solved, design_incomplete, &
-      design_unsolvable, design_invalid, status_names
+   public :: chunk_t, new_chunk, add_reason, put_error, reason_of, write_chunk, read_chunk, chunk_name, design_solved, &
+      design_incomplete, design_unsolvable, design_invalid, status_names
 
    ! how a design ended
    integer, parameter :: design_solved = 0         !! all states converged, all responses are known
@@ -42,6 +42,7 @@ module ek_chunk
       real(wp), allocatable :: curves(:, :)       !! (swept value and columns, state of all designs)
       integer :: rows = 0                         !! used rows of `curves`
       type(reason_t), allocatable :: reasons(:)
+      type(error_t), allocatable :: error         !! lack of memory or of a file, which no design has caused: the chunk is not kept
    end type chunk_t
 
 contains
@@ -66,6 +67,7 @@ contains
       self%factors(:, :) = 0.0_wp
       self%responses(:, :) = 0.0_wp
       self%rows = 0
+      if (allocated(self%error)) deallocate (self%error)
       if (allocated(self%reasons)) deallocate (self%reasons)
       allocate (self%reasons(0))
    end subroutine new_chunk
@@ -85,6 +87,14 @@ contains
       more(n + 1)%text = text
       call move_alloc(more, self%reasons)
    end subroutine add_reason
+
+   !> Keeps the first error that no design has caused: too little memory, or a table that cannot be read any more.
+   subroutine put_error(self, error)
+      type(chunk_t), intent(inout) :: self
+      type(error_t), intent(in) :: error
+
+      if (.not. allocated(self%error)) self%error = error
+   end subroutine put_error
 
    !> Why a design failed; '' if it did not.
    pure function reason_of(self, design) result(text)
@@ -160,9 +170,11 @@ contains
          str(size(self%responses, 1))//' '//str(size(self%curves, 1))//' '//str(self%rows)//' '//str(size(self%reasons))
    end function line_of
 
-   !> Reads a chunk. is_good is .false. if the file is absent, damaged, or of another study.
-   subroutine read_chunk(path, identity, self, is_good)
+   !> Reads a chunk. is_good is .false. if the file is absent, damaged, of another study, or of other designs: a file that was
+   !> renamed is not the chunk of its name.
+   subroutine read_chunk(path, identity, first, self, is_good)
       character(*), intent(in) :: path, identity
+      integer(i8), intent(in) :: first             !! design of the chunk
       type(chunk_t), intent(inout) :: self
       logical, intent(out) :: is_good
       character(:), allocatable :: text
@@ -182,7 +194,7 @@ contains
       at = len(mark) + len(identity) + 3
       k = index(text(at:), line_end)
       read (text(at:at + k - 2), *, iostat=status) sizes
-      if (status /= 0) return
+      if (status /= 0 .or. sizes(1) /= first) return
       at = at + k
       call new_chunk(int(sizes(1), i8), sizes(2), sizes(3), sizes(4), sizes(5), 0, self)
       call take(1)

@@ -15,7 +15,8 @@ module ek_response
    use ek_gradient, only: gradient_t, test_gradients, noise_of
    use ek_study, only: response_t, of_names
    use ek_response_value, only: reading_t, read_response, is_slope, find_window, rounded, place_of_column, an_rms, a_gradient, &
-      a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states
+      a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states, &
+      is_undefined
    implicit none(type, external)
    private
    public :: needed_columns, no_column, prepare_reading, prepare_difference, fault_text
@@ -107,7 +108,7 @@ contains
       if (reading%of == an_rms) call read_curve(asked, home, reading%curve, message)
       if (message == '') then
          call read_response(reading, table, value, fault)
-         if (fault /= no_fault) message = fault_text(reading, table, fault)
+         if (fault /= no_fault .and. fault /= is_undefined) message = fault_text(reading, table, fault)
       end if
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
@@ -203,6 +204,7 @@ contains
       character(:), allocatable :: text
       logical :: is_near(size(table%values, 2))
       real(wp) :: centre, x(size(table%values, 2))
+      integer :: first
 
       select case (fault)
       case (column_is_missing)
@@ -214,6 +216,11 @@ contains
          text = 'at = '//str(reading%asked%at)
          if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
          text = text//' lies outside the range of the case, '//str(minval(x))//' to '//str(maxval(x))
+      case (is_undefined)
+         is_near = .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, reading%at_column), :))
+         first = findloc(is_near, .true., dim=1)
+         text = quoted(reading%asked%column)//' has no value at '//plural(count(is_near), 'state', 'states')
+         if (first > 0) text = text//', the first at factor '//str(table%values(2, first))
       case (has_few_states)
          text = 'no gradient: it needs 3 states within the window of ± '//str(reading%asked%window)// &
             '; use more increments in the case, or a larger window in the response'

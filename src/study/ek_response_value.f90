@@ -28,13 +28,25 @@ module ek_response_value
 
    ! why it cannot be read
    integer, parameter, public :: no_fault = 0, column_is_missing = 1, over_is_missing = 2, is_outside = 3, has_no_slope = 4, &
-      is_flat = 5, has_few_states = 6
+      is_flat = 5, has_few_states = 6, is_undefined = 7
 
 contains
 
-   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window around it, the
-   !> span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points.
+   !> A response of one table, and why it has no value.
    subroutine read_response(reading, table, value, fault)
+      type(reading_t), intent(in) :: reading
+      type(table_t), intent(in) :: table
+      real(wp), intent(out) :: value             !! nan if there is none
+      integer, intent(out) :: fault              !! 0, or for fault_text
+
+      call read_value(reading, table, value, fault)
+      if (fault == no_fault .and. .not. ieee_is_finite(value)) fault = is_undefined
+   end subroutine read_response
+
+   !> A response of one table: the value at a factor (linear between states), the least-squares slope in a window around it, the
+   !> span or an extreme over all states, or the root of the mean square of the deviations from a curve at its points. Where the column
+   !> is undefined at a state that is read, there is no value: minval and maxval would pass over such a state.
+   subroutine read_value(reading, table, value, fault)
       type(reading_t), intent(in) :: reading
       type(table_t), intent(in) :: table
       real(wp), intent(out) :: value             !! nan if there is none
@@ -56,12 +68,11 @@ contains
       y = table%values(column, :)
       x = table%values(2, :)
       select case (reading%of)
-      case (a_span)
-         value = maxval(y) - minval(y)
-      case (a_least)
-         value = minval(y)
-      case (a_most)
-         value = maxval(y)
+      case (a_span, a_least, a_most)
+         if (.not. all(ieee_is_finite(y))) return
+         if (reading%of == a_span) value = maxval(y) - minval(y)
+         if (reading%of == a_least) value = minval(y)
+         if (reading%of == a_most) value = maxval(y)
       case (a_gradient)
          call slope_over_window(table%values(over, :), y, reading%asked%window, value, points)
          if (.not. ieee_is_finite(value)) fault = merge(has_few_states, is_flat, points < 3)
@@ -101,7 +112,7 @@ contains
             fault = is_flat
          end if
       end select
-   end subroutine read_response
+   end subroutine read_value
 
    !> Whether a response is the difference of two others and is read from no table.
    pure logical function is_difference(reading)

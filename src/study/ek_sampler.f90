@@ -16,7 +16,8 @@
 !> | tolerance | n | those of monte_carlo, beside the moments by derivatives (ek_tolerance) |
 !>
 !> A factor with `values` takes these only: as levels, or at random each with the same probability. Correlations (ek_copula) apply
-!> to latin_hypercube (whose intervals are then filled exactly by the first factor of each group only), sobol and monte_carlo.
+!> to latin_hypercube, sobol and monte_carlo. A latin_hypercube keeps its intervals: which one each design has is computed once for all
+!> designs (ek_rank_order).
 !>
 !> u and t are the same to the last bit on every machine; x is as exact as the machine's logarithm.
 !>
@@ -31,11 +32,12 @@ module ek_sampler
    use ek_sobol, only: sobol_t, new_sobol, sobol_coordinate
    use ek_distribution, only: quantile, quantile_of_score, ends_of
    use ek_copula, only: copula_t, new_copula, correlate
+   use ek_rank_order, only: order_ranks
    use ek_sampler_kind, only: grid_kind, one_at_a_time_kind, list_kind, latin_hypercube_kind, sobol_kind, saltelli_kind, morris_kind
    use ek_sampler_settings, only: factor_t, sampler_settings_t, check_settings
    implicit none(type, external)
    private
-   public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, changed_factor, morris_change
+   public :: sampler_t, new_sampler, sample, designs_of, factors_of, is_kind, is_ordered, changed_factor, morris_change
 
    ! what one seed is used for (ek_philox)
    integer, parameter :: design_stream = 0, permutation_stream = 1, scramble_stream = 2, trajectory_stream = 3
@@ -51,6 +53,8 @@ module ek_sampler
       type(sobol_t) :: points
       type(copula_t) :: copula
       logical :: is_correlated = .false.
+      integer, allocatable :: intervals(:, :)                !! latin_hypercube: of the correlated factors, see ek_rank_order
+      integer, allocatable :: position(:)                    !! of each factor in it, 0: it has no correlation
    end type sampler_t
 
    !> A design of Morris' method on its trajectory.
@@ -100,6 +104,11 @@ contains
       end select
       if (allocated(settings%pairs)) sampler%is_correlated = size(settings%pairs, 2) > 0
       if (sampler%is_correlated) call new_copula(size(factors), settings%pairs, settings%correlations, sampler%copula, error)
+      if (allocated(error) .or. .not. sampler%is_correlated .or. settings%kind /= latin_hypercube_kind) return
+      sampler%position = [(merge(1, 0, any(settings%pairs == j)), j=1, size(factors))]
+      call order_ranks(sampler%permutations, sampler%copula, pack([(j, j=1, size(factors))], sampler%position == 1), &
+         settings%size, sampler%intervals, error)
+      sampler%position = sampler%position*[(sum(sampler%position(:j)), j=1, size(factors))]
    end subroutine new_sampler
 
    !> The number of designs.
@@ -213,7 +222,7 @@ contains
          case (latin_hypercube_kind)
             call fill_uniforms(s%seed, design_stream, design, x)
             do j = 1, k
-               x(j) = point_in_interval(image_of(sampler%permutations(j), design - 1), s%size, x(j))
+               x(j) = point_in_interval(interval_of(sampler, j, design), s%size, x(j))
             end do
          case (sobol_kind)
             do j = 1, k
@@ -232,6 +241,21 @@ contains
       call take_quantiles(sampler, x)
    end subroutine sample_at_random
 
+   !> The interval, 0 … n − 1, of a factor of a latin hypercube in a design.
+   pure integer(i8) function interval_of(sampler, j, design) result(i)
+      type(sampler_t), intent(in) :: sampler
+      integer, intent(in) :: j
+      integer(i8), intent(in) :: design
+
+      if (is_ordered(sampler)) then
+         if (sampler%position(j) > 0) then
+            i = sampler%intervals(sampler%position(j), design)
+            return
+         end if
+      end if
+      i = image_of(sampler%permutations(j), design - 1)
+   end function interval_of
+
    !> A point in interval number i of n equal ones of (0, 1), at a fraction of it; rounding never moves it into another one.
    !>
    !> Equation (D.6) of docs/theory/sampling.md.
@@ -248,9 +272,11 @@ contains
    pure subroutine take_quantiles(sampler, x)
       type(sampler_t), intent(in) :: sampler
       real(wp), intent(inout) :: x(:)
+      logical :: is_tied                           ! through scores; an ordered sample is tied by its intervals
       integer :: j
 
-      if (sampler%is_correlated) then
+      is_tied = sampler%is_correlated .and. .not. is_ordered(sampler)
+      if (is_tied) then
          do j = 1, size(x)
             x(j) = normal_quantile(x(j))
          end do
@@ -259,9 +285,9 @@ contains
       do j = 1, size(x)
          associate (factor => sampler%factors(j))
             if (allocated(factor%values)) then
-               if (sampler%is_correlated) x(j) = normal_probability(x(j))
+               if (is_tied) x(j) = normal_probability(x(j))
                x(j) = factor%values(min(size(factor%values), 1 + int(x(j)*size(factor%values))))
-            else if (sampler%is_correlated) then
+            else if (is_tied) then
                x(j) = quantile_of_score(factor%distribution, x(j))
             else
                x(j) = quantile(factor%distribution, x(j))
@@ -320,6 +346,12 @@ contains
          if (t%step >= step_of(t, factor)) level = mod(level + t%levels/2, t%levels)
       end associate
    end function morris_level
+
+   !> Whether the correlated factors of a latin hypercube have the order of their ranks.
+   pure logical function is_ordered(sampler)
+      type(sampler_t), intent(in) :: sampler
+      is_ordered = allocated(sampler%intervals)
+   end function is_ordered
 
    !> The factor that alone differs: from the nominal design (one_at_a_time), from the design before (morris), from A (saltelli).
    !> 0 for the nominal design, the start of a trajectory, A, B, and all designs of the other kinds.

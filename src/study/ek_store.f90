@@ -25,7 +25,8 @@ module ek_store
    integer, parameter :: time_limit = 86400       !! s, for the helper; a million designs take a minute
    integer, parameter :: room = 2000000           !! bytes that must fit on the disk, or it is full
    integer, parameter :: longest_log = 2000       !! characters of the helper's message
-   character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log'
+   character(*), parameter :: helper_name = 'elastokin-netcdf', log_name = 'netcdf.log', &
+      ended_with = 'it ended with status '         ! without a message
 
    !> Texts that the store keeps.
    type :: store_texts_t
@@ -141,6 +142,7 @@ contains
       call words%add(folder)
       call words%add(str(every))
       call run_helper(words, folder, trouble)
+      if (index(trouble, ended_with) == 1) trouble = trouble//'; the file is probably damaged'        ! a signal in HDF5
       if (len(trouble) > 0) call fail(error, exit_file, helper_name//' could not read '//join_path(out, store_name(study))//': '// &
          trouble)
    end subroutine read_store
@@ -166,7 +168,7 @@ contains
       call read_whole(join_path(folder, log_name), log, unread)
       log = log(:min(len(log), longest_log))
       trouble = printable(log(:verify(log, ' '//new_line('a'), back=.true.)))
-      if (len(trouble) == 0) trouble = 'it ended with status '//str(status)
+      if (len(trouble) == 0) trouble = ended_with//str(status)
       ! HDF5 does not say that the disk is full
       call write_whole(join_path(folder, 'room'), repeat(' ', room), full)
       if (allocated(full)) trouble = full%message(index(full%message, ': ', back=.true.) + 2:)

@@ -6,7 +6,7 @@
 module ek_study_design
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ek_kinds, only: wp
-   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_model
+   use ek_error, only: error_t, message_list_t, fail, exit_deck, exit_file
    use ek_text, only: str, quoted, replace
    use ek_deck, only: deck_t, set_value
    use ek_case_result, only: case_result_t, solve_options_t, solve_case, solve_mounted, failure_of, test_of
@@ -20,7 +20,7 @@ module ek_study_design
    use ek_worker, only: worker_t, factor_paths_t, make_worker, change_design
    use ek_factor_unit, only: factor_unit, unit_ending
    use ek_factor_paths, only: check_paths, check_planes, find_paths, setting_of, shortest
-   use ek_chunk, only: chunk_t, add_reason, design_solved, design_incomplete, design_unsolvable, design_invalid
+   use ek_chunk, only: chunk_t, add_reason, put_error, design_solved, design_incomplete, design_unsolvable, design_invalid
    implicit none(type, external)
    private
    public :: designer_t, begin_designer, new_designer, solve_designs
@@ -280,6 +280,7 @@ contains
       end do
       if (.not. allocated(error)) call make_worker(changed, designer%case_names, worker, error, designer%increments)
       if (allocated(error)) then
+         if (error%code == exit_file) call put_error(chunk, error)
          chunk%status(k) = merge(design_invalid, design_unsolvable, error%code == exit_deck)
          do f = 1, size(study%factors)          ! a number of the study, not of the command line
             associate (factor => study%factors(f))
@@ -385,6 +386,7 @@ contains
             if (.not. result%is_run()) then
                call failure_of(result, error)
                call words%add(error%message)
+               if (error%code == exit_file) call put_error(chunk, error)
                cycle
             end if
             do side = 1, 2

@@ -122,6 +122,7 @@ contains
             if (is_held_in_plane(design, found(k)%number)) cycle
             one = given
             one%is_each = .false.
+            one%is_of_pattern = index(path_text, '*') > 0
             deallocate (one%paths)
             allocate (one%paths(1))
             one%paths(1) = parameter_path(parameter, design%records)

@@ -7,7 +7,7 @@ module ek_study_plan
    use ek_version, only: version
    use ek_table, only: table_t, column_index, name_length, read_csv
    use ek_deck, only: deck_t, deck_checksum
-   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of
+   use ek_sampler, only: sampler_t, new_sampler, sample, designs_of, factors_of, is_ordered
    use ek_sampler_kind, only: list_kind
    use ek_sampler_settings, only: sampler_settings_t, factor_t
    use ek_study, only: study_t, define_factor
@@ -16,7 +16,7 @@ module ek_study_plan
    use ek_chunk, only: chunk_t, new_chunk
    implicit none(type, external)
    private
-   public :: study_plan_t, new_plan, plan_sampler, begin_chunk
+   public :: study_plan_t, new_plan, plan_sampler, begin_chunk, first_of
 
    integer, parameter :: max_designs = 2000000000
    integer, parameter :: usual_chunks = 400       !! of a large study
@@ -68,6 +68,7 @@ contains
       plan%deck_sum = deck_checksum(deck)
       sum = study%sum
       call include(sum, version//' '//plan%deck_sum//' '//str(plan%designs)//' '//str(plan%chunk))
+      if (is_ordered(plan%sampler)) call include(sum, ' ordered by rank')      ! not the designs of earlier versions
       call include_numbers(settings%rows)
       do k = 1, size(designer%readings)
          call include_numbers(designer%readings(k)%curve)
@@ -144,6 +145,13 @@ contains
       if (size(rows, 2) == 0) call fail(error, exit_file, path//': there is no design')
    end subroutine read_list
 
+   !> The first design of a chunk.
+   pure integer(i8) function first_of(plan, number)
+      type(study_plan_t), intent(in) :: plan
+      integer, intent(in) :: number               !! of the chunk, from 1
+      first_of = int(number - 1, i8)*plan%chunk + 1
+   end function first_of
+
    !> An empty chunk with the factors of its designs.
    subroutine begin_chunk(plan, number, chunk)
       type(study_plan_t), intent(in) :: plan
@@ -152,7 +160,7 @@ contains
       integer(i8) :: first
       integer :: k
 
-      first = int(number - 1, i8)*plan%chunk + 1
+      first = first_of(plan, number)
       call new_chunk(first, int(min(int(plan%chunk, i8), plan%designs - first + 1)), factors_of(plan%sampler), size(plan%heads), &
          plan%columns, plan%states, chunk)
       do k = 1, size(chunk%status)

@@ -6,11 +6,12 @@
 !> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
 !> renewed for a day is that of a dead run.
 module ek_study_run
-   use ek_kinds, only: wp
+   use ek_kinds, only: wp, i8
    use ek_error, only: error_t, fail, exit_file
    use ek_text, only: str
    use ek_clock, only: seconds
    use ek_interrupt, only: is_stop_asked
+   use ek_threads, only: threads_in_memory
    use ek_file, only: make_folder, join_path, read_whole, write_whole, file_exists, remove_file
    use ek_writer, only: remove_stale, remove_empty_folder, find_users, scratch_t, begin_scratch, &
       renew_scratch, end_scratch
@@ -18,7 +19,7 @@ module ek_study_run
    use ek_study, only: study_t
    use ek_study_design, only: designer_t, solve_designs
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
-   use ek_study_plan, only: study_plan_t, begin_chunk
+   use ek_study_plan, only: study_plan_t, begin_chunk, first_of
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
    implicit none(type, external)
    private
@@ -29,6 +30,7 @@ module ek_study_run
    integer, parameter :: nobody = 0, this_machine = 1, other_machine = 2      !! who still needs the chunks
    real(wp), parameter :: an_hour = 3600.0_wp     !! s
    character(*), parameter :: line_end = new_line('a')
+   integer(i8), parameter :: of_a_design = 2_i8**25         !! bytes: work space of a thread
 
    !> How a study is run.
    type :: run_options_t
@@ -44,6 +46,7 @@ module ek_study_run
       integer :: before = 0                       !! of these, done before it began
       integer :: done = 0                         !! and by now, by all ranks
       integer :: failed = 0                       !! of those computed now
+      integer :: idle = 0                         !! threads that were asked for and for which there was no memory
       real(wp) :: begun = 0.0_wp, now = 0.0_wp    !! s
       logical :: is_stopped = .false.             !! by a signal, or at the time limit
       logical :: is_quiet = .false.               !! for the procedure that reports, as is
@@ -181,6 +184,9 @@ contains
       shared%state%is_quiet = options%is_quiet .or. .not. ranks%is_first
       threads = max(1, min(options%jobs, size(shared%pending)))
       if (.not. ranks%has_threads) threads = 1
+      shared%state%idle = threads
+      threads = threads_in_memory(threads, of_a_design + 16_i8*plan%columns*plan%states*plan%chunk)     ! curves: kept and grown
+      shared%state%idle = shared%state%idle - threads
       !$omp parallel num_threads(threads) default(shared)
       call work(study, plan, deck, options, designer, ranks, shared, report)
       !$omp end parallel
@@ -217,7 +223,7 @@ contains
          designs = min(plan%chunk, plan%designs - (k - 1)*plan%chunk)
          shared%state%wanted = shared%state%wanted + designs
          is_good = file_exists(join_path(shared%folder, chunk_name(k)))
-         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, chunk, is_good)
+         if (is_good) call read_chunk(join_path(shared%folder, chunk_name(k)), plan%identity, first_of(plan, k), chunk, is_good)
          is_pending(k) = .not. is_good
          if (is_good) shared%state%before = shared%state%before + designs
       end do
@@ -255,7 +261,7 @@ contains
          is_whole = .true.
          do k = 1, size(chunk%status), size(mine%packs%workers) + 1
             call solve_designs(study, deck, mine, k, min(k + size(mine%packs%workers), size(chunk%status)), chunk)
-            is_whole = .not. is_stop_asked()
+            is_whole = .not. (is_stop_asked() .or. allocated(chunk%error))
             if (.not. is_whole) exit
             if (ranks%count == 1) cycle
             !$omp critical (ek_words)
@@ -295,7 +301,7 @@ contains
    subroutine put_chunk(plan, number, chunk, is_whole, time, ranks, shared, report)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number
-      type(chunk_t), intent(in) :: chunk
+      type(chunk_t), intent(inout) :: chunk
       logical, intent(in) :: is_whole
       real(wp), intent(in) :: time                   !! s
       type(ranks_t), intent(inout) :: ranks
@@ -304,6 +310,13 @@ contains
       type(error_t), allocatable :: error
       integer :: before
 
+      if (allocated(chunk%error)) then
+         if (.not. allocated(shared%error)) then
+            call move_alloc(chunk%error, shared%error)
+            shared%error%message = shared%error%message//'; the designs that are done are kept: the same command goes on from there'
+         end if
+         return
+      end if
       if (.not. is_whole) then
          call count_up(ranks, stopped_counter, 1, before)
          return

@@ -5,7 +5,7 @@ module ek_study_survey
    use ek_system, only: facts_t, facts_of
    use ek_writer, only: find_users
    use ek_study, only: study_t
-   use ek_study_plan, only: study_plan_t
+   use ek_study_plan, only: study_plan_t, first_of
    use ek_study_run, only: parts_folder
    use ek_chunk, only: chunk_t, read_chunk, chunk_name
    implicit none(type, external)
@@ -41,7 +41,7 @@ contains
       do k = 1, plan%chunks
          path = join_path(folder, chunk_name(k))
          if (.not. file_exists(path)) cycle
-         call read_chunk(path, plan%identity, chunk, is_good)
+         call read_chunk(path, plan%identity, first_of(plan, k), chunk, is_good)
          if (.not. is_good) cycle
          facts = facts_of(path, follow=.true.)
          n = n + 1

@@ -12,7 +12,7 @@ module ek_study_tables
    use ek_study, only: study_t, kind_names
    use ek_sampler_kind, only: sampler_kinds, grid_kind
    use ek_factor_paths, only: label_of
-   use ek_study_plan, only: study_plan_t
+   use ek_study_plan, only: study_plan_t, first_of
    use ek_study_run, only: parts_folder
    use ek_chunk, only: chunk_t, read_chunk, chunk_name, reason_of, design_invalid
    use ek_store_description, only: keeps
@@ -132,7 +132,7 @@ contains
       logical :: is_good
 
       path = join_path(parts_folder(study, out), chunk_name(k))
-      call read_chunk(path, plan%identity, chunk, is_good)
+      call read_chunk(path, plan%identity, first_of(plan, k), chunk, is_good)
       if (.not. is_good) call fail(error, exit_file, path//': the chunk is missing or damaged')
    end subroutine load_chunk
 

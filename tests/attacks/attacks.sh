@@ -184,6 +184,16 @@ endless_include() {
   mkfifo pipe && echo "&include file = 'pipe' /" >pipe.nml
   run 2 "$program" check pipe.nml && says 'not a regular file'
 }
+endless_files() { # a device, a pipe into which nobody writes or that never ends, and endless standard input
+  local command
+  for command in check run report 'export --to csv' bench study plot merge import 'run '"$tiny"' --set-file'; do
+    # shellcheck disable=SC2086
+    run 5 "$program" $command /dev/zero && says 'not a regular file or a pipe' || return 1
+  done
+  mkfifo silent && run 5 "$program" check silent && says 'no program writes' || return 1
+  run 5 bash -c "'$program' check <(cat /dev/zero)" && says 'longer than 100 MB' || return 1
+  run 5 bash -c "'$program' check - </dev/zero" && says 'longer than 50 MB'
+}
 
 # ---- gnuplot -----------------------------------------------------------------------------------
 
@@ -335,7 +345,7 @@ END
   done
   kill -TERM $! || { cat said.txt; return 1; }
   wait $!
-  [ $? -eq 4 ] && [ "$chunks" -ge 2 ] && says 'designs are done and kept' && gone out/grid_responses.csv || { cat said.txt; return 1; }
+  [ $? -eq 6 ] && [ "$chunks" -ge 2 ] && says 'designs are done and kept' && gone out/grid_responses.csv || { cat said.txt; return 1; }
   sed -i 's/count = 200/count = 4/' study.nml
   run 5 "$program" study study.nml --out out && says 'holds designs of another study' || return 1
   run 0 "$program" study study.nml --out other --no-plots && [ -s other/grid_responses.csv ] && clean other
@@ -423,6 +433,23 @@ little_address_space() { # the library for linear algebra would ask for memory f
     esac
   done
 }
+threads_without_memory() { # lack of memory is no failure of a design: the study is complete, or ends with 5 and keeps its chunks
+  local k complete=0
+  { echo "&study name = 's', kind = 'monte_carlo', samples = 40, chunk = 5, deck = '$tiny', case = 'sweep' /"
+    echo "&factor name = 'rate', path = 'spring.coil.rate', lower = 20.0, upper = 45.0 /"
+    echo "&response name = 'travel', column = 'wheel_travel_mm', at = 100.0 /"; } >s.nml
+  for k in 200000 210000 220000 230000 240000 250000 260000 280000 300000 350000 400000 600000; do
+    timeout 60 bash -c "ulimit -v $k; exec '$program' study s.nml --jobs 2 --no-plots --out out" >out.txt 2>said.txt
+    case $? in
+      0) complete=$((complete + 1)) && clean out ;;
+      5) says 'not enough memory' || return 1 ;;
+      127) ;;
+      *) echo "ulimit -v $k: status $?: $(head -c 300 said.txt)"; return 1 ;;
+    esac
+    ! grep -q failed said.txt || return 1
+  done
+  [ "$complete" -gt 3 ]
+}
 memory_for_forty_thousand_designs() {
   local values
   values=$(seq -s, 1 200)
@@ -460,12 +487,12 @@ all=(line_end_in_a_title line_end_in_a_test line_end_in_a_file test_that_leaves_
   file_with_a_whole_path column_that_leaves_the_folder column_with_a_quote pipe_in_a_report endless_table_in_a_report
   link_under_a_temporary_name link_under_the_name_of_a_result link_that_looks_stale pipe_under_the_name_of_a_result
   cdpath_leads_elsewhere control_characters_of_a_deck settings_of_a_user words_for_a_shell_in_a_path commands_in_a_title
-  bomb_of_includes endless_include gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
+  bomb_of_includes endless_include endless_files gnuplot_that_hangs page_is_there_while_gnuplot_hangs gnuplot_that_draws_nothing
   gnuplot_that_draws_half gnuplot_that_fails limit_of_a_file_size shared_memory_is_no_device pictures_beyond_a_file_size
   full_disk no_more_files folder_that_cannot_be_written two_containers_with_one_pid two_runs_in_one_folder
   reader_that_goes_away streams_that_are_closed leavings_of_dead_runs study_that_is_killed
   study_whose_tables_fill_the_disk study_whose_figures_fill_the_disk study_in_shared_memory two_studies_of_one_name case_called_like_a_target
-  same_bytes_again little_address_space memory_for_a_million_states memory_for_forty_thousand_designs no_further_process
+  same_bytes_again little_address_space threads_without_memory memory_for_a_million_states memory_for_forty_thousand_designs no_further_process
   no_process_for_gnuplot few_open_files)
 [ $# -gt 0 ] || set -- "${all[@]}"
 held=0

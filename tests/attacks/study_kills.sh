@@ -146,7 +146,7 @@ for signal in TERM INT; do
   wait $victim
   status=$?
   if [ $status -ne 0 ]; then        # else it had already ended
-    [ $status -eq 4 ] || complain "$signal: status $status"
+    [ $status -eq 6 ] || complain "$signal: status $status"
     grep -q 'stopped: .* designs are done and kept' "$work/said" || complain "$signal: $(cat "$work/said")"
     study "$work/stopped" --quiet >/dev/null || complain "resumed after $signal"
   fi
@@ -199,7 +199,7 @@ study "$work/half" --shard 1/2 --quiet >/dev/null || complain 'a shard'
 truncate -s 300 "$work/half/s.parts/chunk_000001.bin"
 : >"$work/half/s.parts/chunk_000003.bin"
 [ "$(done_in "$work/half")" -eq 960 ] || complain "chunks cut in half count: $(done_in "$work/half")"
-refused 4 '1040 of 2000 designs are missing' merge "$work/half"
+refused 6 '1040 of 2000 designs are missing' merge "$work/half"
 refused 5 'holds designs of another study' "$program" study "$work/other.nml" "${few[@]}" --out "$work/half"
 [ "$(done_in "$work/half")" -eq 960 ] || complain 'a study that was refused has changed the folder'
 study "$work/half" --quiet >/dev/null || complain 'after chunks were cut'

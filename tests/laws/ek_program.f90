@@ -12,9 +12,10 @@ module ek_program
    implicit none(type, external)
    private
    public :: outcome_t, elastokin, content, holds, count_of, has_store, listing, values_in
-   public :: done, usage, bad_deck, bad_model, not_found, bad_file
+   public :: done, usage, bad_deck, bad_model, not_found, bad_file, stopped
 
-   integer, parameter :: done = 0, usage = 1, bad_deck = 2, bad_model = 3, not_found = 4, bad_file = 5
+   integer, parameter :: done = 0, usage = 1, bad_deck = 2, bad_model = 3, not_found = 4, bad_file = 5, &
+      stopped = 6
 
    !> What a run of the program left behind.
    type :: outcome_t

@@ -9,6 +9,8 @@ from ctypes import POINTER, c_char_p, c_double, c_int, c_void_p
 from pathlib import Path
 from typing import Any
 
+from . import errors
+
 _DOUBLES = c_void_p              # address of an array of doubles
 _TEXTS = POINTER(c_char_p)
 
@@ -18,6 +20,11 @@ _PROTOTYPES: dict[str, tuple[Any, list[Any]]] = {
     "ek_use_one_thread": (c_int, []),
     "ek_open_file": (c_int, [c_char_p, POINTER(c_void_p)]),
     "ek_open_text": (c_int, [c_char_p, c_char_p, POINTER(c_void_p)]),
+    "ek_copy": (c_int, [c_void_p, POINTER(c_void_p)]),
+    "ek_file_count": (c_int, [c_void_p]),
+    "ek_file_path": (c_char_p, [c_void_p, c_int]),
+    "ek_file_text": (c_char_p, [c_void_p, c_int]),
+    "ek_open_files": (c_int, [c_int, _TEXTS, _TEXTS, POINTER(c_void_p)]),
     "ek_close": (None, [c_void_p]),
     "ek_message": (c_char_p, [c_void_p]),
     "ek_name": (c_char_p, [c_void_p]),
@@ -105,6 +112,20 @@ def text_of(text: bytes | None) -> str:
     return "" if text is None else text.decode("utf-8", "replace")
 
 
-def texts_for(texts: list[str]) -> Any:
+def bytes_for(text: str, what: str) -> bytes:
+    """A text for the library, which ends it at the first NUL. `what`: for the message, as "a path"."""
+    if not isinstance(text, str):
+        raise TypeError(f"{what} must be a str, found {type(text).__name__}")
+    return without_nul(text.encode("utf-8", "surrogateescape"), what)
+
+
+def without_nul(text: bytes, what: str) -> bytes:
+    """The same bytes. Raises UsageError if there is a NUL among them."""
+    if b"\0" in text:
+        raise errors.UsageError(f"{what} must not contain a NUL character, found {text[:60]!r}")
+    return text
+
+
+def texts_for(texts: list[str], what: str = "a text") -> Any:
     """An array of texts for the library."""
-    return (c_char_p * len(texts))(*(text.encode() for text in texts))
+    return (c_char_p * len(texts))(*(bytes_for(text, what) for text in texts))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import errors
-from ._library import lib, text_of, texts_for
+from ._library import bytes_for, lib, text_of, texts_for, without_nul
 from .parameters import Parameters
 from .result import Heading, Remark, Result
 
@@ -28,7 +28,7 @@ class Model:
 
     Open one with `Model.from_file` or `Model.from_text`. Each model may be used by several threads: one waits for the other;
     different models are solved at the same time. A model can be copied and pickled, for instance for
-    `multiprocessing`: the copy is opened from the same text and receives the same changes.
+    `multiprocessing`: the copy has the files as they were when the model was opened, and the same changes.
     """
 
     def __init__(self) -> None:
@@ -39,9 +39,8 @@ class Model:
         """Reads a deck from a file. Raises FileError, DeckError, ModelError. Issues one ModelWarning if there are `remarks`."""
         name = os.fspath(path)
         handle = c_void_p()
-        model = cls._opened(handle, lib.ek_open_file(os.fsencode(name), byref(handle)), os.path.abspath(name), "")
-        with open(name, encoding="utf-8", errors="surrogateescape", newline="") as file:
-            model._text = file.read()
+        code = lib.ek_open_file(without_nul(os.fsencode(name), "a file name"), byref(handle))
+        model = cls._opened(handle, code, os.path.abspath(name))
         model._warn()
         return model
 
@@ -58,15 +57,15 @@ class Model:
     @classmethod
     def _from_text(cls, text: str, name: str) -> Model:
         handle = c_void_p()
-        return cls._opened(handle, lib.ek_open_text(text.encode("utf-8", "surrogateescape"), os.fsencode(name), byref(handle)), name, text)
+        content, file = bytes_for(text, "a deck"), without_nul(os.fsencode(name), "a file name")
+        return cls._opened(handle, lib.ek_open_text(content, file, byref(handle)), name)
 
     @classmethod
-    def _opened(cls, handle: c_void_p, code: int, source: str, text: str) -> Model:
+    def _opened(cls, handle: c_void_p, code: int, source: str) -> Model:
         model = cls.__new__(cls)
         model._handle = handle.value
         model._lock = threading.RLock()
         model._source = source
-        model._text = text
         model._changes = []
         model._serial = 0
         model._columns = {}
@@ -82,7 +81,6 @@ class Model:
     _handle: int | None
     _lock: threading.RLock      # held during a call and until its texts and values are copied
     _source: str                # path of the deck, or name of the text
-    _text: str                  # of the deck, for copies
     _changes: list[_Change]
     _serial: int                # of the last solution
     _columns: dict[tuple[str | None, ...], tuple[tuple[str, ...], tuple[Heading, ...]]]     # of a case with these columns
@@ -190,22 +188,24 @@ class Model:
         """A number of the deck in the unit of the deck; NaN if the path leads to several different numbers."""
         value = c_double()
         with self._lock:
-            self._check(lib.ek_get(self._open, path.encode(), byref(value)))
+            self._check(lib.ek_get(self._open, bytes_for(path, "a path"), byref(value)))
         return value.value
 
     def __setitem__(self, path: str, value: float | str) -> None:
         """Changes a number in the unit of the deck, as --set: on both sides of a mirrored axle, `*` in the path for any letters.
 
         A text is a word of the deck, or a change of the present number: "*1.1" scales it, "+2" adds to it. The deck is then read again, which
-        takes some milliseconds. Some values outside their legal range are only reported by the next solution.
+        takes some milliseconds. A number outside its legal range raises DeckError and changes nothing. Legal numbers that together define no
+        valid model are reported by the next solution.
         """
+        name = bytes_for(path, "a path")
         with self._lock:
             if isinstance(value, str):
-                self._check(lib.ek_set_text(self._open, path.encode(), value.encode()))
+                self._check(lib.ek_set_text(self._open, name, bytes_for(value, "a value")))
                 self._forget()
             else:
                 value = float(value)
-                self._check(lib.ek_set(self._open, path.encode(), value))
+                self._check(lib.ek_set(self._open, name, value))
                 if path not in self._paths:     # the library may have read the deck again with it
                     self._forget()
                     self._paths.add(path)
@@ -225,7 +225,7 @@ class Model:
             self._changes = others
 
     def __contains__(self, path: object) -> bool:
-        if not isinstance(path, str):
+        if not isinstance(path, str) or "\0" in path:
             return False
         value = c_double()
         with self._lock:
@@ -290,6 +290,9 @@ class Model:
         if x.ndim != 1:
             raise errors.UsageError(f"x needs one dimension, found {x.ndim}")
         with self._lock:
+            n = lib.ek_parameter_count(self._open)
+            if x.size != n:
+                raise errors.UsageError(f"x needs {n} numbers, one for each of parameters.paths, found {x.size}")
             self._check(lib.ek_set_all(self._open, x.size, x.ctypes.data))
             self._changes = [change for change in self._changes if isinstance(change[1], str)]
             self._changes.append(("", x))
@@ -310,10 +313,12 @@ class Model:
         if isinstance(columns, str):
             columns = [columns]
         wanted = list(columns) if columns is not None else []
+        name = bytes_for(case, "the name of a case") if case is not None else b""
+        heads = texts_for(wanted, "the name of a column") if wanted else None
         with self._lock:
             handle = self._open
             self._serial += 1
-            status = lib.ek_solve(handle, (case or "").encode(), len(wanted), texts_for(wanted) if wanted else None)
+            status = lib.ek_solve(handle, name, len(wanted), heads)
             message = ""
             if status == errors.CONVERGENCE:
                 message = text_of(lib.ek_message(handle))
@@ -364,8 +369,8 @@ class Model:
                 raise errors.UsageError("the model has solved another case since; solve again before derivatives are read")
             self._check(
                 lib.ek_derivatives(
-                    self._open, row, len(columns), texts_for(columns), len(numbers), texts_for(numbers), slopes.ctypes.data,
-                    doubts.ctypes.data
+                    self._open, row, len(columns), texts_for(columns, "the name of a column"), len(numbers),
+                    texts_for(numbers, "a path"), slopes.ctypes.data, doubts.ctypes.data
                 )
             )
         return slopes, doubts
@@ -379,9 +384,12 @@ class Model:
         that did not converge (states outside the window of a slope do not matter), or if the model does not define it; a
         ConvergenceWarning then names all such numbers. The others are good.
         """
+        if not names:
+            raise TypeError("numbers() needs at least one name, as in numbers('left_bump_toe'); key_numbers() returns all numbers")
+        wanted = texts_for(list(names), "the name of a key number")
         values = np.empty(len(names))
         with self._lock:
-            code = lib.ek_numbers(self._open, len(names), texts_for(list(names)), values.ctypes.data)
+            code = lib.ek_numbers(self._open, len(names), wanted, values.ctypes.data)
             message = ""
             if code == errors.CONVERGENCE:
                 message = text_of(lib.ek_message(self._handle))
@@ -393,7 +401,8 @@ class Model:
 
     def key_numbers(self) -> dict[str, float]:
         """All key numbers that this model has."""
-        return self.numbers(*self.number_names)
+        names = self.number_names
+        return self.numbers(*names) if names else {}
 
     @property
     def number_names(self) -> tuple[str, ...]:
@@ -416,9 +425,13 @@ class Model:
     # ---- copies ----
 
     def copy(self) -> Model:
-        """Another model with the same text and the same changes, for instance for another thread."""
+        """Another model with the same deck and the same changes, for instance for another thread. No file is read again."""
+        handle = c_void_p()
         with self._lock:
-            return _copy_of(self._text, self._source, list(self._changes))
+            code = lib.ek_copy(self._open, byref(handle))
+            model = Model._opened(handle, code, self._source)
+            model._changes = list(self._changes)
+        return model
 
     __copy__ = copy
 
@@ -427,11 +440,22 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         with self._lock:
-            return _copy_of, (self._text, self._source, list(self._changes))
+            handle = self._open
+            files = [(lib.ek_file_path(handle, k), lib.ek_file_text(handle, k)) for k in range(lib.ek_file_count(handle))]
+            return _from_files, (files, self._source, list(self._changes))
 
 
-def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
-    model = Model._from_text(text, name)
+def _from_files(files: list[tuple[bytes, bytes]], source: str, changes: list[_Change]) -> Model:
+    """A model from the files that it was opened from."""
+    handle = c_void_p()
+    n = len(files)
+    paths, texts = ((ctypes.c_char_p * n)(*column) for column in zip(*files))
+    model = Model._opened(handle, lib.ek_open_files(n, paths, texts, byref(handle)), source)
     model._make(changes)
     model._changes = changes
     return model
+
+
+def _copy_of(text: str, name: str, changes: list[_Change]) -> Model:
+    """What pickles of earlier versions call: they do not have the included files."""
+    raise errors.UsageError(f"{name}: this model was pickled by an earlier version of elastokin; open its deck and pickle it again")

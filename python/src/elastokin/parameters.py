@@ -38,6 +38,16 @@ class Parameters(Mapping[str, Parameter]):
         self._values = values
         self._index = {path: k for k, path in enumerate(paths)}
 
+    @property
+    def common_paths(self) -> dict[str, tuple[str, str]]:
+        """On a mirrored axle: paths that lead to both sides (`spring.coil.rate`), with the paths of the left and of the right number."""
+        pairs: dict[str, tuple[str, str]] = {}
+        for k, j in enumerate(self._left):
+            group, _, rest = self.paths[j].partition(".")
+            if j >= 0 and rest.startswith("left_"):
+                pairs[f"{group}.{rest.removeprefix('left_')}"] = self.paths[j], self.paths[k]
+        return pairs
+
     def index(self, path: str) -> int:
         """Position of a number in `Model.x`. Raises KeyError."""
         return self._index[path]

@@ -1,0 +1,107 @@
+!> The C interface (include/elastokin.h): copies of a model, and the files that it was read from.
+module ek_c_copy
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_null_ptr, c_ptr
+   use ek_error, only: error_t
+   use ek_kept_files, only: kept_files_t, add_file
+   use ek_session_copy, only: copy_session, open_files
+   use ek_c_handle, only: handle_t, open_handle, take_handle, finish, refuse, say, from_c, is_position, ek_ok
+   use ek_c_model, only: new_handle
+   implicit none(type, external)
+   private
+   public :: ek_copy, ek_file_count, ek_file_path, ek_file_text, ek_open_files
+
+contains
+
+   integer(c_int) function ek_copy(model, copy) bind(c) result(code)
+      type(c_ptr), value :: model
+      type(c_ptr), value :: copy                   !! where the handle is to be stored
+      type(handle_t), pointer :: handle, other
+      type(error_t), allocatable :: error
+
+      call take_handle(model, handle, code)
+      if (code == ek_ok .and. .not. c_associated(copy)) code = refuse(handle, 'copy must not be NULL')
+      if (code /= ek_ok) return
+      call new_handle(copy, other, code)
+      if (code /= ek_ok) return
+      call copy_session(handle%session, other%session, error)
+      code = finish(other, error)
+      other%code = code
+      other%is_open = code == ek_ok
+   end function ek_copy
+
+   integer(c_int) function ek_file_count(model) bind(c) result(count)
+      type(c_ptr), value :: model
+      type(handle_t), pointer :: handle
+
+      handle => open_handle(model)
+      count = 0
+      if (associated(handle)) count = int(handle%session%original%kept%count(), c_int)
+   end function ek_file_count
+
+   type(c_ptr) function ek_file_path(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_file(open_handle(model), k, .true.)
+   end function ek_file_path
+
+   type(c_ptr) function ek_file_text(model, k) bind(c) result(address)
+      type(c_ptr), value :: model
+      integer(c_int), value :: k
+      address = text_of_file(open_handle(model), k, .false.)
+   end function ek_file_text
+
+   !> Path or content of a file that was read.
+   type(c_ptr) function text_of_file(handle, k, is_path) result(address)
+      type(handle_t), pointer, intent(in) :: handle
+      integer(c_int), intent(in) :: k
+      logical, intent(in) :: is_path
+
+      address = c_null_ptr
+      if (.not. associated(handle)) return
+      if (.not. is_position(handle, k, handle%session%original%kept%count())) return
+      !$omp critical (ek_words)
+      if (is_path) then
+         address = say(handle, handle%session%original%kept%path(k + 1))
+      else
+         address = say(handle, handle%session%original%kept%text(k + 1))
+      end if
+      !$omp end critical (ek_words)
+   end function text_of_file
+
+   integer(c_int) function ek_open_files(n, paths, texts, model) bind(c) result(code)
+      integer(c_int), value :: n
+      type(c_ptr), value :: paths, texts
+      type(c_ptr), value :: model                  !! where the handle is to be stored
+      type(handle_t), pointer :: handle
+      type(error_t), allocatable :: error
+      type(kept_files_t) :: files
+      type(c_ptr), pointer :: path(:), text(:)
+      character(:), allocatable :: name, content
+      logical :: is_good
+      integer :: k
+
+      call new_handle(model, handle, code)
+      if (code /= ek_ok) return
+      is_good = n > 0 .and. c_associated(paths) .and. c_associated(texts)
+      if (is_good) then
+         call c_f_pointer(paths, path, [n])
+         call c_f_pointer(texts, text, [n])
+         do k = 1, n
+            is_good = is_good .and. c_associated(path(k)) .and. c_associated(text(k))
+            call from_c(path(k), name)
+            call from_c(text(k), content)
+            call add_file(files, name, content)
+         end do
+      end if
+      if (is_good) then
+         call open_files(files, handle%session, error)
+         code = finish(handle, error)
+      else
+         handle%is_open = .true.
+         code = refuse(handle, 'n must be positive, and paths, texts and their entries must not be NULL')
+      end if
+      handle%code = code
+      handle%is_open = code == ek_ok
+   end function ek_open_files
+
+end module ek_c_copy

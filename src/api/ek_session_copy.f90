@@ -1,0 +1,61 @@
+!> A deck opened for a program that calls elastokin: copies of it. Part of the Fortran interface (ek_api).
+!>
+!> A copy is what was opened: no file is read again, so that it has the same checksum whatever has become of the files since.
+module ek_session_copy
+   use ek_error, only: error_t, fail, exit_usage
+   use ek_kept_files, only: kept_files_t
+   use ek_deck, only: parse_deck
+   use ek_design_solver, only: begin_design_solver
+   use ek_session, only: session_t, begin_opened, begin_solver, empty_session
+   implicit none(type, external)
+   private
+   public :: copy_session, opened_files, open_files
+
+contains
+
+   !> Makes another session of the same deck with the same changes, without a solution.
+   subroutine copy_session(from, to, error)
+      type(session_t), intent(in) :: from                  !! with a deck
+      type(session_t), intent(inout) :: to
+      type(error_t), allocatable, intent(out) :: error
+
+      call empty_session(to)
+      !$omp critical (ek_words)
+      to%original = from%original
+      to%deck = from%deck
+      allocate (to%solver)
+      call begin_design_solver(to%deck, to%solver, error)
+      if (.not. allocated(error)) then
+         call begin_solver(to)
+         to%numbers = from%numbers
+         to%numbers%is_new = .true.
+         to%is_text_changed = from%is_text_changed
+      end if
+      !$omp end critical (ek_words)
+   end subroutine copy_session
+
+   !> The deck as it was opened, then every file that it names: included files, hardpoints, properties, load tables.
+   function opened_files(session) result(files)
+      type(session_t), intent(in) :: session
+      type(kept_files_t) :: files
+      files = session%original%kept
+   end function opened_files
+
+   !> Opens a deck from the content of its files (opened_files). A file that is missing there is read.
+   subroutine open_files(files, session, error)
+      type(kept_files_t), intent(in) :: files              !! the first is the deck
+      type(session_t), intent(inout) :: session
+      type(error_t), allocatable, intent(out) :: error     !! exit_usage, exit_deck: every mistake of the deck
+
+      call empty_session(session)
+      if (files%count() == 0) then
+         call fail(error, exit_usage, 'expected the files of a deck, found none')
+         return
+      end if
+      !$omp critical (ek_words)
+      call parse_deck(files%text(1), files%path(1), session%original, error, kept=files)
+      if (.not. allocated(error)) call begin_opened(session, error)
+      !$omp end critical (ek_words)
+   end subroutine open_files
+
+end module ek_session_copy

@@ -1,0 +1,95 @@
+!> The content of files that were read once: who reads one of them again gets the same bytes, whatever has become of the file since.
+module ek_kept_files
+   use ek_error, only: error_t
+   use ek_file, only: read_whole
+   implicit none(type, external)
+   private
+   public :: kept_files_t, add_file, keep_file, read_kept
+
+   type :: kept_file_t
+      character(:), allocatable :: path, text
+   end type kept_file_t
+
+   type :: kept_files_t
+      private
+      type(kept_file_t), allocatable :: list(:)
+      integer :: used = 0
+   contains
+      procedure :: count => kept_count, path => kept_path, text => kept_text
+   end type kept_files_t
+
+contains
+
+   pure integer function kept_count(self)
+      class(kept_files_t), intent(in) :: self
+      kept_count = self%used
+   end function kept_count
+
+   !> The path of file k, as it was read.
+   pure function kept_path(self, k) result(path)
+      class(kept_files_t), intent(in) :: self
+      integer, intent(in) :: k
+      character(:), allocatable :: path
+      path = self%list(k)%path
+   end function kept_path
+
+   !> The content of file k, byte for byte.
+   pure function kept_text(self, k) result(text)
+      class(kept_files_t), intent(in) :: self
+      integer, intent(in) :: k
+      character(:), allocatable :: text
+      text = self%list(k)%text
+   end function kept_text
+
+   !> The position of a path; 0 if it is not kept.
+   pure integer function place(files, path) result(k)
+      type(kept_files_t), intent(in) :: files
+      character(*), intent(in) :: path
+
+      do k = files%used, 1, -1
+         if (files%list(k)%path == path) return
+      end do
+   end function place
+
+   !> Adds a file, unless its path is there.
+   pure subroutine add_file(files, path, text)
+      type(kept_files_t), intent(inout) :: files
+      character(*), intent(in) :: path, text
+
+      if (place(files, path) > 0) return
+      if (.not. allocated(files%list)) allocate (files%list(8))
+      if (files%used == size(files%list)) files%list = [files%list, files%list]      ! twice the size
+      files%used = files%used + 1
+      files%list(files%used)%path = path
+      files%list(files%used)%text = text
+   end subroutine add_file
+
+   !> Reads a file and adds it. One that cannot be read is not added: whoever reads it reports the reason.
+   subroutine keep_file(files, path)
+      type(kept_files_t), intent(inout) :: files
+      character(*), intent(in) :: path
+      type(error_t), allocatable :: error
+      character(:), allocatable :: text
+
+      if (place(files, path) > 0) return
+      call read_whole(path, text, error)
+      if (.not. allocated(error)) call add_file(files, path, text)
+   end subroutine keep_file
+
+   !> The content of a file: that which is kept, otherwise that of the file now.
+   subroutine read_kept(files, path, text, error)
+      type(kept_files_t), intent(in) :: files
+      character(*), intent(in) :: path
+      character(:), allocatable, intent(out) :: text
+      type(error_t), allocatable, intent(out) :: error       !! exit_file, see read_whole
+      integer :: k
+
+      k = place(files, path)
+      if (k > 0) then
+         text = files%list(k)%text
+      else
+         call read_whole(path, text, error)
+      end if
+   end subroutine read_kept
+
+end module ek_kept_files

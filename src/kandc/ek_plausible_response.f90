@@ -1,0 +1,233 @@
+!> Plausibility of the response of a model at design: wheel rate, ride frequency, motion ratio of each spring, bump steer and bump
+!> camber, the share of an anti-roll bar in the roll rate; and springs that carry nothing although the wheels are loaded.
+!>
+!> Costs one factorisation of the tangent at design, of a model with an anti-roll bar two; no equilibrium is solved.
+module ek_plausible_response
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_value, ieee_quiet_nan
+   use ek_kinds, only: wp, pi, degree
+   use ek_text, only: str, quoted
+   use ek_measure, only: distance
+   use ek_element, only: element_kinds, axial_spring, torsion_spring
+   use ek_element_label, only: element_label, is_between_bodies
+   use ek_element_force, only: spring_tension
+   use ek_suspension, only: suspension_t
+   use ek_state, only: design_state, inputs_t
+   use ek_kkt, only: kkt_t
+   use ek_wheel_side, only: prefix_of
+   use ek_kandc_list, only: kandc_t, list_kandc, choose_kandc
+   use ek_kandc_columns, only: observe_kandc
+   use ek_plausible_range, only: doubts_t, force
+   implicit none(type, external)
+   private
+   public :: doubt_response
+
+   real(wp), parameter :: newton_per_mm = 1.0e3_wp      !! N/m
+   real(wp), parameter :: standard_gravity = 9.80665_wp !! m/s²
+   character(*), parameter :: wanted(*) = [character(24) :: 'wheel_rate_n_per_mm', 'bump_toe_deg_per_m', 'bump_camber_deg_per_m']
+   character(*), parameter :: of_roll = 'suspension_roll_rate_nm_per_deg', of_spring = '_motion_ratio'
+
+contains
+
+   !> Remarks on a model that can be solved.
+   subroutine doubt_response(suspension, kkt, doubts)
+      type(suspension_t), intent(in) :: suspension     !! balanced if possible; not on a rig
+      type(kkt_t), intent(inout) :: kkt                !! work space
+      type(doubts_t), intent(inout) :: doubts
+      type(kandc_t) :: kandc
+      integer :: k
+
+      if (size(suspension%wheels) == 0) return
+      call respond_at_design(suspension, kkt, kandc)
+      if (.not. kandc%compliance%is_known) return
+      do k = 1, size(suspension%elements)
+         if (suspension%elements(k)%kind == axial_spring) call doubt_motion(suspension, k, kandc, doubts)
+      end do
+      do k = 1, size(suspension%wheels)
+         call doubt_wheel(suspension, k, kandc, doubts)
+      end do
+      call doubt_load(suspension, doubts)
+      call doubt_bar(suspension, kandc, kkt, doubts)
+   end subroutine doubt_response
+
+   !> The columns of the response at design that are judged.
+   subroutine respond_at_design(suspension, kkt, kandc)
+      type(suspension_t), intent(in) :: suspension
+      type(kkt_t), intent(inout) :: kkt
+      type(kandc_t), intent(out) :: kandc
+      logical, allocatable :: is_wanted(:)
+      integer :: k, w
+
+      call list_kandc(suspension, kandc)
+      allocate (is_wanted(kandc%used), source=.false.)
+      do k = 1, kandc%used
+         associate (name => kandc%names(k))
+            is_wanted(k) = name == of_roll .or. index(trim(name)//' ', of_spring//' ') > 0
+            do w = 1, size(suspension%wheels)
+               is_wanted(k) = is_wanted(k) .or. any(prefix_of(suspension, w)//wanted == name)
+            end do
+         end associate
+      end do
+      call choose_kandc(kandc, is_wanted)
+      call observe_kandc(suspension, design_state(suspension), inputs_t(), kkt, kandc)
+   end subroutine respond_at_design
+
+   !> The value of a column; not finite if the model does not define it.
+   pure real(wp) function value_of(kandc, name) result(value)
+      type(kandc_t), intent(in) :: kandc
+      character(*), intent(in) :: name
+      integer :: k
+
+      value = ieee_value(1.0_wp, ieee_quiet_nan)
+      k = findloc(kandc%names(:kandc%used), name, dim=1)
+      if (k > 0) value = kandc%values(k)
+   end function value_of
+
+   !> The motion ratio of a spring: its size, and whether the spring gets shorter in bump.
+   subroutine doubt_motion(suspension, k, kandc, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: k
+      type(kandc_t), intent(in) :: kandc
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: felt = 1.0_wp         ! N: less is rounding of the preloads in the deck
+      real(wp) :: ratio, rate, tension, slope
+
+      associate (spring => suspension%elements(k))
+         if (is_between_bodies(spring)) return      ! a rod or a helper spring
+         ratio = value_of(kandc, spring%name//of_spring)
+         rate = value_of(kandc, prefix_of(suspension, 1)//wanted(1))
+         if (.not. (ieee_is_finite(ratio) .and. ieee_is_finite(rate))) return
+         call doubts%examine(spring%where, element_label(spring))
+         call doubts%judge('motion ratio', ratio, ' (with it, the wheel rate is '//str(rate, 4)//' N/mm)')
+         call spring_tension(spring, spring%design_length, tension, slope)
+         if (ratio > 0.0_wp .and. tension > felt) call doubts%add('tension', 'in tension at design, '// &
+            doubts%speak(force, tension)//', and it gets longer in bump (motion ratio '//str(ratio, 3)// &
+            '): is it on the wrong side of its rocker or lever? A coil carries compression only')
+      end associate
+   end subroutine doubt_motion
+
+   !> Wheel rate, ride frequency, bump steer and bump camber of a wheel.
+   subroutine doubt_wheel(suspension, w, kandc, doubts)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: w
+      type(kandc_t), intent(in) :: kandc
+      type(doubts_t), intent(inout) :: doubts
+      real(wp) :: value, load
+      character(:), allocatable :: prefix
+
+      prefix = prefix_of(suspension, w)
+      associate (wheel => suspension%wheels(w))
+         call doubts%examine(wheel%where, 'wheel '//quoted(wheel%name))
+         value = value_of(kandc, prefix//wanted(1))*newton_per_mm
+         load = road_load(suspension, w)
+         if (ieee_is_finite(value) .and. has_coil(suspension)) then
+            call doubts%judge('wheel rate', value)
+            if (load > 0.0_wp .and. value > 0.0_wp) &
+               call doubts%judge('ride frequency', sqrt(value*standard_gravity/load)/(2.0_wp*pi))
+         end if
+         value = value_of(kandc, prefix//wanted(2))*degree
+         if (ieee_is_finite(value)) call doubts%judge('bump toe', value)
+         value = value_of(kandc, prefix//wanted(3))*degree
+         if (ieee_is_finite(value)) call doubts%judge('bump camber', value)
+      end associate
+   end subroutine doubt_wheel
+
+   pure logical function has_coil(suspension)
+      type(suspension_t), intent(in) :: suspension
+      has_coil = any(element_kinds(suspension%elements%kind)%carries)
+   end function has_coil
+
+   !> The constant load of the road on a wheel [N].
+   pure real(wp) function road_load(suspension, w) result(load)
+      type(suspension_t), intent(in) :: suspension
+      integer, intent(in) :: w
+      integer :: k
+
+      load = 0.0_wp
+      do k = 1, size(suspension%loads)
+         associate (of => suspension%loads(k))
+            if (.not. of%is_case .and. .not. of%is_weight .and. of%body == suspension%wheels(w)%body) load = load + of%force(3)
+         end associate
+      end do
+   end function road_load
+
+   !> Whether the preloads of balance leave all springs without force although the road loads the wheels.
+   subroutine doubt_load(suspension, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: nothing = 0.01_wp          ! share of the wheel load
+      real(wp) :: most, load, tension, slope
+      integer :: k, first
+
+      if (suspension%balance == 'none') return
+      load = 0.0_wp
+      do k = 1, size(suspension%wheels)
+         load = max(load, road_load(suspension, k))
+      end do
+      most = 0.0_wp
+      first = 0
+      do k = 1, suspension%scalars
+         associate (e => suspension%elements(k))
+            if (e%kind == torsion_spring .and. min(e%measure%body_i, e%measure%body_j) == 0) return
+            if (.not. element_kinds(e%kind)%carries) cycle
+            if (e%measure%kind /= distance) return
+            if (first == 0) first = k
+            call spring_tension(e, e%design_length, tension, slope)
+            most = max(most, abs(tension))
+         end associate
+      end do
+      if (first == 0 .or. most >= nothing*load .or. .not. has_preload(suspension)) return
+      associate (spring => suspension%elements(first))
+         call doubts%examine(spring%where, element_label(spring))
+         call doubts%add('bearing', 'it carries '//doubts%speak(force, most)//' at design, although the road '// &
+            'pushes a wheel up with '//doubts%speak(force, load)//': what carries the wheel? '// &
+            'Check the bodies of the spring and the rods that lead to it')
+      end associate
+   end subroutine doubt_load
+
+   !> Whether there is a preload at all; otherwise the model was not balanced.
+   pure logical function has_preload(suspension)
+      type(suspension_t), intent(in) :: suspension
+      integer :: k
+
+      has_preload = .false.
+      do k = 1, size(suspension%elements)
+         associate (e => suspension%elements(k))
+            has_preload = has_preload .or. abs(e%preload) > 0.0_wp .or. norm2(e%bushing%preload_force) > 0.0_wp
+         end associate
+      end do
+   end function has_preload
+
+   !> Whether an anti-roll bar, a torsion spring between a body on the left and one on the right, adds to the roll rate.
+   subroutine doubt_bar(suspension, kandc, kkt, doubts)
+      type(suspension_t), intent(in) :: suspension
+      type(kandc_t), intent(in) :: kandc
+      type(kkt_t), intent(inout) :: kkt
+      type(doubts_t), intent(inout) :: doubts
+      real(wp), parameter :: least = 1.005_wp     ! a bar adds 10 % or more; this is far above rounding
+      type(suspension_t), allocatable :: without
+      type(kandc_t) :: other
+      real(wp) :: with_bar, without_bar
+      integer :: k
+
+      with_bar = value_of(kandc, of_roll)
+      if (.not. ieee_is_finite(with_bar)) return
+      do k = 1, suspension%scalars
+         associate (bar => suspension%elements(k))
+            if (bar%kind /= torsion_spring .or. min(bar%measure%body_i, bar%measure%body_j) == 0) cycle
+            if (bar%law%has_curve .or. .not. bar%law%rate > 0.0_wp) cycle
+            if (suspension%bodies(bar%measure%body_i)%origin(2)*suspension%bodies(bar%measure%body_j)%origin(2) >= 0.0_wp) cycle
+            allocate (without, source=suspension)
+            without%elements(k)%law%rate = 0.0_wp
+            call respond_at_design(without, kkt, other)
+            deallocate (without)
+            if (.not. other%compliance%is_known) cycle
+            without_bar = value_of(other, of_roll)
+            if (.not. ieee_is_finite(without_bar) .or. .not. without_bar > 0.0_wp .or. with_bar > least*without_bar) cycle
+            call doubts%examine(bar%where, element_label(bar))
+            call doubts%add('bar axis', 'it adds nothing to the roll rate of '//str(with_bar, 4)//' N m/deg: check its axis, '// &
+               'its hinges and the links at its ends')
+         end associate
+      end do
+   end subroutine doubt_bar
+
+end module ek_plausible_response

@@ -1,0 +1,148 @@
+!> Remarks on the factors of a study that move hardpoints: a pattern that also moves the points of a wheel, and a point that is moved
+!> away from another one at the same location.
+module ek_factor_remark
+   use ek_kinds, only: wp
+   use ek_error, only: message_list_t
+   use ek_text, only: str, quoted
+   use ek_record, only: record_t, element
+   use ek_group, only: group_names, point_group
+   use ek_reader, only: design_t
+   use ek_study, only: study_t
+   use ek_worker, only: factor_paths_t
+   implicit none(type, external)
+   private
+   public :: factor_remarks
+
+   real(wp), parameter :: same = 1.0e-9_wp        !! m: two points at one location
+   integer, parameter :: most = 3                 !! points or pairs of points named in a remark
+
+contains
+
+   !> Adds the remarks on the factors of a study, at most one of each kind for a line of it: `each = .true.` makes many factors.
+   subroutine factor_remarks(study, design, paths, words)
+      type(study_t), intent(in) :: study
+      type(design_t), intent(in) :: design                 !! of the deck
+      type(factor_paths_t), intent(in) :: paths(:)         !! of the factors
+      type(message_list_t), intent(inout) :: words
+      logical :: is_moved(size(design%records)), is_new(2)
+      character(:), allocatable :: list
+      integer :: f
+
+      is_new = .true.
+      do f = 1, size(paths)
+         associate (factor => study%factors(f))
+            if (f > 1) is_new = is_new .or. study%factors(max(f - 1, 1))%where /= factor%where
+            call find_moved(design, paths(f), is_moved)
+            list = ''
+            if (any(index(factor%paths, '*') > 0) .or. factor%is_of_pattern) call wheel_points(design, is_moved, list)
+            if (len(list) > 0 .and. is_new(1)) then
+               is_new(1) = .false.
+               call words%add(factor%where//': factor '//quoted(factor%name)//': the paths also move '//list// &
+                  ' of a wheel; if only the suspension is to move, name its points')
+            end if
+            call parted_points(design, is_moved, list)
+            if (len(list) > 0 .and. is_new(2)) then
+               is_new(2) = .false.
+               call words%add(factor%where//': factor '//quoted(factor%name)//': it moves '//list// &
+                  ' at the same location; if they are one point, let one factor move both')
+            end if
+         end associate
+      end do
+   end subroutine factor_remarks
+
+   !> The points of which a factor moves a coordinate.
+   subroutine find_moved(design, paths, is_moved)
+      type(design_t), intent(in) :: design
+      type(factor_paths_t), intent(in) :: paths
+      logical, intent(out) :: is_moved(:)                  !! of each record
+      integer :: j
+
+      is_moved = .false.
+      do j = 1, size(paths%found)
+         associate (record => design%parameters%list(paths%found(j)%number)%record)
+            if (record > 0) is_moved(record) = is_moved(record) .or. design%records(record)%group == group_names(point_group)
+         end associate
+      end do
+   end subroutine find_moved
+
+   !> "'contact_patch' and 'wheel_centre'" of the moved points; ''.
+   subroutine wheel_points(design, is_moved, list)
+      type(design_t), intent(in) :: design
+      logical, intent(in) :: is_moved(:)
+      character(:), allocatable, intent(out) :: list
+      integer :: k, found
+
+      list = ''
+      found = 0
+      do k = 1, size(is_moved)
+         if (.not. is_moved(k)) cycle
+         if (.not. is_of_wheel(design, element(design%records(k), 'name', 1))) cycle
+         found = found + 1
+         if (found <= most) list = list//', '//quoted(element(design%records(k), 'name', 1))
+      end do
+      list = list(min(3, len(list) + 1):)
+      if (found > most) list = list//' and '//str(found - most)//' more points'
+   end subroutine wheel_points
+
+   !> Whether a wheel names a point as its centre or its contact point.
+   logical function is_of_wheel(design, name)
+      type(design_t), intent(in) :: design
+      character(*), intent(in) :: name
+      integer :: k
+
+      is_of_wheel = .false.
+      do k = 1, size(design%records)
+         if (design%records(k)%group /= 'wheel') cycle
+         is_of_wheel = is_of_wheel .or. element(design%records(k), 'centre', 1) == name .or. &
+            element(design%records(k), 'contact', 1) == name
+      end do
+   end function is_of_wheel
+
+   !> "'strut_top', but not 'spring_upper_seat'": moved points, each with one that stays at its location; ''.
+   subroutine parted_points(design, is_moved, list)
+      type(design_t), intent(in) :: design
+      logical, intent(in) :: is_moved(:)
+      character(:), allocatable, intent(out) :: list
+      real(wp) :: at(3, size(is_moved))
+      logical :: is_point(size(is_moved))
+      integer :: k, j, found
+
+      call place_points(design, at, is_point)
+      list = ''
+      found = 0
+      do k = 1, size(is_moved)
+         if (.not. is_moved(k)) cycle
+         do j = 1, size(is_moved)
+            if (.not. is_point(j) .or. is_moved(j)) cycle
+            if (maxval(abs(at(:, k) - at(:, j))) > same) cycle
+            found = found + 1
+            if (found <= most) list = list//', '//quoted(element(design%records(k), 'name', 1))//', but not '// &
+               quoted(element(design%records(j), 'name', 1))
+            exit
+         end do
+      end do
+      list = list(min(3, len(list) + 1):)
+      if (found > most) list = list//' and '//str(found - most)//' more'
+   end subroutine parted_points
+
+   !> The locations of the points whose three coordinates are numbers of the deck.
+   subroutine place_points(design, at, is_point)
+      type(design_t), intent(in) :: design
+      real(wp), intent(out) :: at(:, :)                    !! of each record [m]
+      logical, intent(out) :: is_point(:)
+      integer :: k, given(size(is_point))
+
+      at = 0.0_wp
+      given = 0
+      do k = 1, design%parameters%used
+         associate (p => design%parameters%list(k))
+            if (p%record <= 0 .or. p%at < 1 .or. p%at > 3) cycle
+            if (design%records(p%record)%group /= group_names(point_group)) cycle
+            at(p%at, p%record) = design%parameters%x(k)
+            given(p%record) = given(p%record) + 1
+         end associate
+      end do
+      is_point = given == 3
+   end subroutine place_points
+
+end module ek_factor_remark

@@ -1,0 +1,100 @@
+!> Correlated factors of a latin hypercube: which of the n equal intervals each design has, so that every interval of every factor is
+!> filled once and the ranks of the factors have the correlations that are asked.
+!>
+!> The method of Iman and Conover (Commun. Stat. Simul. Comput. 11 (1982) 311–334): the intervals of the factors, each in a random
+!> order of its own, become normal scores; their accidental correlations are removed, z ← Q⁻¹ z with Q Qᵀ the matrix of the sample;
+!> those asked for are added, z' = L z (ek_copula); the rank of a design among the z' of a factor is its interval.
+!>
+!> The numbers of all designs are needed for it: they are computed once, and every design reads its own.
+module ek_rank_order
+   use ek_kinds, only: wp, i8
+   use ek_error, only: error_t, fail, exit_deck
+   use ek_text, only: str
+   use ek_lapack, only: dpotrf
+   use ek_normal, only: normal_quantile
+   use ek_permutation, only: permutation_t, image_of
+   use ek_copula, only: copula_t, correlate
+   use ek_sample_statistics, only: ascending_order
+   implicit none(type, external)
+   private
+   public :: order_ranks, most_ranked
+
+   integer(i8), parameter :: most_ranked = 10000000_i8     !! designs: 4 bytes of each correlated factor stay in memory
+
+contains
+
+   !> The intervals, 0 … n − 1, of the factors that have a correlation; those of the other factors are their permutations.
+   pure subroutine order_ranks(permutations, copula, tied, designs, intervals, error)
+      type(permutation_t), intent(in) :: permutations(:)   !! of the intervals of each factor
+      type(copula_t), intent(in) :: copula                 !! of all factors
+      integer, intent(in) :: tied(:)                       !! the factors with a correlation, ascending
+      integer(i8), intent(in) :: designs
+      integer, allocatable, intent(out) :: intervals(:, :) !! (position in `tied`, design)
+      type(error_t), allocatable, intent(out) :: error     !! exit_deck: too many designs
+      real(wp), allocatable :: scores(:, :)                ! (design, position)
+      integer, allocatable :: order(:)
+      integer :: m, n, d
+
+      if (designs > most_ranked) then
+         call fail(error, exit_deck, '''latin_hypercube'' with correlations requires at most '//str(int(most_ranked))// &
+            ' samples; use kind = ''sobol'' or ''monte_carlo''')
+         return
+      end if
+      n = int(designs)
+      allocate (intervals(size(tied), n), scores(n, size(tied)), order(n))
+      do m = 1, size(tied)
+         do d = 1, n
+            scores(d, m) = normal_quantile((image_of(permutations(tied(m)), int(d - 1, i8)) + 0.5_wp)/n)
+         end do
+      end do
+      call tie(copula, tied, size(permutations), scores)
+      do m = 1, size(tied)
+         call ascending_order(scores(:, m), order)
+         do d = 1, n
+            intervals(m, order(d)) = d - 1
+         end do
+      end do
+   end subroutine order_ranks
+
+   !> Gives the scores of a sample, which have the mean 0, the correlations of the copula exactly.
+   pure subroutine tie(copula, tied, factors, scores)
+      type(copula_t), intent(in) :: copula
+      integer, intent(in) :: tied(:), factors              !! numbers of the factors; how many there are in all
+      real(wp), intent(inout) :: scores(:, :)              !! (design, position in `tied`)
+      real(wp) :: root(size(tied), size(tied)), row(size(tied)), z(factors)
+      integer :: info, d, i, m
+
+      m = size(tied)
+      do i = 1, m
+         do d = 1, i
+            root(d, i) = dot_product(scores(:, d), scores(:, i))/size(scores, 1)
+         end do
+      end do
+      call dpotrf('U', m, root, m, info)                   ! Qᵀ. Fewer designs than factors: their correlations stay
+      if (info == 0 .and. size(scores, 1) > m) info = merge(0, 1, least(root) > sqrt(epsilon(1.0_wp)))
+      z(:) = 0.0_wp
+      do d = 1, size(scores, 1)
+         row(:) = scores(d, :)
+         if (info == 0 .and. size(scores, 1) > m) then
+            do i = 1, m
+               row(i) = (row(i) - dot_product(root(:i - 1, i), row(:i - 1)))/root(i, i)
+            end do
+         end if
+         z(tied) = row
+         call correlate(copula, z)
+         scores(d, :) = z(tied)
+      end do
+   end subroutine tie
+
+   !> The least entry of a diagonal.
+   pure real(wp) function least(root)
+      real(wp), intent(in) :: root(:, :)
+      integer :: i
+
+      least = root(1, 1)
+      do i = 2, size(root, 1)
+         least = min(least, root(i, i))
+      end do
+   end function least
+
+end module ek_rank_order
