@@ -7,7 +7,7 @@ module ek_comparison
    use ek_text, only: str
    implicit none(type, external)
    private
-   public :: comparison_t, comparisons_t, add, breach, solve, read_numbers, pick, decks, numbers
+   public :: comparison_t, comparisons_t, add, breach, solve, read_numbers, read_loads, pick
 
    character(*), parameter :: decks = 'tests/validation/decks/', numbers = 'tests/validation/numbers/'
    real(wp), parameter :: missing = 1.0e30_wp        !! in no tolerance; debug builds trap comparisons of nan
@@ -98,6 +98,17 @@ contains
       call read_csv(numbers//name//'.csv', table, error)
       if (allocated(error) .and. .not. allocated(list%trouble)) list%trouble = error%message
    end subroutine read_numbers
+
+   !> The loads of a case of a deck of this folder; trouble is kept in the list.
+   subroutine read_loads(list, name, table)
+      type(comparisons_t), intent(inout) :: list
+      character(*), intent(in) :: name
+      type(table_t), intent(out) :: table
+      type(error_t), allocatable :: error
+
+      call read_csv(decks//name//'.csv', table, error)
+      if (allocated(error) .and. .not. allocated(list%trouble)) list%trouble = error%message
+   end subroutine read_loads
 
    !> A number of a table; a number outside every tolerance if the table does not have it.
    real(wp) function pick(table, name, row) result(value)

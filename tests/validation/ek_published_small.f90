@@ -28,7 +28,7 @@ contains
       integer :: a, k
 
       do a = 1, 2
-         list%part = axles(a)//' axle'
+         list%part = trim(axles(a))//' axle'
          call solve(list, 'optimum_'//trim(axles(a)), 'design', [character(1) :: ''], table)
          do k = 1, 5
             call add(list, trim(names(k)), 'design', trim(units(k)), pick(table, trim(columns(k)), design), printed(k, a), half)
@@ -39,7 +39,8 @@ contains
       end do
    end subroutine compare_optimum
 
-   !> G. Rill, Road Vehicle Dynamics (2012), listing 5.6: what its program prints at design, and six states of its construction.
+   !> G. Rill, Road Vehicle Dynamics (2012), listing 5.6: what its program prints at design, and six states by the same
+   !> construction, computed outside this program.
    !>
    !> Tolerance of the states: published lengths have 12 digits after the point in m, 1e-9 mm; angles 10 digits. The closed mechanism is
    !> found to 1e-10 mm. Of printed numbers: half a unit of the last digit.
@@ -58,7 +59,7 @@ contains
       call compare_curve(list, table, curve, 2.0e-9_wp)
    end subroutine compare_rill
 
-   !> A McPherson axle as entered in a racing game, solved by closed forms. Tolerance as in compare_rill; the strut length is measured along
+   !> A McPherson axle as entered in a racing game; the curve was computed outside this program by closed forms. Tolerance as in compare_rill; the strut length is measured along
    !> a strut of 0.6 m to the same digits.
    subroutine compare_boxster(list)
       type(comparisons_t), intent(inout) :: list
@@ -97,7 +98,7 @@ contains
       character(:), allocatable :: text
       character(32) :: words
 
-      write (words, '(a, f6.2, a, i0, a)') 'travel ', 1000*pick(curve, 'z', k), ', rack ', nint(1000*pick(curve, 'rack', k)), ' mm'
+      write (words, '(a, f0.2, a, i0, a)') 'travel ', 1000*pick(curve, 'z', k), ', rack ', nint(1000*pick(curve, 'rack', k)), ' mm'
       text = trim(words)
    end function state
 
