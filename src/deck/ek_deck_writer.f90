@@ -117,7 +117,8 @@ contains
       character(:), allocatable :: line
       integer :: e, k
 
-      call lines%line('')
+      line = ''
+      call lines%line(line)
       call lines%line('&'//record%group//'   ! '//record%file//':'//str(record%line))
       do e = 1, record%used
          associate (entry => record%entries(e))
