@@ -15,7 +15,7 @@ module ek_kept_files
       type(kept_file_t), allocatable :: list(:)
       integer :: used = 0
    contains
-      procedure :: count => kept_count, path => kept_path, text => kept_text
+      procedure :: count => kept_count, path => kept_path, text => kept_text, has => kept_has
    end type kept_files_t
 
 contains
@@ -40,6 +40,13 @@ contains
       character(:), allocatable :: text
       text = self%list(k)%text
    end function kept_text
+
+   !> Whether a file is kept.
+   pure logical function kept_has(self, path)
+      class(kept_files_t), intent(in) :: self
+      character(*), intent(in) :: path
+      kept_has = place(self, path) > 0
+   end function kept_has
 
    !> The position of a path; 0 if it is not kept.
    pure integer function place(files, path) result(k)

@@ -6,7 +6,7 @@ module ek_deck_writer
    use ek_text, only: str, quoted
    use ek_buffer, only: buffer_t
    use ek_file, only: write_whole, join_path, folder_name, base_name
-   use ek_kept_files, only: read_kept
+   use ek_kept_files, only: kept_files_t, read_kept
    use ek_record, only: record_t, entry_t
    use ek_system, only: working_folder, facts_t, facts_of, regular_file
    use ek_parameter, only: parameters_t, value_path
@@ -100,29 +100,31 @@ contains
       call lines%line('! included files, hardpoints, property files, both sides and settings are written out')
       do k = 1, size(design%records)
          if (any(written_out == design%records(k)%group)) cycle
-         call add_record(design%records(k), k, design%parameters, prefix, tables, lines)
+         call add_record(design%records(k), k, design%parameters, deck%kept, prefix, tables, lines)
       end do
       text = lines%text()
    end subroutine make_text
 
    !> One record: its file and line, a line for each key, and the numbers that it does not give.
-   subroutine add_record(record, number, parameters, prefix, tables, lines)
+   subroutine add_record(record, number, parameters, kept, prefix, tables, lines)
       type(record_t), intent(in) :: record
       integer, intent(in) :: number
       type(parameters_t), intent(in) :: parameters
+      type(kept_files_t), intent(in) :: kept
       character(*), intent(in) :: prefix
       type(table_t), allocatable, intent(inout) :: tables(:)
       type(buffer_t), intent(inout) :: lines
       character(:), allocatable :: line
       integer :: e, k
 
-      call lines%line('')
+      line = ''
+      call lines%line(line)
       call lines%line('&'//record%group//'   ! '//record%file//':'//str(record%line))
       do e = 1, record%used
          associate (entry => record%entries(e))
             if (any(replaced == entry%key)) cycle
             if (entry%key == 'file') then
-               line = '  file = '//in_quotes(table_name(record, prefix, tables))
+               line = '  file = '//in_quotes(table_name(record, kept, prefix, tables))
             else
                line = '  '//entry_text(entry)
             end if
@@ -179,8 +181,10 @@ contains
    end function in_quotes
 
    !> What the written deck calls the table of a case, which is added to the list. Tables of one name in two folders get numbers.
-   function table_name(record, prefix, tables) result(name)
+   !> One that could not be read keeps its path.
+   function table_name(record, kept, prefix, tables) result(name)
       type(record_t), intent(in) :: record
+      type(kept_files_t), intent(in) :: kept
       character(*), intent(in) :: prefix
       type(table_t), allocatable, intent(inout) :: tables(:)
       character(:), allocatable :: name
@@ -189,7 +193,7 @@ contains
 
       this%path = path_of(record, text_of(record, 'file'))
       name = join_path(working_folder(), this%path)
-      if (prefix == '') return
+      if (prefix == '' .or. .not. kept%has(this%path)) return
       same = 0
       do k = 1, size(tables)
          name = tables(k)%name
