@@ -104,7 +104,8 @@ contains
       if (allocated(error)) return
       call remove_stale(folder)
       call check_parts(study, plan, out, error)
-      if (allocated(error) .or. file_exists(join_path(folder, identity_name))) return
+      if (allocated(error)) return
+      if (file_exists(join_path(folder, identity_name))) return
       call write_whole(join_path(folder, identity_name), content_of(study, plan), error)
    end subroutine open_parts
 

@@ -405,7 +405,7 @@ two_studies_of_one_name() {
   a_study csv
   sed 's/samples = 600/samples = 500/' study.nml >other.nml
   run 0 "$program" study study.nml --out out --shard 1/2 && run 5 "$program" study other.nml --out out &&
-    says 'holds designs of another study, deck, or version of this program; remove that folder' || return 1
+    says 'holds designs of another study or deck; remove that folder' || return 1
   run 0 "$program" study study.nml --out out --no-plots && [ "$(grep -c '^[0-9]' out/s_responses.csv)" -eq 600 ] &&
     run 0 "$program" study other.nml --out out --no-plots && [ "$(grep -c '^[0-9]' out/s_responses.csv)" -eq 500 ] && clean out
 }
