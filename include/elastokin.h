@@ -52,8 +52,9 @@ const char *ek_checksum(ek_model *model);           /* of the deck with its pres
 int ek_wheel_count(ek_model *model);                /* 0, 1 or 2; left before right */
 
 /* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
- * touches the ground, implausible values ("plausible? …"), preloads found by balance, or why no case can be solved. ek_model_remarks examines
- * the model with its present numbers, solves no case, and stores how many there are; the list stays until it is called again ---- */
+ * touches the ground, implausible values, connections and responses at design ("plausible? …"), preloads found by balance, or why no case
+ * can be solved. ek_model_remarks examines the model with its present numbers, solves no case, and stores how many there are; the list
+ * stays until it is called again ---- */
 int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */
