@@ -66,8 +66,9 @@ int ek_open_files(int n, const char *const *paths, const char *const *texts, ek_
 const char *ek_deck_as_used(ek_model *model);
 
 /* ---- remarks on the model, as the program prints them before it solves a case: no spring, contact points that are not where the wheel
- * touches the ground, implausible values ("plausible? …"), preloads found by balance, or why no case can be solved. ek_model_remarks examines
- * the model with its present numbers, solves no case, and stores how many there are; the list stays until it is called again ---- */
+ * touches the ground, implausible values, connections and responses at design ("plausible? …"), preloads found by balance, or why no case
+ * can be solved. ek_model_remarks examines the model with its present numbers, solves no case, and stores how many there are; the list
+ * stays until it is called again ---- */
 int ek_model_remarks(ek_model *model, int *count);
 const char *ek_model_remark_text(ek_model *model, int k);
 const char *ek_model_remark_severity(ek_model *model, int k);      /* "note", "warning" or "failure" */

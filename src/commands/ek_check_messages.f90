@@ -150,11 +150,16 @@ contains
          text = message(min(next + 2, len(message) + 1):)
          return
       end if
-      first = index(message, ' (') + 2                     ! "mechanism: body 'arm' (file:41) turns freely"
-      next = first + index(message(first:), ')') - 1
-      if (first == 2 .or. next <= first) return
-      at = index(message(:next - 1), ':', back=.true.)
-      if (at <= first .or. at == next - 1 .or. verify(message(at + 1:next - 1), '0123456789') > 0) return
+      next = 0
+      do                                                   ! "mechanism: body 'arm' (file:41) turns freely"
+         if (index(message(next + 1:), ' (') == 0) return
+         first = next + index(message(next + 1:), ' (') + 2
+         next = first + index(message(first:), ')') - 1
+         if (next < first) return
+         at = index(message(:next - 1), ':', back=.true.)
+         if (at <= first .or. at == next - 1) cycle
+         if (verify(message(at + 1:next - 1), '0123456789') == 0) exit
+      end do
       read (message(at + 1:next - 1), *, iostat=status) line
       file = message(first:at - 1)
    end subroutine split_place

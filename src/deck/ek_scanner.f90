@@ -32,6 +32,7 @@ contains
       type(record_t) :: blank, record
       type(cursor_t) :: cursor
       character(:), allocatable :: text, word
+      integer, parameter :: max_mistakes = 1000        ! each takes 2 kB; nobody reads more
       integer :: last_stray
 
       allocate (records(32))
@@ -47,6 +48,11 @@ contains
       do
          call skip_blanks(text, cursor)
          if (cursor%at > len(text)) exit
+         if (deck_errors%count() >= max_mistakes) then
+            call complain(deck_errors, blank, cursor%line, 'the file has '//str(max_mistakes)//' mistakes up to this line; the '// &
+               'rest is not read. Is it a deck?')
+            exit
+         end if
          if (text(cursor%at:cursor%at) == '&') then
             record = blank
             record%line = cursor%line
