@@ -314,7 +314,7 @@ contains
          if (k > 1) text = text//new_line('a')
          text = text//self%list(order(k))%text
       end do
-      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' more mistakes; is this a deck?'
+      if (self%used > most) text = text//new_line('a')//'and '//str(self%used - most)//' or more other mistakes; is this a deck?'
    end function complaints_text
 
    !> The location of a line of a file; line 0: the file itself.

@@ -10,6 +10,9 @@ set_target_properties(ek_validation PROPERTIES
   Fortran_MODULE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules/validation)
 target_include_directories(ek_validation PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/modules/validation)
 target_link_libraries(ek_validation PUBLIC ek_test_laws)
+# compiled as tests are: see ElastokinTests.cmake
+target_compile_options(ek_validation PRIVATE -O0 $<$<Fortran_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+  $<$<Fortran_COMPILER_ID:GNU>:-Wno-uninitialized>)
 
 add_executable(validation_numbers EXCLUDE_FROM_ALL ${ek_validation_dir}/validation_numbers.f90)
 target_link_libraries(validation_numbers PRIVATE ${ek_program_kernel} ek_validation)
