@@ -44,6 +44,7 @@ documents_agree() {
   break_document 'a link to no heading' docs/questions.md 's/(choices\.md#which-balance)/(choices.md#which-balances)/'
   break_document 'a lost term' docs/questions.md '/^## Rotate a bushing/d'
   break_document 'a long line' docs/limits.md 's/^- The analysis is static\./& Static is what does not move in time, and what does not move in time has no inertia. It has no damping either./'
+  break_document 'a long sentence' docs/limits.md 's/^- The analysis is static\./- a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a./'
   break_document 'two colons' docs/glossary.md 's/^| /| one: two: /'
   rm -rf "$copy"
   return $wrong

@@ -6,8 +6,8 @@
 - README.md has at most 150 lines, and every number in its text stands in a phrase of readme_claims.txt. A phrase stands in
   README.md as it is, its files contain the texts that show it, and each of its numbers stands in one of these texts.
 - Ten terms that users look for are in a heading or in the index of docs/questions.md.
-- Lines of `ours` have at most 120 characters (tables and code do not count), and at most 1 % of
-  their sentences have two colons.
+- Lines of `ours` have at most 120 characters (tables and code do not count), their sentences at most 35 words, and at most 1 % of
+  these two colons.
 """
 import os
 import re
@@ -18,7 +18,7 @@ top = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 terms = ["ride height", "lb/in", "bump stop gap", "rotate a bushing", "steering rack compliance", "CSV without header",
          "only three columns", "resume a study", "bar with drop links", "push rod"]
 ours = re.compile(r"(README|python/README|studies/[^/]*/README|docs/(?!theory/|extending|compilers|validation)[^/]*)\.md$")
-longest_readme, longest_line, share_with_two_colons = 150, 120, 0.01
+longest_readme, longest_line, longest_sentence, share_with_two_colons = 150, 120, 35, 0.01
 number = re.compile(r"(?<![\w.+−-])[-+−]?\d+(?:[ ,]\d{3})*(?:\.\d+)?(?:e-?\d+)?(?![\w])")
 wrong = []
 
@@ -135,6 +135,9 @@ def check_sentences(paths):
     if len(twice) > share_with_two_colons * len(found):
         wrong.append(f"{len(twice)} of {len(found)} sentences have two colons; at most {100*share_with_two_colons:g} % may:")
         wrong.extend(f"  {path}: {sentence}" for path, sentence in twice)
+    for path, sentence in found:
+        if len(sentence.split()) > longest_sentence:
+            wrong.append(f"{path}: {len(sentence.split())} words; at most {longest_sentence} are allowed: {sentence}")
     return len(found)
 
 
