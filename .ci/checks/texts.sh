@@ -20,9 +20,12 @@ fortran_is_tidy() {
     --select C001,C003,C021,C022,C051,C061,C081,C091,C092,C121,C122,C131,C161,C191,E,S101 src
 }
 
-# The tutorial in an empty folder, letter by letter; the snippets of the gallery of joints stand in their decks; the figures are drawn
+# The tutorial, and the smallest examples of the manual, each in an empty folder, letter by letter; the snippets of the gallery of joints stand in their decks; the figures are drawn
 tutorial_works() {
-  PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py docs/tutorial.md || return 1
+  local page
+  for page in docs/tutorial.md input/README.md input/RIG.md input/STUDIES.md; do
+    PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py "$page" || return 1
+  done
   tests/support/check_snippets.py docs/joints.md || return 1
   rm -rf "$logs/pictures"
   docs/pictures/draw.sh "$logs/pictures" || return 1
