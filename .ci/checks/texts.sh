@@ -50,9 +50,12 @@ documents_agree() {
   return $wrong
 }
 
-# The tutorial in an empty folder, letter by letter; the commands of the other pages; the snippets of the gallery of joints stand in their decks; the figures are drawn
+# The tutorial, and the smallest examples of the manual, each in an empty folder, letter by letter; the commands of the other pages; the snippets of the gallery of joints stand in their decks; the figures are drawn
 tutorial_works() {
-  PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py docs/tutorial.md || return 1
+  local page
+  for page in docs/tutorial.md input/README.md input/RIG.md input/STUDIES.md; do
+    PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py "$page" || return 1
+  done
   PATH=$top/build/release/bin:$PATH tests/support/run_commands.py docs/*.md || return 1
   tests/support/check_snippets.py docs/joints.md || return 1
   rm -rf "$logs/pictures"
