@@ -20,11 +20,12 @@ fortran_is_tidy() {
     --select C001,C003,C021,C022,C051,C061,C081,C091,C092,C121,C122,C131,C161,C191,E,S101 src
 }
 
-# Links, the numbers of README.md and the terms that users look for (tests/support/check_documents.py); the deck of README.md, letter by letter;
-# the links of the installed documents. Each kind of mistake is noticed
+# Links, the numbers of README.md (those of the library as the program prints them) and the terms that users look for
+# (tests/support/check_documents.py); the deck of README.md, letter by letter; the links of the installed documents. Each kind of
+# mistake is noticed
 documents_agree() {
   local copy=$logs/documents wrong=0
-  tests/support/check_documents.py || return 1
+  PATH=$top/build/release/bin:$PATH tests/support/check_documents.py --run || return 1
   tests/support/check_documents.py "$logs/prefix/share/elastokin" || return 1
   PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py README.md || return 1
   break_document() { # break_document WHAT FILE SED-EXPRESSION: a copy with this change must be rejected

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""check_documents.py [FOLDER]: whether the documents of the repository hold together; status 1 if not.
+"""check_documents.py [--run | FOLDER]: whether the documents of the repository hold together; status 1 if not.
 
 - Every relative link leads to a file, and its anchor to a heading, in every tracked document. With FOLDER (share/elastokin of an
   installation) only this is checked there, and the same from share/doc/elastokin, whose folders are links.
 - README.md has at most 150 lines, and every number in its text stands in a phrase of readme_claims.txt. A phrase stands in
-  README.md as it is, its files contain the texts that show it, and each of its numbers stands in one of these texts.
+  README.md as it is, its files contain the texts that show it, and each of its numbers stands in one of these texts. With --run the
+  program (`elastokin` from the PATH) is asked for the key numbers of decks that the list names.
 - Ten terms that users look for are in a heading or in the index of docs/questions.md.
 - Lines of `ours` have at most 120 characters (tables and code do not count), their sentences at most 35 words, and at most 1 % of
   these two colons.
@@ -72,7 +73,17 @@ def documents_below(folder):
 
 # ---- README ----------------------------------------------------------------------------------------
 
-def check_readme():
+def check_key_number(where, phrase, deck, name):
+    """One number of the phrase is the key number of the deck, rounded."""
+    output = subprocess.run(["elastokin", "run", os.path.join(top, deck), "--quiet", "--responses", name],
+                            capture_output=True, text=True, check=False).stdout
+    value = output.split()[0] if output and not output.startswith("FAIL") else "nan"
+    numerals = [numeral.replace("−", "-") for numeral in number.findall(phrase)]
+    if not any(abs(float(value) - float(numeral)) <= 0.5001*10.0**-len(numeral.partition(".")[2]) for numeral in numerals):
+        wrong.append(f"{where}: {name} of {deck} is {value}; README.md has: {phrase}")
+
+
+def check_readme(run):
     readme = read(os.path.join(top, "README.md"))
     lines = readme.count("\n")
     if lines > longest_readme:
@@ -83,13 +94,17 @@ def check_readme():
         if not content or content.startswith("#"):
             continue
         phrase, file, shown = content.split("  =>  ")
-        claims.setdefault(phrase, []).append(shown)
         if phrase not in readme:
             wrong.append(f"{list_name}:{line}: README.md does not contain: {phrase}")
         if not os.path.isfile(os.path.join(top, file)):
             wrong.append(f"{list_name}:{line}: there is no file {file}")
+        elif file.endswith(".nml"):
+            if run:
+                check_key_number(f"{list_name}:{line}", phrase, file, shown)
+            continue
         elif shown not in read(os.path.join(top, file)):
             wrong.append(f"{list_name}:{line}: {file} does not contain: {shown}")
+        claims.setdefault(phrase, []).append(shown)
     for phrase, texts in claims.items():
         for found in number.findall(phrase):
             if not any(found in number.findall(text) for text in texts):
@@ -142,7 +157,8 @@ def check_sentences(paths):
 
 
 def main():
-    if len(sys.argv) > 1:
+    run = sys.argv[1:] == ["--run"]
+    if len(sys.argv) > 1 and not run:
         places = [sys.argv[1], os.path.join(sys.argv[1], "../doc/elastokin")]
         count = 0
         for folder in places:
@@ -158,7 +174,7 @@ def main():
         paths = sorted(path for path in listed if path and os.path.exists(os.path.join(top, path)))
         for path in paths:
             check_links(top, path)
-        check_readme()
+        check_readme(run)
         check_terms()
         mine = [path for path in paths if ours.match(path)]
         for path in mine:
