@@ -59,7 +59,19 @@ if(ek_archive)
   endforeach()
 endif()
 install(FILES README.md CHANGELOG.md CITATION.cff ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-install(DIRECTORY input DESTINATION ${CMAKE_INSTALL_DATADIR}/elastokin COMPONENT runtime)      # the library of decks, and their manual
+# The library of decks and all that the README refers to, as in the repository. Links in the folder of the README lead there, so that its
+# links hold too
+set(ek_folders docs examples input schema studies)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/elastokin COMPONENT runtime)
+install(DIRECTORY ${ek_folders} DESTINATION ${CMAKE_INSTALL_DATADIR}/elastokin COMPONENT runtime USE_SOURCE_PERMISSIONS
+  PATTERN out EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN docs/site EXCLUDE PATTERN "docs/pictures/*.gp" EXCLUDE PATTERN docs/pictures/draw.sh EXCLUDE)
+install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/elastokin/python COMPONENT runtime)
+file(RELATIVE_PATH ek_up ${CMAKE_INSTALL_FULL_DOCDIR} ${CMAKE_INSTALL_FULL_DATADIR}/elastokin)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/documents)
+foreach(folder IN LISTS ek_folders ITEMS python)
+  file(CREATE_LINK ${ek_up}/${folder} ${PROJECT_BINARY_DIR}/documents/${folder} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/documents/${folder} DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+endforeach()
 if(TARGET elastokin-mpi)      # the same program: its page refers to that of elastokin
   file(WRITE ${PROJECT_BINARY_DIR}/elastokin-mpi.1 ".so man1/elastokin.1\n")
   install(FILES ${PROJECT_BINARY_DIR}/elastokin-mpi.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)

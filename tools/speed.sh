@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# speed.sh [PROGRAM]: measures the figures of the section Speed of the README, as a table in Markdown on standard output.
+# speed.sh [PROGRAM]: measures the figures of docs/performance.md, as a table in Markdown on standard output.
 #
 # PROGRAM: default build/release/bin/elastokin, which is compiled if it is missing. Takes some minutes. A busy machine changes the
 # times more than the ratios; its processor and load are printed below the table.

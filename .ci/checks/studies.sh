@@ -63,7 +63,7 @@ store_in_xarray() {
 &response name = 'toe_gradient', column = 'toe_deg', of = 'slope', at = 0.0, over = 'wheel_travel_mm' /
 END
   sed "s/'netcdf'/'csv'/" "$folder/netcdf.nml" >"$folder/csv.nml"
-  sed -n '/^    import xarray$/,/^$/s/^    //p' input/README.md >"$folder/snippet.py"
+  sed -n '/^    import xarray$/,/^$/s/^    //p' input/STUDIES.md >"$folder/snippet.py"
   cat "$folder/snippet.py"
   [ "$(wc -l <"$folder/snippet.py")" -ge 5 ] || { echo "the manual has no such lines"; return 1; }
   (

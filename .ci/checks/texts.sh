@@ -20,9 +20,44 @@ fortran_is_tidy() {
     --select C001,C003,C021,C022,C051,C061,C081,C091,C092,C121,C122,C131,C161,C191,E,S101 src
 }
 
-# The tutorial in an empty folder, letter by letter; the snippets of the gallery of joints stand in their decks; the figures are drawn
+# Links, the numbers of README.md (those of the library as the program prints them) and the terms that users look for
+# (tests/support/check_documents.py); the deck of README.md, letter by letter; the links of the installed documents. Each kind of
+# mistake is noticed
+documents_agree() {
+  local copy=$logs/documents wrong=0
+  PATH=$top/build/release/bin:$PATH tests/support/check_documents.py --run || return 1
+  tests/support/check_documents.py "$logs/prefix/share/elastokin" || return 1
+  PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py README.md || return 1
+  break_document() { # break_document WHAT FILE SED-EXPRESSION: a copy with this change must be rejected
+    sed -i "$3" "$copy/$2"
+    cmp -s "$2" "$copy/$2" && { echo "$1: nothing was changed"; wrong=1; }
+    "$copy/tests/support/check_documents.py" >"$logs/documents.txt" && { echo "not noticed: $1"; wrong=1; }
+    sed "s/^/rejected as intended ($1): /" "$logs/documents.txt"
+    cp "$2" "$copy/$2"
+  }
+  rm -rf "$copy"
+  mkdir -p "$copy"
+  git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$copy" && git -C "$copy" init -q || return 1
+  break_document 'a changed number' README.md 's/31\.3 N\/mm/31.4 N\/mm/'
+  break_document 'a new number' README.md '0,/^- Rigid bodies/s//- 17 rigid bodies/'
+  break_document 'a changed result' input/mcpherson_axle/README.md 's/| 31\.3; /| 31.2; /'
+  break_document 'a link to no file' docs/index.md 's/(tutorial\.md)/(tutorials.md)/'
+  break_document 'a link to no heading' docs/questions.md 's/(choices\.md#which-balance)/(choices.md#which-balances)/'
+  break_document 'a lost term' docs/questions.md '/^## Rotate a bushing/d'
+  break_document 'a long line' docs/limits.md 's/^- The analysis is static\./& Static is what does not move in time, and what does not move in time has no inertia. It has no damping either./'
+  break_document 'a long sentence' docs/limits.md 's/^- The analysis is static\./- a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a a./'
+  break_document 'two colons' docs/glossary.md 's/^| /| one: two: /'
+  rm -rf "$copy"
+  return $wrong
+}
+
+# The tutorial, and the smallest examples of the manual, each in an empty folder, letter by letter; the commands of the other pages; the snippets of the gallery of joints stand in their decks; the figures are drawn
 tutorial_works() {
-  PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py docs/tutorial.md || return 1
+  local page
+  for page in docs/tutorial.md input/README.md input/RIG.md input/STUDIES.md; do
+    PATH=$top/build/release/bin:$PATH tests/support/run_tutorial.py "$page" || return 1
+  done
+  PATH=$top/build/release/bin:$PATH tests/support/run_commands.py docs/*.md || return 1
   tests/support/check_snippets.py docs/joints.md || return 1
   rm -rf "$logs/pictures"
   docs/pictures/draw.sh "$logs/pictures" || return 1

@@ -3,7 +3,7 @@
 #   cmake -DFOLDER=src -DLANES="lanes/a.f90;…" -DKERNELS="math/b.f90;…" -DOUTPUT=file -P make_lanes.cmake
 #
 # Each list is in the order of use. It is one file because gfortran inlines the operators of lanes only within a file.
-# The rules that a kernel obeys so that this is enough are in CONTRIBUTING.md, "How a kernel is written".
+# The rules that a kernel obeys so that this is enough are in docs/compilers.md, "How a kernel is written".
 
 set(names)
 foreach(kernel IN LISTS KERNELS)

@@ -2,7 +2,7 @@
 !>
 !> A kernel is compiled twice from one source. Here its numbers `real(num)` are reals. The build also makes a copy of it
 !> (src/lanes/make_lanes.cmake) in which they are `type(lanes_t)`, the numbers of four designs, and this module is `ek_lanes`.
-!> "How a kernel is written" in CONTRIBUTING.md gives the rules.
+!> "How a kernel is written" in docs/compilers.md gives the rules.
 module ek_number
    use ek_kinds, only: wp
    implicit none(type, external)
