@@ -222,7 +222,7 @@ contains
       end associate
    end function value_count
 
-   !> The index of a keyword among the choices; 0 if it is not given and has no default, or, with a message, if it is none of them.
+   !> The index of a keyword among the choices; 0 if it is not given and has no default, or, with a message, if it is not one of them.
    subroutine choice(reading, key, choices, number, default)
       type(deck_reading_t), intent(inout) :: reading
       character(*), intent(in) :: key, choices(:)

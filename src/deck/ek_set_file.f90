@@ -31,7 +31,7 @@ module ek_set_file
       private
       type(line_t), allocatable :: lines(:)
       integer :: used = 0
-      type(message_list_t) :: mistakes             !! lines that are no settings
+      type(message_list_t) :: mistakes             !! lines that are not settings
    end type set_file_t
 
    character(*), parameter :: line_end = new_line('a'), blanks = ' '//achar(9)
@@ -39,7 +39,7 @@ module ek_set_file
 
 contains
 
-   !> Reads a file. Nothing is compared with a deck yet; lines that are no settings are reported with those that do not fit.
+   !> Reads a file. Nothing is compared with a deck yet; lines that are not settings are reported with those that do not fit.
    subroutine read_set_file(path, file, error)
       character(*), intent(in) :: path
       type(set_file_t), intent(out) :: file

@@ -134,7 +134,7 @@ contains
       are_numbers = is_number
    end function are_numbers
 
-   !> b − a of two values, as '+5'; '' if they are no numbers.
+   !> b − a of two values, as '+5'; '' if they are not numbers.
    function step_text(a, b) result(text)
       character(*), intent(in) :: a, b
       character(:), allocatable :: text

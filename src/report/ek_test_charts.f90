@@ -149,7 +149,7 @@ contains
       end select
    end function quantities_of
 
-   !> A chart of a test, still without curves. The rows of a load table are no path and are drawn as points.
+   !> A chart of a test, still without curves. The rows of a load table do not form a path and are drawn as points.
    pure type(chart_t) function chart_of(test, name, title, label) result(chart)
       type(test_result_t), intent(in) :: test
       character(*), intent(in) :: name, title, label

@@ -4,7 +4,7 @@
 !> counters, which lie in the memory of rank 0: the work is handed out by tickets, to whoever asks next. The procedures may be
 !> called by one thread at a time; those that say `all ranks` return when every rank has called them.
 !>
-!> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it goes on as
+!> elastokin itself is not linked with MPI, whose libraries would make every start longer by 2 ms: under a launcher it becomes
 !> elastokin-mpi, the same program with this module compiled with EK_MPI. Both see the same types.
 module ek_ranks
    use ek_error, only: error_t, fail, exit_usage
@@ -184,7 +184,7 @@ contains
       call fail(error, numbers(1), 'rank '//str(lowest)//': '//text(:numbers(2)))
    end subroutine agree
 
-   !> All ranks: end MPI. Each process then goes on alone; a second call has no effect.
+   !> All ranks: end MPI. Each process then continues alone; a second call has no effect.
    subroutine end_ranks(ranks)
       type(ranks_t), intent(inout) :: ranks
 #ifdef EK_MPI

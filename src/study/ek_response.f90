@@ -143,7 +143,7 @@ contains
 
       allocate (gradients(0), names(0))
       if (present(test)) then
-         if (test%kind == '') message = 'a gradient belongs to a test of the rig, and case '//quoted(test%name)//' is none'
+         if (test%kind == '') message = 'a gradient belongs to a test of the rig, and case '//quoted(test%name)//' is not a test'
          call test_gradients(test, windows_t(), gradients)
          list = definitions_of(test%kind)
          names = [character(name_length) :: list%quantity]

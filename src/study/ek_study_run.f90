@@ -1,7 +1,7 @@
 !> Runs the designs of a study in chunks, by several threads of one or several processes, and keeps what is finished.
 !>
 !> The folder <out>/<study>.parts holds one file per finished chunk (ek_chunk). A run computes the chunks that are missing; so a
-!> study that was stopped, or killed at any moment, goes on where it was. Which thread computes a chunk has no influence on it.
+!> study that was stopped, or killed at any moment, resumes. Which thread computes a chunk has no influence on it.
 !> Several runs may use one folder: each holds a locked scratch folder in it, and the chunks are removed by the last one only. The
 !> locks of other machines may be invisible, so a run renews its scratch folder every hour; one of another machine that was not
 !> renewed for a day is that of a dead run.
@@ -359,7 +359,7 @@ contains
       if (allocated(chunk%error)) then
          if (.not. allocated(shared%error)) then
             call move_alloc(chunk%error, shared%error)
-            shared%error%message = shared%error%message//'; the designs that are done are kept: the same command goes on from there'
+            shared%error%message = shared%error%message//'; finished designs are kept: run the same command again to resume'
          end if
          return
       end if
