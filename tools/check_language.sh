@@ -119,22 +119,23 @@ END
 
 # layers whose docstrings are revised
 layers() {
-  echo math model lanes equilibrium packs results kandc formats sensitivity api export netcdf
+  echo base math model lanes equilibrium packs results deck kandc numbers formats study sensitivity api export netcdf
 }
 
 # the first words of docstrings of subroutines; add a verb that is missing
 verbs() {
   cat <<'END'
-Abandons Accepts Adapts Adds Allocates Appends Applies Assembles Balances Begins Builds Changes Checks Chooses Clears
-Closes Collects Compares Computes Continues Converts Copies Corrects Counts Creates Decides Decomposes Defines
-Determines Diagnoses Differentiates Divides Does Draws Duplicates Eliminates Empties Ends Estimates Evaluates Examines
-Exchanges Expands Explains Extracts Extrapolates Factorises Fills Finds Fits Follows Forgets Frees Gathers Gives Hands
-Includes Increases Inserts Iterates Joins Judges Lays Learns Leaves Lists Loads Locks Looks Makes Marks Measures
-Merges Mirrors Mounts Moves Multiplies Names Normalises Notes Opens Orders Packs Parses Passes Places Predicts
-Prepares Prints Puts Reads Realises Recalls Records Reduces Registers Rejects Removes Renames Renews Replaces Reports
-Reserves Resets Restores Restricts Returns Reverses Rotates Runs Scales Scrambles Searches Sends Sets Shows Skips
-Solves Sorts Splits Starts States Steps Stops Stores Subtracts Sums Swaps Sweeps Takes Tests Transforms Tries Turns
-Unpacks Updates Uses Waits Walks Warns Writes
+Abandons Accepts Adapts Adds Allocates Appends Applies Assembles Attaches Balances Begins Builds Changes Checks
+Chooses Clears Closes Collects Compares Completes Computes Continues Converts Copies Corrects Counts Creates Decides
+Decodes Decomposes Defines Deletes Describes Determines Diagnoses Differentiates Divides Does Draws Duplicates
+Eliminates Empties Ends Estimates Evaluates Examines Exchanges Expands Explains Extracts Extrapolates Factorises Fails
+Fills Finds Finishes Fits Follows Forgets Frees Gathers Gives Handles Hands Includes Increases Inserts Iterates Joins
+Judges Lays Learns Leaves Lists Loads Locks Looks Makes Marks Measures Merges Mirrors Mounts Moves Multiplies Names
+Normalises Notes Observes Opens Orders Packs Parses Passes Places Predicts Prepares Prints Puts Reads Realises Recalls
+Records Reduces Reflects Registers Rejects Removes Renames Renews Replaces Reports Reserves Resets Restores Restricts
+Returns Reverses Rotates Runs Scales Scans Scrambles Searches Sends Sets Settles Shares Shows Skips Solves Sorts
+Splits Starts States Steps Stops Stores Subtracts Sums Swaps Sweeps Takes Tests Transforms Tries Turns Unpacks Updates
+Uses Waits Walks Warns Watches Works Writes
 END
 }
 

@@ -125,7 +125,7 @@ contains
       if (iand(int(word), 127) /= 0) status = 128 + iand(int(word), 127)
    end subroutine wait_for
 
-   !> The arguments as C strings.
+   !> Converts the arguments to C strings.
    subroutine argument_list(words, letters, pointers)
       type(message_list_t), intent(in) :: words
       character(kind=c_char), allocatable, target, intent(out) :: letters(:)

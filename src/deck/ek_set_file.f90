@@ -95,7 +95,7 @@ contains
       ends_with_variables = at > 1 .and. (content(at + 1:) == 'variables' .or. content(at + 1:) == 'variable')
    end function ends_with_variables
 
-   !> The number of variables in the first line of Dakota's parameters file; of any other line −1.
+   !> Reads the number of variables in the first line of Dakota's parameters file; of any other line −1.
    subroutine read_head(content, left)
       character(*), intent(in) :: content
       integer, intent(inout) :: left
@@ -106,7 +106,7 @@ contains
       if (status == 0 .and. number >= 0) left = number
    end subroutine read_head
 
-   !> One setting.
+   !> Reads one setting.
    subroutine take_line(content, where, is_variable, file)
       character(*), intent(in) :: content, where
       logical, intent(in) :: is_variable           !! of Dakota: a number before its path

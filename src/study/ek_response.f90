@@ -15,8 +15,8 @@ module ek_response
    use ek_gradient_definition, only: definition_t, definitions_of, windows_t, fitted
    use ek_gradient, only: gradient_t, test_gradients, noise_of
    use ek_study, only: response_t, of_names
-   use ek_response_value, only: reading_t, read_response, is_slope, find_window, rounded, place_of_column, an_rms, a_gradient, &
-      a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states, &
+   use ek_response_value, only: reading_t, read_response, mark_states, is_slope, find_window, rounded, place_of_column, &
+      an_rms, a_gradient, a_difference, no_fault, column_is_missing, over_is_missing, is_outside, has_no_slope, has_few_states, &
       is_undefined
    implicit none(type, external)
    private
@@ -26,7 +26,7 @@ module ek_response
 
 contains
 
-   !> The columns from which a response may be read.
+   !> Lists the columns from which a response may be read.
    subroutine needed_columns(asked, kind, names)
       type(response_t), intent(in) :: asked
       character(*), intent(in) :: kind                          !! of the test of its case, '' for none
@@ -114,7 +114,7 @@ contains
       if (message /= '') message = asked%where//': response '//quoted(asked%name)//': '//message
    end subroutine prepare_reading
 
-   !> The reading of a difference, after those of its two responses.
+   !> Prepares the reading of a difference, after those of its two responses.
    subroutine prepare_difference(asked, first, second, reading, message)
       type(response_t), intent(in) :: asked
       type(reading_t), intent(in) :: first, second
@@ -130,7 +130,7 @@ contains
          quoted(first%head)//' and '//quoted(second%head)//' have different units'
    end subroutine prepare_difference
 
-   !> The columns, the window and the sign of a gradient of the report.
+   !> Finds the columns, the window and the sign of a gradient of the report.
    subroutine find_gradient(test, reading, message)
       type(test_result_t), intent(in), optional :: test
       type(reading_t), intent(inout) :: reading
@@ -236,7 +236,10 @@ contains
          if (reading%of == an_rms) text = 'a factor of '//reading%asked%file
          text = text//' lies outside the range of the case, '//str(minval(x))//' to '//str(maxval(x))
       case (is_undefined)
-         is_near = .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, reading%at_column), :))
+         is_near = .false.
+         call mark_states(reading, table, is_near)
+         is_near = is_near .and. .not. ieee_is_finite(table%values(place_of_column(table, reading%asked%column, &
+            reading%at_column), :))
          first = findloc(is_near, .true., dim=1)
          text = quoted(reading%asked%column)//' has no value at '//plural(count(is_near), 'state', 'states')
          if (first > 0) text = text//', the first at factor '//str(table%values(2, first))

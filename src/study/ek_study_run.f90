@@ -17,7 +17,8 @@ module ek_study_run
       renew_scratch, end_scratch
    use ek_deck, only: deck_t
    use ek_study, only: study_t
-   use ek_study_design, only: designer_t, solve_designs
+   use ek_designer, only: designer_t
+   use ek_study_design, only: solve_designs
    use ek_ranks, only: ranks_t, count_up, share, agree, help_others, ticket_counter, done_counter, failed_counter, stopped_counter
    use ek_study_plan, only: study_plan_t, begin_chunk, first_of, designs_in
    use ek_chunk, only: chunk_t, write_chunk, read_chunk, chunk_name
@@ -109,7 +110,7 @@ contains
       call write_whole(join_path(folder, identity_name), content_of(study, plan), error)
    end subroutine open_parts
 
-   !> Refuses a folder of chunks that holds another study, or designs that another build of this program has computed.
+   !> Rejects a folder of chunks that holds another study, or designs that another build of this program has computed.
    subroutine check_parts(study, plan, out, error)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -166,7 +167,7 @@ contains
       chunk = max(0, chunk)
    end function chunk_of_parts
 
-   !> The designs whose chunks are there and whole.
+   !> Counts the designs whose chunks are there and whole.
    subroutine count_parts(study, plan, out, done)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -243,7 +244,7 @@ contains
       state%is_stopped = stops > 0 .and. state%done < state%wanted
    end subroutine run_chunks
 
-   !> What all ranks have done by now.
+   !> Counts the finished designs of all ranks.
    subroutine count_all(ranks, state)
       type(ranks_t), intent(inout) :: ranks
       type(run_state_t), intent(inout) :: state
@@ -254,7 +255,7 @@ contains
       call count_up(ranks, failed_counter, 0, state%failed)
    end subroutine count_all
 
-   !> The chunks of this run whose files are missing, damaged or of another study.
+   !> Lists the chunks of this run whose files are missing, damaged or of another study.
    subroutine list_pending(plan, options, shared)
       type(study_plan_t), intent(in) :: plan
       type(run_options_t), intent(in) :: options
@@ -277,7 +278,7 @@ contains
       shared%state%done = shared%state%before
    end subroutine list_pending
 
-   !> One thread: takes chunks until there is none left.
+   !> Works as one thread: takes chunks until there is none left.
    subroutine work(study, plan, deck, options, designer, ranks, shared, report)
       type(study_t), intent(in) :: study
       type(study_plan_t), intent(in) :: plan
@@ -320,7 +321,7 @@ contains
       end do
    end subroutine work
 
-   !> The next chunk; 0 if there is none, or no time for it.
+   !> Takes the next chunk; 0 if there is none, or no time for it.
    subroutine take_chunk(options, ranks, shared, number)
       type(run_options_t), intent(in) :: options
       type(ranks_t), intent(inout) :: ranks
@@ -343,7 +344,7 @@ contains
       if (before < size(shared%pending)) number = shared%pending(before + 1)
    end subroutine take_chunk
 
-   !> Keeps a finished chunk.
+   !> Stores a finished chunk.
    subroutine put_chunk(plan, number, chunk, is_whole, time, ranks, shared, report)
       type(study_plan_t), intent(in) :: plan
       integer, intent(in) :: number
