@@ -8,9 +8,9 @@
 #
 # Without arguments it also checks
 #   - the pages in `pages`: lines up to 120 characters, sentences up to 35 words and with at most one colon or semicolon,
-#   - the docstrings of subroutines in the layers in `layers`: the first word is a verb of the list `verbs`,
+#   - the docstrings of subroutines in src: the first word is a verb of the list `verbs`,
 #   - the names of tests: none contains told or tells.
-# A page or a layer that has been revised is added to its list, so that it stays revised.
+# A page that has been revised is added to `pages`, so that it stays revised.
 set -uo pipefail
 top=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 export LC_ALL=C.UTF-8
@@ -117,25 +117,21 @@ docs/tour.md
 END
 }
 
-# layers whose docstrings are revised
-layers() {
-  echo base math model lanes equilibrium packs results deck kandc numbers formats study sensitivity api export netcdf
-}
-
 # the first words of docstrings of subroutines; add a verb that is missing
 verbs() {
   cat <<'END'
 Abandons Accepts Adapts Adds Allocates Appends Applies Assembles Attaches Balances Begins Builds Changes Checks
-Chooses Clears Closes Collects Compares Completes Computes Continues Converts Copies Corrects Counts Creates Decides
-Decodes Decomposes Defines Deletes Describes Determines Diagnoses Differentiates Divides Does Draws Duplicates
-Eliminates Empties Ends Estimates Evaluates Examines Exchanges Expands Explains Extracts Extrapolates Factorises Fails
-Fills Finds Finishes Fits Follows Forgets Frees Gathers Gives Handles Hands Includes Increases Inserts Iterates Joins
-Judges Lays Learns Leaves Lists Loads Locks Looks Makes Marks Measures Merges Mirrors Mounts Moves Multiplies Names
-Normalises Notes Observes Opens Orders Packs Parses Passes Places Predicts Prepares Prints Puts Reads Realises Recalls
-Records Reduces Reflects Registers Rejects Removes Renames Renews Replaces Reports Reserves Resets Restores Restricts
-Returns Reverses Rotates Runs Scales Scans Scrambles Searches Sends Sets Settles Shares Shows Skips Solves Sorts
-Splits Starts States Steps Stops Stores Subtracts Sums Swaps Sweeps Takes Tests Transforms Tries Turns Unpacks Updates
-Uses Waits Walks Warns Watches Works Writes
+Chooses Clears Clips Closes Collects Compares Completes Computes Continues Converts Copies Corrects Counts Creates
+Decides Decodes Decomposes Defines Deletes Describes Determines Diagnoses Differentiates Divides Does Draws Drops
+Duplicates Eliminates Empties Encodes Ends Escapes Estimates Evaluates Examines Exchanges Expands Explains Extracts
+Extrapolates Factorises Fills Finds Finishes Fits Follows Forgets Formats Frees Gathers Gives Handles Hands Hides
+Includes Increases Inserts Interpolates Inverts Iterates Joins Judges Lays Learns Leaves Links Lists Loads Locks Logs
+Looks Makes Maps Marks Measures Merges Mirrors Mounts Moves Multiplies Names Normalises Notes Observes Opens Orders
+Packs Pads Parses Passes Places Plans Predicts Prepares Prints Puts Quotes Reads Realises Recalls Records Reduces
+Reflects Registers Rejects Removes Renames Renews Replaces Reports Reserves Resets Restores Restricts Returns Reverses
+Rotates Rounds Runs Saves Scales Scans Scrambles Searches Selects Sends Sets Settles Shares Shows Skips Solves Sorts
+Splits Starts States Steps Stops Stores Subtracts Sums Swaps Sweeps Takes Times Transforms Tries Trims Truncates Turns
+Unpacks Updates Uses Validates Verifies Waits Walks Warns Watches Works Wraps Writes
 END
 }
 
@@ -263,7 +259,7 @@ if [ $# -eq 0 ]; then
   cd "$top" || exit 1
   mapfile -t page < <(pages)
   sentences "${page[@]}" || status=1
-  mapfile -t source < <(for layer in $(layers); do git ls-files -- "src/$layer/*.[fF]90"; done)
+  mapfile -t source < <(git ls-files -- 'src/*.f90' 'src/*.F90')
   docstrings "${source[@]}" || status=1
   if git grep -nEi 'subroutine +([a-z0-9_]*_)?(told|tells?)(_[a-z0-9_]*)?\(' -- 'tests/*.pf' | grep -v 'end subroutine'; then
     echo 'the names of tests: use: is_reported, prints, lists, gives'
